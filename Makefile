@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore fuzz kills random-studies validation check-cad docs pictures lint format types contracts schema units vendor cad clean
+.PHONY: help study wheel release test test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-slider gallery screenshots fuzz kills sweep-kills random-studies machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -71,19 +71,31 @@ bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused b
 bench-random-choices: $(STAMP)  ## 200 random choices of heater, process, spring and fixtures: refused by name, or sound parts
 	$(BENCH) benchmarks/random_choices.py --inspect
 
-fuzz: $(STAMP)  ## mutated studies, settings, records and designs: each is read or refused in words (minutes)
-	$(BIN)/python campaigns/fuzz.py
+fuzz: $(STAMP)  ## mutated inputs of every kind, from studies to the explorer's messages: each is read or refused in words (minutes)
+	OMP_NUM_THREADS=1 $(BIN)/python campaigns/fuzz.py
 
-kills: $(STAMP)  ## end runs, fronts, sweeps and the making of parts at random moments, and look at what is left (minutes)
+kills: $(STAMP)  ## end runs, fronts, sweeps, the making of parts and explorers at random moments, and look at what is left (minutes)
 	$(BIN)/python campaigns/kills.py
 
-random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search and evolution (minutes)
+sweep-kills: $(STAMP)  ## end jobs of an array, workers and scheduler of a cluster, and compare the tables (minutes)
+	$(BIN)/python campaigns/sweep_kills.py
+
+random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search, evolution and COBYLA (minutes)
 	$(BIN)/python campaigns/random_studies.py
+
+machine: $(STAMP)  ## a run without room, descriptors, memory, a home or letters: done, or one line and the right code (minutes)
+	$(BIN)/python campaigns/machine.py
 
 validation: $(STAMP)  ## compare with handbooks, closed solutions, FE and published data, and write docs/validation.md (minutes)
 	$(BENCH) validation/run.py
 
-lint: $(STAMP) types contracts  ## ruff, mypy, import contracts
+fit-coverage: $(STAMP)  ## how often the intervals of fits hold the truth, over 100 seeds of every kind; goes on where it was left (an hour)
+	$(BENCH) benchmarks/fit_coverage.py
+
+check-wheel: $(STAMP)  ## fit, verify and validation from a wheel outside the repository; FE_PYTHON=... names a Python that has ngsolve (minutes)
+	$(BIN)/python -m pytest -q -m slow tests/test_wheel.py
+
+lint: $(STAMP) types contracts page-code  ## ruff, mypy, import contracts; eslint and tsc for the page's code (needs npm)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
@@ -93,9 +105,27 @@ types: $(STAMP)
 contracts: $(STAMP)
 	$(BIN)/lint-imports
 
+PAGE := .ci/page
+PAGE_BIN := $(PAGE)/node_modules/.bin
+$(PAGE)/node_modules/.stamp: $(PAGE)/package.json $(PAGE)/package-lock.json
+	npm ci --prefix $(PAGE) --no-audit --no-fund --silent
+	@touch $@
+
+page-code: $(PAGE)/node_modules/.stamp
+	$(PAGE_BIN)/eslint --config $(PAGE)/eslint.config.js tvimdesign/page/static tvimdesign/explore/static
+	$(PAGE_BIN)/tsc --project $(PAGE)/tsconfig.json
+
 format: $(STAMP)  ## let ruff put the code in form
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+wheel: $(STAMP)  ## build wheel and source archive into dist/
+	rm -rf dist
+	$(BIN)/python -m build --outdir dist .
+
+release: wheel  ## build, look at it with twine, and use the wheel in empty environments: the light package, each extra alone
+	$(BIN)/python -m twine check --strict dist/*
+	$(BIN)/python release/check_wheel.py dist/tvimdesign-*.whl
 
 vendor: $(STAMP)  ## bundle the libraries of the report page anew from their pinned packages (needs npm)
 	$(BIN)/python vendor/vendor.py
@@ -109,6 +139,19 @@ units: $(STAMP)  ## write the usual units as pint reads them
 docs: $(STAMP)  ## build the docs site into build/site: strict, links checked, nothing loaded from the network
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 	@echo "the site is in build/site: open build/site/index.html"
+
+# What a study's run leaves; made anew where the study is newer than its report.
+results/%/report.html: studies/%.yaml $(STAMP)
+	$(BIN)/tvimdesign run $< --out results/$* --overwrite --no-plots
+
+STUDIES := $(basename $(notdir $(wildcard studies/*.yaml)))
+gallery: $(STUDIES:%=results/%/report.html) docs  ## the docs site with the reports of all shipped studies (an hour)
+
+screenshots: results/paper_shear/report.html  ## take docs/pictures/report.png and explorer.png in a browser
+	$(BIN)/python docs/make/screenshots.py
+
+bench-slider: $(VENV)/.bench  ## one slider of the explorer beside the same in trame and in Panel, in one browser
+	PYTHONPATH=tests/helpers $(BENCH) benchmarks/slider.py
 
 pictures: $(STAMP)  ## draw docs/pictures anew: labelled sections, and every study's module from a run with parts (minutes)
 	$(BIN)/python docs/make/section_drawing.py

@@ -22,4 +22,12 @@ class BuildWithStudies(build_py):
             shutil.copy(study, examples)
 
 
-setup(cmdclass={"build_py": BuildWithStudies})
+def pages() -> list[tuple[str, list[str]]]:
+    """The documentation's pages, for share/doc/tvimdesign of the environment."""
+    docs = Path("docs")
+    folders = sorted({page.parent for page in docs.rglob("*.md")})
+    installed = Path("share/doc/tvimdesign")
+    return [(str(installed / at.relative_to(docs)), [str(page) for page in sorted(at.glob("*.md"))]) for at in folders]
+
+
+setup(cmdclass={"build_py": BuildWithStudies}, data_files=pages())

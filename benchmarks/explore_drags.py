@@ -19,6 +19,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import psutil
 from aiohttp import ClientSession, ClientWebSocketResponse
 from aiohttp.test_utils import TestServer
 
@@ -43,6 +44,8 @@ class Hand:
         """Talk to a socket of a study's explorer."""
         self.socket, self.study, self.random = socket, study, random.Random(seed)
         self.number = 0
+        self.seconds_of: dict[str, int] = {}
+        """Processes whose time of the processor is told, by name."""
 
     async def until(self, *, stage: str = "", number: int = 0) -> dict[str, Any]:
         """The next answer of that number or a later one, and of that stage."""
@@ -55,6 +58,15 @@ class Hand:
             self.number = max(self.number, told["number"])
             if told["number"] >= number and (not stage or told["shown"]["stage"] == stage):
                 return dict(told)
+
+    async def drafted(self, number: int) -> None:
+        """Until the draft of an answer has come."""
+        while True:
+            told = await self.socket.receive_json()
+            if told["kind"] == "draft" and told["number"] >= number:
+                if "words" in told:
+                    raise RuntimeError(told["words"])
+                return
 
     async def wait(self, seconds: float) -> None:
         """Do nothing, as a page does that is only looked at."""
@@ -109,7 +121,10 @@ async def measured(study: Path, drags: int, leak: int) -> None:
             await hand.until(stage="exact")
             await _way(hand, "evaluate")
             await hand.wait(COMPILED)
+            session = server.session
+            hand.seconds_of = {"solver": session.solver.process, "drafter": session.drafter.process}
             await _timed(hand, "evaluate", hand.variables(), drags)
+            await _timed(hand, "draft in 3-D", hand.variables(), drags, drafts=True)
             await _way(hand, "optimize")
             await _timed(hand, "optimise", hand.requirements(), drags)
             if leak:
@@ -122,15 +137,29 @@ async def _way(hand: Hand, way: str) -> None:
     await hand.until(stage="exact", number=asked)
 
 
-async def _timed(hand: Hand, what: str, drags: Iterator[dict[str, Any]], count: int) -> None:
-    times, without = [], 0
+async def _timed(hand: Hand, what: str, drags: Iterator[dict[str, Any]], count: int, *, drafts: bool = False) -> None:
+    times, without, before = [], 0, _processor(hand)
     for _ in range(count):
-        seconds, told = await hand.drag(next(drags))
-        times.append(1e3 * seconds)
+        began = time.perf_counter()
+        _, told = await hand.drag(next(drags))
+        if drafts and "values" in told["shown"]:
+            await hand.drafted(told["number"])
+        times.append(1e3 * (time.perf_counter() - began))
         without += "values" not in told["shown"]
     ninth = statistics.quantiles(times, n=10)[8]
     print(f"{what}: median {statistics.median(times):.0f} ms, nine of ten under {ninth:.0f} ms, worst "
-          f"{max(times):.0f} ms, of {count} drags; {without} without a quick answer", flush=True)  # fmt: skip
+          f"{max(times):.0f} ms, of {count} drags; {without} without a quick answer; processor a drag: "
+          + ", ".join(f"{name} {1e3 * (now - before[name]) / count:.0f} ms" for name, now in _processor(hand).items()),
+          flush=True)  # fmt: skip
+
+
+def _processor(hand: Hand) -> dict[str, float]:
+    """Seconds of the processor that each process has taken, the one of server and client among them."""
+    found = {"server and client": time.process_time()}
+    for name, number in hand.seconds_of.items():
+        times = psutil.Process(number).cpu_times()
+        found[name] = times.user + times.system
+    return found
 
 
 def _memory(server: Server) -> dict[str, float]:

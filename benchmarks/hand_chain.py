@@ -1,9 +1,10 @@
 """Linear equations of the chain of cells that `hand_switch.py` steps through, by hand for numba.
 
-The chain is tridiagonal; thirteen bodies and the mean temperature of the plate are bordered onto it, of which five
-touch it (`TOUCHING`). Order: cold side, hot side, cells of the layer, cells of the plate; beside the plate three bodies
-from its edge on and the core; around the pads three bodies of their height from the edge on, three below those, the
-ledges, the corner next to the hot sides, the rest of the housing; the mean of the plate's cells.
+The chain is tridiagonal; thirteen bodies, the middle of the pads' legs and the mean temperature of the plate are
+bordered onto it, of which six touch it (`TOUCHING`). Order: cold side, hot side, cells of the layer, cells of the
+plate; beside the plate three bodies from its edge on and the core; around the pads three bodies of their height from
+the edge on, three below those, the ledges, the corner next to the hot sides, the rest of the housing; the legs' middle;
+the mean of the plate's cells.
 """
 
 from __future__ import annotations
@@ -14,10 +15,11 @@ from numba import njit
 
 CELLS, PLATE, BODIES = 12, 8, 13
 CHAIN = 2 + CELLS + PLATE
-BORDER = BODIES + 1
+BORDER = BODIES + 2
 STATES = CHAIN + BORDER
-TOUCHING = np.array([0, 4, 10, 11, 13])
-"""Of the border: the first beside the plate, the first around the pads, the ledges, the corner, the plate's mean."""
+TOUCHING = np.array([0, 4, 10, 11, 13, 14])
+"""Of the border: the first beside the plate, the first around the pads, the ledges, the corner, the legs, the plate's
+mean."""
 TOUCH = TOUCHING.size
 ROWS = 3 + 2 * TOUCH + BORDER
 """Rows of a matrix: below, on and above the chain's diagonal; what the chain has from each that touches it; what it

@@ -26,7 +26,8 @@ BEND, BEND_ACROSS, BEND_IN_PLANE = 2.0, 1.1, (4.0 * 4.0**2 - 4.0 - 1.0) / (4.0 *
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
-SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FOOT_TILT = 0.1, 0.15, 0.6, 1.4
+SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FOOT_TILT = 0.1, 0.15, 0.6, 1.38
+CORE_FOOT, BORED_FOOT, NEAR_FOOT, HOLDING_SAFETY = 0.733, 0.9, 0.15, 1.25
 WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
 PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
 RADIAL, AXIAL, RUNNING, RIM, HUB_WALL, FOOT, NOTCH = 1e-3, 1e-3, 0.4e-3, 1.5e-3, 3e-3, 6e-3, 12e-3
@@ -36,6 +37,8 @@ RETAINER, RETAINER_RADIUS = 2.5e-3, 13e-3
 LINK_PILOT, LINK_HOLE, LINK_HEAD, LINK_HEAD_HEIGHT, LINK_SCREW = 2.5e-3, 3.4e-3, 5.7e-3, 1.65e-3, 12e-3
 LAST_PILOT, LAST_HOLE, LAST_HEAD, LAST_HEAD_HEIGHT, LAST_SCREW = 3.3e-3, 4.5e-3, 7.6e-3, 2.2e-3, 10e-3
 TIP_ROOM, RHO_STEEL = 0.5e-3, 7850.0
+CUTOUT_RADIUS = 2.1e-3
+CUTOUT = 3500.0 * PI * CUTOUT_RADIUS**2 * 11.2e-3  # kg
 DOWELS, DOWEL, DOWEL_LONG, DOWEL_CIRCLE = 4.0, 2.5e-3, 10e-3, 7e-3
 BY_SCREWS, BY_DOWELS = 4.0 * LINK_PILOT**2 * BOLT_CIRCLE**2 / CORE**4, DOWELS * DOWEL**2 * DOWEL_CIRCLE**2 / CORE**4
 # Layer and pads
@@ -45,7 +48,9 @@ BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0,
 PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6
 K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
 # Strips beside the arcs, in three bodies each, and the air between them
-STRIP, TO_EDGE, FINEST, K_AIR, EMISSIVITY = (0.1, 0.25, 0.65), 0.18, 6.0, 0.028, 0.9
+STRIP, WAYS, BEYOND = (0.087, 0.247, 0.666), (0.029, 0.153, 0.395), 0.423
+INTO_SLOT, K_AIR, EMISSIVITY = 0.2619, 0.028, 0.9
+BLACK, AMBIENT, ZETA_3 = 5.670374419e-8, 295.15, 1.2020569032
 # Enthalpy of PCL: melts between 50 and 65 degC
 C_SOLID, C_MELT, LATENT, MELTS, MOLTEN, ROUNDING = 1850.0, 2100.0, 76750.0, 323.15, 338.15, 1000.0
 H_MELTS = C_SOLID * (MELTS - 273.15)
@@ -82,7 +87,7 @@ def _moduli(kelvin: float) -> tuple[float, float]:
 
 (COLD_STORAGE, COLD_LOSS), (HOT_STORAGE, HOT_LOSS) = _moduli(303.15), _moduli(373.15)
 
-OUTPUTS, RESIDUALS, HEAT = 3, 41, 59
+OUTPUTS, RESIDUALS, HEAT = 3, 43, 59
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
 switch.
@@ -125,41 +130,52 @@ def gerber(per_angle: float, strength: float) -> float:
 def beside(area: float, windows: float, rotor: float, inside: float, t: float, edge: float, heat: Array) -> None:
     """Bodies beside the plate and around the pads, what joins them, and what pads and plate give them."""
     rest, web, per_volume = PI * rotor**2 - area, FLOOR - PAD, RHO_PETG * C_PETG
-    way, ledge = TO_EDGE * area / edge, area - windows
+    way, ledge = area / edge / 3.0, area - windows
+    slim = area / edge * math.sqrt(0.5 * (K_SOLID + K_MELT) / t / (K_PETG * ROTOR))
+    over = area / edge * (1.0 / (slim * math.tanh(slim)) - slim**-2.0)
     own = np.array([share * rest / edge for share in STRIP])
-    between = 0.5 * (own[:-1] + own[1:])
-    half = 0.5 * own[0]
+    wide = rest / edge
+    half = WAYS[0] * wide
     # heat capacities and surfaces, in the order of hand_chain
     for i in range(3):
         heat[6 + i], heat[19 + i] = own[i] * edge * ROTOR * per_volume, own[i] * edge
         heat[10 + i], heat[23 + i] = own[i] * edge * PAD * per_volume * (1.0 if i else 0.5), 0.0
         heat[13 + i], heat[26 + i] = own[i] * edge * web * per_volume, own[i] * edge
     heat[16], heat[29], heat[17], heat[30] = ledge * web * per_volume, ledge, heat[10], 0.0
-    # plate to its edge, and what differs over its depth from its mean; pads into the floor
+    # plate to its edge, and what differs over its depth from its mean; pads into the floor, half of it from their legs
     sheet = K_PETG * ROTOR * edge
-    heat[32], heat[33] = sheet / (way + half), sheet / (way + ROTOR / PI)
+    heat[32], heat[33] = sheet / (over + half), sheet / (over + ROTOR / PI)
     side = 0.5 * PAD * edge
-    pads = 1.0 / (way / (K_PAD * side) + 1.0 / (PAD_EDGE * side) + half / (K_PETG * side))
-    finest = FINEST * t * 1e4 / (PI * K_MELT)
-    down, through = 2.0 / PI * (math.log(finest) + 0.5772156649), edge / (1.0 / K_AIR + 1.0 / K_MELT)
-    heat[34] = pads + 1.0 / (1.0 / (down * through) + down / (3.0 * K_PETG * edge))
-    heat[35], heat[36] = pads, 3.0 * K_PETG * ledge / web
+    heat[35] = 0.5 / (way / (K_PAD * side) + 1.0 / (PAD_EDGE * side) + half / (K_PETG * side))
+    # the layer's side: through the end of the gap to the floor's corner, and to the plate
+    grey = EMISSIVITY / (2.0 - EMISSIVITY)
+    crosswise = K_AIR + t * grey * BLACK * (MOLTEN**2 + AMBIENT**2) * (MOLTEN + AMBIENT)
+    evenly = math.sqrt(K_AIR * crosswise)
+    near = math.log(1.0 + (0.5 * PAD_EDGE * t / evenly) ** 2) / PI + INTO_SLOT
+    through = edge / (1.0 / evenly + 1.0 / K_MELT)
+    heat[34] = heat[35] + 1.0 / (1.0 / (near * through) + near / (3.0 * K_PETG * edge))
     heat[37] = 2.0 / PI * math.log(2.0) * through
+    # ledges: heated over their face, and on to their root
+    slim = ledge / edge / web
+    falling = 0.0
+    for i in range(1, 4):
+        falling += math.exp(-2.0 * i * PI * slim) / i**3
+    heat[36] = K_PETG * edge / (1.0 / (3.0 * slim) - (ZETA_3 - falling) / (PI**3 * slim**2))
     # links: along the plate, along the floor and down into it, ledges, the gap
-    heat[38], heat[39] = sheet / between[0], sheet / between[1]
+    heat[38], heat[39] = sheet / (WAYS[1] * wide), sheet / (WAYS[2] * wide)
     ring = math.log(inside / rotor) / (2.0 * PI * K_PETG)
     upper, lower = K_PETG * PAD * edge, K_PETG * web * edge
-    heat[41] = heat[42] = 0.5 * upper / between[0]
-    heat[43], heat[44] = upper / between[1], 1.0 / (0.5 * own[2] / upper + ring / PAD)
-    heat[45], heat[46] = lower / between[0], lower / between[1]
-    heat[47] = 1.0 / (0.5 * own[2] / lower + ring / web)
+    heat[41] = heat[42] = 0.5 * upper / (WAYS[1] * wide)
+    heat[43], heat[44] = upper / (WAYS[2] * wide), 1.0 / (BEYOND * wide / upper + ring / PAD)
+    heat[45], heat[46] = lower / (WAYS[1] * wide), lower / (WAYS[2] * wide)
+    heat[47] = 1.0 / (BEYOND * wide / lower + ring / web)
     heat[48] = K_PETG * own[0] * edge / (0.5 * PAD)
     for i in range(3):
         heat[49 + i] = K_PETG * own[i] * edge / ((0.5 if i else 0.25) * PAD + web / 3.0)
-    heat[52] = lower / (0.5 * ledge / edge + half)
-    grey = EMISSIVITY / (2.0 - EMISSIVITY)
+    heat[52] = lower / (slim * web / 3.0 + half)
+    heat[40] = 1.0 / (math.log(INNER / CORE) / (2.0 * PI * K_PETG * ROTOR) + BEYOND * wide / sheet)
     walls = (ROTOR / 3.0 + 0.5 * PAD) / K_PETG
-    share = 1.0 / (1.0 + walls * (K_AIR / t + 4.0 * grey * 5.670374419e-8 * 295.15**3))
+    share = 1.0 / (1.0 + walls * (K_AIR / t + 4.0 * grey * BLACK * AMBIENT**3))
     for i in range(3):
         heat[53 + i], heat[56 + i] = share * K_AIR / t * own[i] * edge, share * grey * own[i] * edge
 
@@ -235,6 +251,11 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     link_deep, last_deep = LINK_SCREW - LINK + TIP_ROOM, LAST_SCREW - RETAINER + TIP_ROOM
     dowel_deep = DOWEL_LONG - LINK + TIP_ROOM
     free = link_bottom - plate_top
+    felt = BY_SCREWS / (1.0 + math.exp((free - link_deep) / (NEAR_FOOT * CORE)))
+    felt += BY_DOWELS / (1.0 + math.exp((free - dowel_deep) / (NEAR_FOOT * CORE)))
+    beside_holes = max(2.0 * BOLT_CIRCLE / (1.0 - BY_SCREWS), 2.0 * DOWEL_CIRCLE / (1.0 - BY_DOWELS)) / CORE
+    sharp = CORE_FOOT * (CORE / 1e-3) ** (1.0 / 3.0) * (CORE / ROTOR) ** 0.1
+    worst = max(sharp * (1.0 + BORED_FOOT * felt), beside_holes)
     to_screws, to_dowels = min(link_deep, free + BORE_ENTRY * CORE), min(dowel_deep, free + BORE_ENTRY * CORE)
     both = min(to_screws, to_dowels)
     free += SHAFT_ENTRY * CORE + both * (BY_SCREWS + BY_DOWELS) / (1.0 - BY_SCREWS - BY_DOWELS)
@@ -304,8 +325,10 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     wire = leg * rise + n * math.sqrt((PI * coil) ** 2 + pitch**2) + curve * (0.5 * PI - math.atan(slope))
     wire += FLOOR - TANG_END_GAP
     mass = RHO_PETG * (housing + turning + link + retainer) + RHO_PCL * area * t + PAD_MASS / (PAD_AREA * PAD) * pads
-    mass += RHO_WIRE * SPRINGS * 0.25 * PI * d**2 * wire + RHO_STEEL * (
-        shanks + heads + shank + head + dowel * DOWEL_LONG
+    mass += (
+        CUTOUT
+        + RHO_WIRE * SPRINGS * 0.25 * PI * d**2 * wire
+        + RHO_STEEL * (shanks + heads + shank + head + dowel * DOWEL_LONG)
     )
     # gaps
     far_pin = math.sqrt(pin_at**2 + r**2 - 2.0 * pin_at * r * math.cos(STROKE))
@@ -317,45 +340,46 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[2] = 1.0 - (stiffness + cold) / (stiffness + hot) / 50.0
     g[3] = 1.0 - damped / OMEGA
     g[4] = 1.0 - min(BOND, SHEAR_YIELD) * polar / outer / 8.0
-    g[5] = 1.0 - gerber(in_coil, strength) / 1.2
-    g[6] = 1.0 - gerber(in_bend, strength) / 1.2
-    g[7], g[8] = 1.0 - index / 5.0, index / 16.0 - 1.0
-    g[9], g[10], g[11] = inertia / 300e-6 - 1.0, 2.0 * outside / 0.16 - 1.0, mass / 0.6 - 1.0
-    g[12] = 1.0 - ACROSS_LAYERS / pin_stress
-    g[13] = 1.0 - YIELD_RATIO * strength / (in_coil * most)
-    g[14] = 1.0 - YIELD_RATIO * strength / (in_coil * 2.0 * PRELOAD)
-    g[15] = 1.0 - YIELD_RATIO * strength / (in_bend * most)
-    g[16] = 1.0 - YIELD_RATIO * strength / (in_bend * 2.0 * PRELOAD)
-    g[17] = 1.0 - MELT_FRACTURE * t / (outer * STROKE * math.sqrt(HOT_STORAGE**2 + HOT_LOSS**2))
-    g[18] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
-    g[19] = -(r - reach - rotor - RADIAL) / 0.01
-    g[20] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
-    g[21] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
-    g[22] = -(math.sqrt(off_axis**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
-    g[23] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
-    g[24] = 1.0 - (r - pin_at - offset) / 1e-3
-    g[25] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
-    g[26] = 1.0 - (outer - INNER) / 5e-3
-    g[27] = -(outer - INNER - 2.0 * LEDGE) / 0.01
-    g[28] = -post / 0.01
-    g[29] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01
-    g[30] = 1.0 - (span * INNER - 2.0 * LEDGE) / 2e-3
-    g[31] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
-    g[32] = -(inside - r - BOSS) / 0.01
-    g[33] = -(r - BOSS - outer - RADIAL) / 0.01
-    g[34] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
-    g[35] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
-    g[36] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
-    g[37] = -(2.0 * post - FEATURE_LEAST) / 0.01
-    g[38] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
-    g[39] = -(t + FLOOR - WALL_LEAST) / 0.01
-    g[40] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
+    g[5] = 1.0 - 0.5 * PI * ACROSS_LAYERS / math.sqrt(3.0) * CORE**3 / worst / HOLDING_SAFETY / 8.0
+    g[6] = 1.0 - gerber(in_coil, strength) / 1.2
+    g[7] = 1.0 - gerber(in_bend, strength) / 1.2
+    g[8], g[9] = 1.0 - index / 5.0, index / 16.0 - 1.0
+    g[10], g[11], g[12] = inertia / 300e-6 - 1.0, 2.0 * outside / 0.16 - 1.0, mass / 0.6 - 1.0
+    g[13] = 1.0 - ACROSS_LAYERS / pin_stress
+    g[14] = 1.0 - YIELD_RATIO * strength / (in_coil * most)
+    g[15] = 1.0 - YIELD_RATIO * strength / (in_coil * 2.0 * PRELOAD)
+    g[16] = 1.0 - YIELD_RATIO * strength / (in_bend * most)
+    g[17] = 1.0 - YIELD_RATIO * strength / (in_bend * 2.0 * PRELOAD)
+    g[18] = 1.0 - MELT_FRACTURE * t / (outer * STROKE * math.sqrt(HOT_STORAGE**2 + HOT_LOSS**2))
+    g[19] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
+    g[20] = -(r - reach - rotor - RADIAL) / 0.01
+    g[21] = -(end - 0.5 * d - plate_top - AXIAL) / 0.01
+    g[22] = -(rotor - pin_at - 0.5 * PIN - RADIAL) / 0.01
+    g[23] = -(math.sqrt(off_axis**2 + ahead**2) - 0.5 * d - CORE - RADIAL) / 0.01
+    g[24] = 1.0 - (leg - math.sqrt(far_pin**2 - offset**2)) / 0.5e-3
+    g[25] = 1.0 - (r - pin_at - offset) / 1e-3
+    g[26] = 1.0 - (2.0 * PI / ARCS - span) * INNER / 3e-3
+    g[27] = 1.0 - (outer - INNER) / 5e-3
+    g[28] = -(outer - INNER - 2.0 * LEDGE) / 0.01
+    g[29] = -post / 0.01
+    g[30] = -(2.0 * r * math.sin(PI / SPRINGS) - 2.0 * reach - RADIAL) / 0.01
+    g[31] = 1.0 - (span * INNER - 2.0 * LEDGE) / 2e-3
+    g[32] = 1.0 - (link_bottom + FLOOR + RUNNING - link_deep - last_deep) / 1e-3
+    g[33] = -(inside - r - BOSS) / 0.01
+    g[34] = -(r - BOSS - outer - RADIAL) / 0.01
+    g[35] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
+    g[36] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
+    g[37] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
+    g[38] = -(2.0 * post - FEATURE_LEAST) / 0.01
+    g[39] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
+    g[40] = -(middle - CUTOUT_RADIUS - RETAINER_RADIUS) / 0.01
+    g[41] = -(t + FLOOR - WALL_LEAST) / 0.01
+    g[42] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
     # what the switch needs: current, area, layer, pads, windows; thirteen bodies, edges, links
     heat[0], heat[1], heat[2], heat[3] = x[7], area, t, area / PAD_AREA
-    heat[4], heat[5] = 0.5 * PAD_MASS / (PAD_AREA * PAD) * pads * C_PAD, windows
+    heat[4], heat[5] = PAD_MASS / (PAD_AREA * PAD) * pads * C_PAD, windows
     tall = 2.0 * PI * outside * (pin_top + FLOOR + FOOT)
     beside(area, windows, rotor, inside, t, ARCS * (2.0 * (outer - INNER) + span * (INNER + outer)), heat)
     heat[9], heat[22] = RHO_PETG * (turning - plate + link + retainer) * C_PETG, 0.0
-    heat[40] = 2.0 * PI * K_PETG * ROTOR / math.log(INNER / CORE)
     heat[18] = RHO_PETG * housing * C_PETG - np.sum(heat[10:18])
     heat[31] = tall + PI * (outside**2 - rotor**2)

@@ -34,7 +34,8 @@ STUDIES = Path(__file__).resolve().parents[1] / "studies"
 BASES = ("paper_shear", "rigid_modules", "finger", "compare_compression", "wrist_compression")
 CHOSEN = (
     "stock_spring", "spring_material", "process", "peltier_module", "heater_fuse", "heater_wiring", "spreader_material",
-    "link_screw", "link_fit", "tang_hold", "bearing", "axial_preload", "preload_adjuster", "cover", "sensor_flange",
+    "liner_material", "link_screw", "link_fit", "tang_hold", "bearing", "axial_preload", "preload_adjuster", "cover",
+    "sensor_flange",
 )  # fmt: skip
 """What is drawn at random."""
 OFTEN = 0.25

@@ -9,6 +9,7 @@ stroke; with `--inspect` also all that the process wants. Ends with code 1 where
 from __future__ import annotations
 
 import argparse
+import contextlib
 import multiprocessing as mp
 import os
 import sys
@@ -21,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import TvimError
@@ -36,7 +38,9 @@ _CHUNK = 20_000
 _MOST = 5_000_000
 """Draws after which a study's bounds are taken to hold no design that keeps the rules."""
 TIME_LIMIT = 120.0
-"""Seconds for one design: ten times what the slowest takes."""
+"""Seconds of the processor for one design."""
+SILENCE_LIMIT = 30.0 * TIME_LIMIT
+"""Seconds by the clock for one design, whose process may wait for a processor, or for ever."""
 
 
 @dataclass
@@ -202,9 +206,9 @@ def build(designs: Iterable[Design], tally: Tally, inspect: bool, hands: int) ->
 
 def _settle(design: Design, child: Any, ear: Connection, started: float, tally: Tally) -> None:
     """Take in what a child found, or end it when it has had its time."""
-    wrong = [f"no answer in {TIME_LIMIT:g} s"]
+    wrong = [f"no answer in {TIME_LIMIT:g} s of the processor, or {SILENCE_LIMIT:g} s by the clock"]
     try:
-        if ear.poll(max(0.0, started + TIME_LIMIT - time.monotonic())):
+        if _answers(child, ear, started):
             wrong, warned, seconds = ear.recv()
             tally.warned.update(warned)
             tally.seconds += seconds
@@ -216,6 +220,22 @@ def _settle(design: Design, child: Any, ear: Connection, started: float, tally: 
     tally.built += 1
     tally.failed += [f"{design.name}: {text}" for text in wrong]
     print(f"{tally.built} built, {len(tally.failed)} faults{' '.join(['', *wrong])}", file=sys.stderr, flush=True)
+
+
+def _answers(child: Any, ear: Connection, started: float) -> bool:
+    """Whether a child answers, or ends, before it has had its time of the processor, or is silent for too long."""
+    while not ear.poll(1.0):
+        if time.monotonic() - started > SILENCE_LIMIT or _processor_time(child) > TIME_LIMIT:
+            return ear.poll()
+    return True
+
+
+def _processor_time(child: Any) -> float:
+    """Seconds of the processor a child has had; none once it has ended."""
+    with contextlib.suppress(psutil.NoSuchProcess):
+        taken = psutil.Process(child.pid).cpu_times()
+        return float(taken.user + taken.system)
+    return 0.0
 
 
 def main(arguments: Sequence[str]) -> int:

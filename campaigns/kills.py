@@ -1,46 +1,61 @@
 """Ends commands at random moments by SIGINT, SIGTERM and SIGKILL, and looks at what is left.
 
-    python campaigns/kills.py [--tries 20] [--seed 1] [--commands run front parts] [--json FILE]
+    python campaigns/kills.py [--tries 20] [--seed 1] [--jobs 2] [--commands run front ...] [--out FILE]
 
 After each: no process left two seconds later, no temporary folder, every file whole, the manifest says what happened,
-and a front or a sweep that is resumed ends in the same bytes as one that ran through.
+a front or a sweep that is resumed ends in the same bytes as one that ran through, and an explorer has kept what it said
+that it kept. A moment is so many seconds of processor time of the command and its children, so that it means the same
+beside other work. Tries are appended to FILE, a line each; those in it are not done again.
 """
 
 from __future__ import annotations
 
 import argparse
+import asyncio
 import json
 import os
 import random
+import resource
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
-from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import Any
 
+import explorer_talk
 import psutil
 
 ROOT = Path(__file__).resolve().parents[1]
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
 MARK = "TVIMDESIGN_CAMPAIGN"
 _STUDY = str(ROOT / "studies/paper_as_published.yaml")
-_FRONT = [str(ROOT / "studies/front_shear.yaml"), "--set", "front.points=3", "--set", "solver.starts=1",
-          "--no-cad", "--no-plots"]  # fmt: skip
+SMALL = ROOT / "campaigns/small.yaml"
+_FRONT = ["--set", "front={of: [response_time, module_mass], points: 4}", "--no-cad", "--no-plots"]
 _OVER = "sweep={over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 12}, wire_diameter: [2 mm, 2.4 mm]}}"
 _GOES_ON = {"front": "front/progress", "sweep": "shards"}
 """Commands that can be resumed, and the folder of what they go on from."""
 COMMANDS = {
     "run": ["run", _STUDY, "--no-cad"],
-    "front": ["run", *_FRONT],
+    "front": ["run", str(SMALL), *_FRONT],
     "parts": ["cad", str(ROOT / "cad/paper_shear/design.json")],
     "sweep": ["sweep", _STUDY, "--set", _OVER, "--workers", "2", "--no-plots"],
     "compare": ["compare", _STUDY, str(ROOT / "studies/compare_shear.yaml"), "--points", "0"],
+    "explorer": ["explore", str(SMALL), "--no-open"],
 }
 """What is ended; each gets `--out`."""
+SERVES = "explorer"
+"""The command that does not end by itself; it is ended within these seconds of the processor."""
+_SERVED = 12.0
+GONE = 2.0
+"""Seconds after which nothing is at work, on a machine without other work."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +65,7 @@ class Try:
     command: str
     number: signal.Signals
     after: float
-    """Seconds from its start."""
+    """Seconds of the processor."""
 
 
 def environment(own: Path) -> dict[str, str]:
@@ -64,11 +79,69 @@ def environment(own: Path) -> dict[str, str]:
 
 def start(words: list[str], own: Path) -> subprocess.Popen[bytes]:
     """Start a command whose results go into `own`/out."""
-    with (own / "said.txt").open("ab") as said:
+    with (own / "said.txt").open("ab") as said, (own / "told.txt").open("ab") as told:
         return subprocess.Popen(
             [sys.executable, "-m", "tvimdesign", *words, "--out", str(own / "out")],
-            cwd=own, stdout=subprocess.DEVNULL, stderr=said, env=environment(own), start_new_session=True,
+            cwd=own, stdout=told, stderr=said, env=environment(own), start_new_session=True,
         )  # fmt: skip
+
+
+def processor_time(process: subprocess.Popen[bytes]) -> float:
+    """Seconds of the processor that a command and its children have taken."""
+    seconds = 0.0
+    with suppress(psutil.Error):  # it ended meanwhile
+        mine = psutil.Process(process.pid)
+        for one in [mine, *mine.children(recursive=True)]:
+            with suppress(psutil.Error):
+                seconds += sum(one.cpu_times()[:4])
+    return seconds
+
+
+def load() -> float:
+    """Processes that wait for each core: as many times as long everything takes."""
+    return max(os.getloadavg()[0] / (os.cpu_count() or 1), 1.0)
+
+
+def until(process: subprocess.Popen[bytes], seconds: float) -> None:
+    """Wait until a command has taken so many seconds of the processor, or is through."""
+    last, still = 0.0, time.monotonic()
+    while process.poll() is None and last < seconds:
+        time.sleep(0.03)
+        now = processor_time(process)
+        still = time.monotonic() if now > last else still
+        last = max(now, last)
+        if time.monotonic() > still + 3.0:  # it waits for something, as an explorer does
+            return
+
+
+def address_of(own: Path) -> str:
+    """Where an explorer serves; empty where it does not yet."""
+    words = (own / "told.txt").read_text(errors="replace").split()
+    return next((word for word in words if word.startswith("http://")), "")
+
+
+class Talking:
+    """A conversation with an explorer, in a thread, from when it serves until it is gone."""
+
+    def __init__(self, process: subprocess.Popen[bytes], own: Path, seed: int) -> None:
+        """Begin."""
+        self._process, self._own = process, own
+        self._conversation = explorer_talk.Conversation(seed)
+        self._thread = threading.Thread(target=self._talk, daemon=True)
+        self._thread.start()
+
+    def _talk(self) -> None:
+        while self._process.poll() is None and not address_of(self._own):
+            time.sleep(0.05)
+        if address := address_of(self._own):
+            asyncio.run(self._conversation.lead(address))
+
+    def not_kept(self) -> list[str]:
+        """What an explorer that is opened again does not have of what it said that it kept."""
+        self._thread.join(10.0)
+        if not (self._own / "out/explore.json").exists():
+            return ["nothing is kept"] if self._conversation.kept else []
+        return explorer_talk.not_kept(self._conversation, SMALL, self._own / "out")
 
 
 def at_work(own: Path) -> list[psutil.Process]:
@@ -81,29 +154,32 @@ def at_work(own: Path) -> list[psutil.Process]:
     return found
 
 
-def faults_after(one: Try, own: Path) -> list[str]:
+def faults_after(one: Try, own: Path, seed: int = 1) -> list[str]:
     """Run a command, end it, and say what is not as it should be."""
     process = start(COMMANDS[one.command], own)
-    time.sleep(one.after)
+    talk = Talking(process, own, seed) if one.command == SERVES else None
+    until(process, one.after)
     ended = process.poll() is not None  # it was through before
     process.send_signal(one.number)
     began = time.monotonic()
     try:
-        code = process.wait(timeout=30.0)
+        code = process.wait(timeout=30.0 * load())
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
         return [f"still at work 30 s after {one.number.name}"]
     found = []
-    while at_work(own) and time.monotonic() < began + 2.0:
+    while at_work(own) and time.monotonic() < began + GONE * load():
         time.sleep(0.05)
     if left := at_work(own):
-        found.append(f"{len(left)} processes left after 2 s")
+        found.append(f"{len(left)} processes left after {GONE:g} s")
         for one_left in left:
             one_left.kill()
     if list((own / "tmp").iterdir()):
         found.append(f"left in the temporary folder: {', '.join(path.name for path in (own / 'tmp').iterdir())}")
     expected = {signal.SIGKILL: -signal.SIGKILL}.get(one.number, 128 + one.number)
+    if talk:
+        found += talk.not_kept()
     early = {-one.number} if not (own / "out/manifest.json").exists() else set()  # Python was not up yet
     if not ended and code not in {expected, 0, 3, 4, *early}:
         found.append(f"exit code {code}")
@@ -163,30 +239,64 @@ def _compared(folder: Path) -> set[Path]:
     return {path for path in found if path.name != "manifest.json" and path.parts[0] != "shards"}
 
 
-def campaign(tries: int, seed: int, commands: list[str], folder: Path) -> dict[str, dict[str, int]]:
-    """End each command so many times; returns tries and failures by command, and prints each failure."""
-    draw, told = random.Random(seed), {}
-    for command in commands:
-        through = folder / f"{command}-through"
-        through.mkdir()
-        began = time.monotonic()
-        start(COMMANDS[command], through).wait()
-        seconds, count = time.monotonic() - began, Counter[str]()
-        for number in range(tries):
-            one = Try(command, draw.choice(SIGNALS), draw.uniform(0.3, 0.95 * seconds))
-            own = folder / f"{command}-{number}"
-            own.mkdir()
-            faults = faults_after(one, own)
-            if command in _GOES_ON and (own / "out" / _GOES_ON[command]).is_dir():
-                count["resumed"] += 1
-                faults += resumed_differs(command, own, through / "out")
-            count["tries"] += 1
-            count["failures"] += bool(faults)
-            for fault in faults:
-                print(f"{command} {number}: {one.number.name} after {one.after:.1f} s: {fault}", flush=True)
-        told[command] = dict(count)
-        print(f"{command}: {dict(count)}, {seconds:.0f} s where it runs through", flush=True)
-    return told
+def tried(command: str, number: int, *, seed: int, through: Through, folder: Path) -> dict[str, Any]:
+    """One try: when and how the command was ended, whether it was resumed, and what was not as it should be."""
+    draw = random.Random(f"{command} {seed} {number}")
+    one = Try(command, draw.choice(SIGNALS), draw.uniform(0.3, 0.95 * through.seconds))
+    own = folder / f"{command}-{number}"
+    own.mkdir()
+    faults = faults_after(one, own, number)
+    resumed = command in _GOES_ON and (own / "out" / _GOES_ON[command]).is_dir()
+    if resumed:
+        faults += resumed_differs(command, own, through.out)
+    if not faults:
+        shutil.rmtree(own)
+    told = {"signal": one.number.name, "after": round(one.after, 2), "resumed": resumed, "faults": faults}
+    return {"command": command, "seed": seed, "number": number, **told}
+
+
+@dataclass(frozen=True)
+class Through:
+    """What a command comes to that is not ended."""
+
+    out: Path
+    seconds: float
+    """Of the processor."""
+
+
+def run_through(command: str, folder: Path) -> Through:
+    """Run a command to its end; an explorer has none."""
+    own = folder / f"{command}-through"
+    own.mkdir()
+    if command == SERVES:
+        return Through(own / "out", _SERVED)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    start(COMMANDS[command], own).wait()
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return Through(own / "out", after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+
+
+def campaign(asked: argparse.Namespace, folder: Path) -> list[dict[str, Any]]:
+    """End each command so many times; every try, the earlier ones too. Failures are printed."""
+    lines = asked.out.read_text().splitlines() if asked.out and asked.out.exists() else []
+    every = [json.loads(line) for line in lines]
+    there = {(one["command"], one["seed"], one["number"]) for one in every}
+    for command in asked.commands:
+        left = [number for number in range(asked.tries) if (command, asked.seed, number) not in there]
+        if not left:
+            continue
+        through = run_through(command, folder)
+        print(f"{command}: {through.seconds:.1f} s of the processor where it runs through", flush=True)
+        with ThreadPoolExecutor(asked.jobs) as pool:
+            for one in pool.map(partial(tried, command, seed=asked.seed, through=through, folder=folder), left):
+                every.append(one)
+                for fault in one["faults"]:
+                    when = f"{one['signal']} after {one['after']:.1f} s"
+                    print(f"{command} {one['number']}: {when}: {fault}", flush=True)
+                if asked.out:
+                    with asked.out.open("a") as out:
+                        out.write(json.dumps(one) + "\n")
+    return every
 
 
 def main() -> int:
@@ -194,14 +304,18 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tries", type=int, default=20, help="of each command")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), default=["run", "front", "parts", "sweep"])
-    parser.add_argument("--json", type=Path, help="file for the figures")
+    parser.add_argument("--jobs", type=int, default=2, help="tries at once")
+    usual = ["run", "front", "parts", "sweep", "explorer"]
+    parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), default=usual)
+    parser.add_argument("--out", type=Path, help="file that tries are appended to")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="kills-") as folder:
-        told = campaign(asked.tries, asked.seed, asked.commands, Path(folder))
-    if asked.json:
-        asked.json.write_text(json.dumps(told, indent=2) + "\n")
-    return int(any(count.get("failures") for count in told.values()))
+        every = campaign(asked, Path(folder))
+    for command in dict.fromkeys(one["command"] for one in every):
+        some = [one for one in every if one["command"] == command]
+        failed, resumed = (sum(bool(one[what]) for one in some) for what in ("faults", "resumed"))
+        print(f"{command}: {len(some)} tries, {failed} failures, {resumed} resumed")
+    return int(any(one["faults"] for one in every))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,15 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
+REPORTS = ROOT / "results"
+"""Where runs have left their reports: one folder for each study."""
+
+
+def reports() -> dict[str, Path]:
+    """Reports of the shipped studies that runs have left, by study; front and comparison included."""
+    names = (path.stem for path in sorted((ROOT / "studies").glob("*.yaml")))
+    found = {name: REPORTS / name / "report.html" for name in names}
+    return {name: path for name, path in found.items() if path.exists()}
 
 
 def gallery_page() -> str:
@@ -16,7 +25,8 @@ def gallery_page() -> str:
         "",
         "Every file in `studies/` runs as it is: `tvimdesign run studies/NAME.yaml`. The code makes the pictures,",
         "of the module a run comes to: on the left whole, on the right opened. `make pictures` makes them again.",
-        "The README's table has sizes and times.",
+        "The README's table has sizes and times. A link to a report stands here where this site was built with reports",
+        "(`make gallery`). Links in a report to files of parts lead into the folder of its run.",
         "",
     ]  # fmt: skip
     for path in sorted((ROOT / "studies").glob("*.yaml")):
@@ -35,5 +45,6 @@ def gallery_page() -> str:
             "",
             f"Mode: {study['mode']}; {done}. File: [`studies/{path.name}`](../studies/{path.name}).",
             "",
+            *([f"[Report of a run](reports/{path.stem}.html){{target=_blank}}", ""] if path.stem in reports() else []),
         ]
     return "\n".join(parts)

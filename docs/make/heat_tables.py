@@ -9,6 +9,7 @@ the page; the words around them stay.
 from __future__ import annotations
 
 import csv
+import functools
 import math
 import re
 from pathlib import Path
@@ -33,8 +34,12 @@ def rows(name: str) -> list[Row]:
 
 def mode_of(row: Row) -> str:
     """Mode of a row's study."""
-    study = yaml.safe_load((ROOT / "studies" / f"{row['study']}.yaml").read_text(encoding="utf-8"))
-    return str(study["mode"])
+    return _mode(row["study"])
+
+
+@functools.cache
+def _mode(study: str) -> str:
+    return str(yaml.safe_load((ROOT / "studies" / f"{study}.yaml").read_text(encoding="utf-8"))["mode"])
 
 
 def difference(row: Row) -> float:

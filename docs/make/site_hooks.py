@@ -12,7 +12,7 @@ from mkdocs.structure.files import File
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from gallery_page import gallery_page
+from gallery_page import gallery_page, reports
 from mathml import with_mathml
 from reference_pages import reference_pages
 
@@ -29,6 +29,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the pages made from the table and the studies, and each file outside docs/ that a page links to."""
     for path, text in {**reference_pages(), "gallery.md": gallery_page()}.items():
         files.append(File.generated(config, path, content=text))
+    for name, path in reports().items():
+        files.append(File.generated(config, f"reports/{name}.html", abs_src_path=str(path)))
     wanted = {
         outside
         for file in list(files.documentation_pages())

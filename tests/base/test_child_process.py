@@ -28,10 +28,42 @@ time.sleep(60)
 """
 
 
+SLOW = """
+import os, time
+print(os.getpid(), flush=True)
+time.sleep(60)
+"""
+
+
+def started(name: str, text: str, folder: Path) -> subprocess.Popen[str]:
+    """A parent with a child whose module has this text."""
+    (folder / f"{name}.py").write_text(text)
+    environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{folder}", "PYTHONIOENCODING": "ascii"}
+    command = [sys.executable, "-c", PARENT.replace("sleeping_child", name)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
+
+
+def all_gone(numbers: list[int]) -> bool:
+    """Whether these processes are gone within two seconds."""
+    end = time.monotonic() + 2.0
+    while time.monotonic() < end and any(map(is_at_work, numbers)):
+        time.sleep(0.02)
+    return not any(map(is_at_work, numbers))
+
+
+def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path: Path) -> None:
+    parent = started("slow_child", SLOW, tmp_path)
+    assert parent.stdout is not None
+    child = int(parent.stdout.readline())
+    assert is_at_work(child)
+    parent.kill()
+    parent.wait()
+    parent.stdout.close()
+    assert all_gone([child])
+
+
 def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
-    (tmp_path / "sleeping_child.py").write_text(CHILD)
-    environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{tmp_path}", "PYTHONIOENCODING": "ascii"}
-    parent = subprocess.Popen([sys.executable, "-c", PARENT], stdout=subprocess.PIPE, text=True, env=environment)
+    parent = started("sleeping_child", CHILD, tmp_path)
     assert parent.stdout is not None
     first, other, encoding = parent.stdout.readline().split()
     assert encoding == "utf-8"
@@ -40,8 +72,4 @@ def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     parent.send_signal(signal.SIGKILL)
     parent.wait()
     parent.stdout.close()
-    end = time.monotonic() + 2.0
-    while time.monotonic() < end and (is_at_work(int(first)) or is_at_work(int(other))):
-        time.sleep(0.02)
-    assert not is_at_work(int(first))
-    assert not is_at_work(int(other))
+    assert all_gone([int(first), int(other)])

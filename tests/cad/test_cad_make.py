@@ -44,7 +44,8 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
                 "views/exploded.png", "views/section.png", "springs/spring.pdf", "springs/spring.csv"}  # fmt: skip
     for kind in MODULES[design.mode].kinds(dimensions(design)):
         expected.add(f"step/{kind}.step")
-        bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw"}
+        bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw",
+                          "thermal_cutout"}  # fmt: skip
         expected |= {f"mesh/{kind}.stl"} if bought else {f"print/{kind}.stl", f"print/{kind}.3mf"}
     expected |= {f"step/{piece}.step" for piece in ("casting_mould", "casting_lid")}
     expected |= {f"print/casting_{piece}.{form}" for piece in ("mould", "lid") for form in ("stl", "3mf")}
@@ -86,9 +87,8 @@ def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:
 def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
     path = made.report.folder / "assembly.step"
     parts = {name: (shape, colour) for shape, name, _, colour in cq.Assembly.importStep(str(path))}
-    assert (
-        len(parts) == 17 + 2 * COPIES[made.design.mode]
-    )  # four of the kinds made once, springs, five screws, four pins
+    # Four of the kinds made once, the cut-out, springs, five screws, four pins.
+    assert len(parts) == 18 + 2 * COPIES[made.design.mode]
     for name, (shape, colour) in parts.items():
         kind = name.split("/")[-1].rstrip("_0123456789")
         assert isinstance(shape, cq.Solid)

@@ -21,6 +21,7 @@ values:
   mass: {value: 6.1, unit: g, source: scale, status: measured}
   specific_heat: {value: 500, unit: J/kg/K, low: 400, high: 700, source: "assumed: usual", status: assumed}
   shear_modulus: {value: 50, unit: MPa, source: rig, status: measured}
+  bulk_modulus: {value: 1.2, unit: GPa, source: rig, status: measured}
   max_current: {value: 2500, unit: mA, source: maker, status: datasheet}
   max_temperature: {value: 110, unit: degC, source: maker, status: datasheet}
 words: {form: flexible}

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import axe_playwright_python
 import pytest
-from served_explorer import Explorer, Served
+from explored import SMALL, small_study
+from playwright.sync_api import Browser
+from served_explorer import Explorer, Served, exploring
+from support import environment
 
 from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.study.tree import tree_of_file
 
+FRONT = "minimize: {response_time: 1, module_mass: 1}\nfront: {of: [response_time, module_mass], points: 3}"
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
 
 
@@ -114,3 +120,71 @@ def test_the_connection_is_cut_the_page_says_so_and_comes_back_with_what_was_don
     assert page.locator("#connection").inner_text() == ""
     assert field.input_value() == "8.8 W"
     explorer.answered(0)
+
+
+@pytest.mark.slow
+def test_the_draft_in_3d_follows_a_slider_that_is_held(explorer: Explorer) -> None:
+    page, number = explorer.page, explorer.number
+    page.get_by_role("button", name="Evaluate").click()
+    explorer.answered(number, "exact")
+    draft = page.locator("#draft")
+    page.locator("#draft[data-draft]").wait_for()
+    drawn = "document.getElementById('draft').viewer"
+    layer = f"{drawn}.parts.get('pcl_arc_1').geometry"
+    high = f"({layer}.computeBoundingBox(), {layer}.boundingBox.max.z)"
+    page.get_by_text("Parts shown").click()
+    draft.get_by_role("checkbox", name="housing", exact=True).uncheck()
+    explorer.until("(now) => Number(document.getElementById('draft').dataset.draft) >= now", explorer.number)
+    number = explorer.number
+    thickness = float(explorer.knob("pcl_thickness").get_by_role("textbox").input_value().split()[0])
+    before = page.evaluate(high)
+    thicker = 1.9 if thickness < 1.3 else 0.7
+    slider = explorer.knob("pcl_thickness").get_by_role("slider")
+    hold = "(one, value) => { one.value = value; one.dispatchEvent(new Event('input')); }"  # held, not let go
+    slider.evaluate(hold, thicker)
+    explorer.until("(after) => Number(document.getElementById('draft').dataset.draft) > after", number)
+    assert page.evaluate(high) == pytest.approx(before + thicker - thickness, abs=3e-3)  # a step of the slider
+    assert page.evaluate(f"{drawn}.parts.get('housing').object.visible") is False
+    slider.dispatch_event("change")
+    assert explorer.complaints == []
+
+
+@pytest.mark.slow
+def test_where_nothing_is_feasible_the_page_says_so_and_shows_the_nearest_design(explorer: Explorer) -> None:
+    page, number = explorer.page, explorer.number
+    field = explorer.knob("peak_power <=").get_by_role("textbox")
+    field.fill("0.5 W")
+    field.press("Enter")
+    explorer.answered(number, "exact")
+    assert "no design found that keeps every limit" in page.locator("#status").inner_text()
+    explorer.knob("peak_power <=").locator(".stands").filter(has_text="broken").wait_for()
+    assert page.locator("#limits tr.broken").count() >= 1
+
+
+@pytest.mark.slow
+def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browser: Browser, tmp_path: Path) -> None:
+    study = small_study(tmp_path, SMALL.replace("minimize: {response_time: 1, module_mass: 1}", FRONT))
+    run = ["run", str(study), "--out", str(tmp_path / "run"), "--no-cad", "--no-plots"]
+    subprocess.run([sys.executable, "-m", "tvimdesign", *run], check=True, env=environment(), capture_output=True)
+    found = Served(tmp_path / "run", tmp_path / "out")
+    found.begin()
+    try:
+        with exploring(browser, found.address) as explorer:
+            page = explorer.page
+            points = page.locator("#front svg path[d^='M1 0A']")
+            points.first.wait_for(state="attached")
+            page.get_by_text("Points, as buttons").click()
+            names = page.locator("#front details button")
+            assert names.count() == points.count() >= 1
+            before = explorer.number
+            points.last.click(force=True)
+            page.get_by_text("Variables", exact=True).wait_for()
+            explorer.answered(before, "exact")
+            page.get_by_role("button", name="Make CAD").click()
+            page.locator("#report #assembly").wait_for(timeout=300_000)
+            figure = page.locator("#figure-solids")
+            figure.scroll_into_view_if_needed()
+            page.wait_for_selector("#figure-solids[data-state=drawn]", timeout=120_000)
+            assert explorer.complaints == []
+    finally:
+        found.end()

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+import time
 from pathlib import Path
 from typing import Any
 
 import pytest
+from aiohttp import ClientSession, WSMsgType
+from aiohttp.test_utils import TestServer
 from explored import SMALL, TOKEN, awaited, served, small_study, talking
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.server import HOST
+from tvimdesign.explore.server import HOST, Server
 from tvimdesign.explore.states.history import FILE
 from tvimdesign.explore.states.messages import read_message
 from tvimdesign.explore.states.source import open_source
-from tvimdesign.study import read_study
+from tvimdesign.study import Range, read_study
 from tvimdesign.study.text.mistakes import StudyError
 
 
@@ -160,7 +164,8 @@ def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_pa
     kept = read_study(folder / "kept.yaml")
     assert (kept.require[0].limit, kept.module["core_radius"]) == (10.0, pytest.approx(9.5e-3))
     current = kept.vary["current"]
-    assert (current.lower, current.upper, current.start) == (1.0, 2.0, 1.5)  # type: ignore[union-attr]
+    assert isinstance(current, Range)
+    assert (current.lower, current.upper, current.start) == (1.0, 2.0, 1.5)
     assert kept.minimize == {"response_time": 1.0, "module_mass": 3.0}
     fixed = read_study(folder / "fixed.yaml")
     assert (fixed.vary, fixed.minimize, fixed.module["pcl_thickness"]) == ({}, {}, pytest.approx(0.9e-3))
@@ -189,3 +194,22 @@ def test_a_folder_of_something_else_and_a_study_that_changed_are_refused(tmp_pat
 
 def _input(state: dict[str, Any], name: str) -> str:
     return str(next(one["text"] for one in state["controls"]["inputs"] if one["name"] == name))
+
+
+def test_a_server_that_ends_does_not_wait_for_the_pages_that_are_open(tmp_path: Path) -> None:
+    async def ended() -> tuple[float, WSMsgType]:
+        server = TestServer(Server(small_study(tmp_path), tmp_path / "out", token=TOKEN).app(), host="127.0.0.1")
+        await server.start_server()
+        async with ClientSession() as client, client.ws_connect(server.make_url(f"/{TOKEN}/socket")) as socket:
+            await socket.receive_json()
+            begin = time.monotonic()
+            closing = asyncio.create_task(server.close())
+            heard = await socket.receive()
+            while heard.type == WSMsgType.TEXT:
+                heard = await socket.receive()
+            await closing
+            return time.monotonic() - begin, heard.type
+
+    seconds, last = awaited(ended())
+    assert last == WSMsgType.CLOSE
+    assert seconds < 20.0  # aiohttp would wait for a minute

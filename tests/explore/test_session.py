@@ -69,7 +69,7 @@ def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) ->
             assert server.session is not None
             page, process = Talk(socket), server.session.solver.process
             await page.answer("quick")
-            while server.session.solver.under_way != "exact":
+            while (job := server.session.solver.under_way) is None or job.stage != "exact":
                 await asyncio.sleep(0.01)
             await page.send(kind="require", name="peak_power", texts=["<= 10 W"])
             await page.answer("exact")

@@ -22,11 +22,14 @@ STEFAN_BOLTZMANN = 5.670374419e-8
 GAS = 8.314462618
 LAYER, PLATE = slice(2, 2 + CELLS), slice(2 + CELLS, 2 + CELLS + PLATE_CELLS)
 BESIDE, FLOOR = slice(PLATE.stop, PLATE.stop + 4), slice(PLATE.stop + 4, PLATE.stop + 13)
-SINK = FLOOR.stop
+LEGS, SINK = FLOOR.stop, FLOOR.stop + 1
 UPPER, LOWER, LEDGES, CORNER, HOUSING = np.arange(3), np.arange(3, 6), 6, 7, 8
 """Places in the floor: beside the pads in three widths, below those, below the pads, next to their hot sides."""
-STRIPS, TO_EDGE = np.array([0.1, 0.25, 0.65]), 0.23
-"""Widths of the three bodies a strip is divided into, as shares, and the way to its edge."""
+STRIPS, WAYS = np.array([0.087, 0.247, 0.666]), np.array([0.029, 0.153, 0.395])
+"""Widths of the three bodies a strip is divided into and the way to each, as shares."""
+PARABOLA = np.array([[7.0, -8.0, 1.0], [-8.0, 16.0, -8.0], [1.0, -8.0, 7.0]]) / 3.0
+"""Heat that a bar's two ends and its middle between them give to it, over its conductance and their temperatures."""
+SIMPSON = np.array([1.0, 4.0, 1.0]) / 6.0
 
 
 def value_of(model: DeviceFunctions) -> Callable[[str], float]:
@@ -37,7 +40,7 @@ def value_of(model: DeviceFunctions) -> Callable[[str], float]:
 
 @dataclass
 class AnotherStack:
-    """State: cold and hot side, layer's enthalpies, plate, strip and core, floor and housing, sink, psi of the layer.
+    """State: cold and hot side, layer's enthalpies, plate, strip and core, floor and housing, legs, sink, psi.
 
     The sink is there where the module has one, psi where the layer freezes with kinetics.
     """
@@ -56,7 +59,14 @@ class AnotherStack:
         self.seebeck, self.ohms, self.leak = (
             share * v(f"peltier_{name}") for name in ("seebeck", "resistance", "conductance")
         )
-        self.side = 0.5 * share * v("peltier_unit_mass") * v("peltier_specific_heat")
+        # A twelfth of the pads is either side, the legs between them ten.
+        self.cold, self.middle, _ = (
+            share
+            * v("peltier_unit_mass")
+            * v("peltier_specific_heat")
+            * (np.array([1.0, 0.0, 1.0]) + 10.0 * SIMPSON)
+            / 12.0
+        )
         self.edge = v("arc_count") * (2.0 * (v("pcl_outer_radius") - inner) + v("arc_span") * self._radii())
         self._lumps()
         self.cell = v("pcl_thickness") / CELLS
@@ -65,7 +75,14 @@ class AnotherStack:
         self.mass = v("pcl_density") * self.area * self.cell
         sinks = [v("sink_capacity")] if self.sink else []
         self.capacities = np.concatenate(
-            [[self.side] * 2, np.full(CELLS, self.mass), np.full(PLATE_CELLS, plate_heat), *self.lumps, sinks]
+            [
+                [self.cold] * 2,
+                np.full(CELLS, self.mass),
+                np.full(PLATE_CELLS, plate_heat),
+                *self.lumps,
+                [self.middle],
+                sinks,
+            ]
         )
         self.start, self.end = v("pcl_melting_start") - 273.15, v("pcl_melting_end") - 273.15
         solid, melt = v("pcl_specific_heat_solid"), v("pcl_specific_heat_melt")
@@ -86,15 +103,18 @@ class AnotherStack:
         rotor = v("pcl_outer_radius") + v("rotor_rim")
         disc = np.pi * rotor**2
         self.rest = disc - self.area
-        widths, way = STRIPS * self.rest / self.edge, TO_EDGE * self.area / self.edge
+        wide, arc = self.rest / self.edge, self.area / self.edge
+        # A plate that the layer heats has the profile cosh x y: its mean, and how steep it is at the edge.
+        x = arc * np.sqrt(
+            0.5 * (v("pcl_conductivity_solid") + v("pcl_conductivity_melt")) / v("pcl_thickness") / k / height
+        )
+        way = arc * (np.cosh(x) - np.sinh(x) / x) / (x * np.sinh(x))
         far = (v("rotor_mass") + v("link_mass") + v("retainer_mass")) / v("structure_density") - disc * height
         near = STRIPS * self.rest
-        # Heat ends in the last body, and passes the others.
-        apart = (0.5 * np.append(0.0, widths[:-1]) + widths * [0.5, 0.5, 1.0 / 3.0]) / self.edge
         inner = v("pcl_inner_radius") / v("core_radius")
         along = way / self.edge
-        to_core = 2.0 / 3.0 * widths[2] / self.edge + np.log(inner) / (2.0 * np.pi)
-        ways = np.append(apart, to_core) / (k * height)
+        to_core = (1.0 - np.sum(WAYS)) * wide / self.edge + np.log(inner) / (2.0 * np.pi)
+        ways = np.append(WAYS * wide / self.edge, to_core) / (k * height)
         self.to_beside = 1.0 / (ways + np.array([along / (k * height), 0.0, 0.0, 0.0]))
         self.uneven = k * height * self.edge / (way + height / np.pi)
         self.strips = np.append(near, 0.0)
@@ -107,7 +127,9 @@ class AnotherStack:
         outer, tall = v("housing_outer_radius"), v("rim_level") + v("floor_thickness") + v("foot_height")
         outside = 2.0 * np.pi * outer * tall + np.pi * (outer**2 - rotor**2)
         self.below = np.concatenate([np.zeros(3), near, [ledges, 0.0, outside]])
-        self._floor(widths, way, rotor)
+        # A body that is warmed evenly is colder at its face by a third of its depth.
+        self.to_face = height / 3.0 / k, np.array([0.0] * 3 + [web] * 4 + [0.0] * 2) / 3.0 / k
+        self._floor(wide, arc / 3.0, rotor)
         # Between the middle of the floor's upper half and a third of the plate's depth lies the gap.
         walls = (height / 3.0 + 0.5 * pad) / k
         shine = v("surface_emissivity") / (2.0 - v("surface_emissivity")) * STEFAN_BOLTZMANN
@@ -115,7 +137,7 @@ class AnotherStack:
         share = 1.0 / (1.0 + walls * (air + 4.0 * shine * v("ambient_temperature") ** 3))
         self.gap_air, self.gap_shine = share * air * near, share * shine * near
 
-    def _floor(self, widths: Array, way: float, rotor: float) -> None:
+    def _floor(self, wide: float, way: float, rotor: float) -> None:
         """Conductances among the floor's bodies, and from the pads into them [W/K]."""
         v, edge = self.value, self.edge
         k, pad, web = v("structure_conductivity"), v("peltier_thickness"), v("floor_thickness") - v("peltier_thickness")
@@ -124,12 +146,12 @@ class AnotherStack:
         def join(a: int, b: int, conductance: float) -> None:
             among[a, b] = among[b, a] = conductance
 
-        middle = 0.5 * (widths[:-1] + widths[1:])
+        apart, beyond, widths = WAYS[1:] * wide, (1.0 - np.sum(WAYS)) * wide, STRIPS * wide
         for row, deep in ((UPPER, pad), (LOWER, web)):
             for i in range(2):
-                join(row[i], row[i + 1], k * deep * edge / middle[i])
+                join(row[i], row[i + 1], k * deep * edge / apart[i])
             wall = np.log(v("housing_inner_radius") / rotor) / (2.0 * np.pi * k * deep)
-            join(row[2], HOUSING, 1.0 / (0.5 * widths[2] / (k * deep * edge) + wall))
+            join(row[2], HOUSING, 1.0 / (beyond / (k * deep * edge) + wall))
         # The first of the upper ones is two, one above the other.
         join(UPPER[0], UPPER[1], 0.5 * among[UPPER[0], UPPER[1]])
         join(CORNER, UPPER[1], among[UPPER[0], UPPER[1]])
@@ -137,11 +159,9 @@ class AnotherStack:
         for i, half in enumerate((0.25 * pad, 0.5 * pad, 0.5 * pad)):
             join(UPPER[i], LOWER[i], k * widths[i] * edge / (half + web / 3.0))
         ledge = (self.area - self.window) / edge
-        join(LEDGES, LOWER[0], k * web * edge / (ledge / 3.0 + 0.5 * widths[0]))
+        join(LEDGES, LOWER[0], k * web * edge / (ledge / 3.0 + WAYS[0] * wide))
         side = 0.5 * pad * edge
-        wall = (
-            way / (v("pad_conductivity") * side) + 1.0 / (v("pad_edge_contact") * side) + 0.5 * widths[0] / (k * side)
-        )
+        wall = way / (v("pad_conductivity") * side) + 1.0 / (v("pad_edge_contact") * side) + WAYS[0] * wide / (k * side)
         self.from_cold, self.from_hot = np.zeros(9), np.zeros(9)
         self.from_legs = np.zeros(9)
         self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 0.5 / wall
@@ -212,23 +232,25 @@ class AnotherStack:
         """Time derivative of the state at a current, positive where it heats."""
         _, flows = self._flows(y)
         watts = -np.diff(np.append(flows, self._outflow(y)))  # hot side, layer, plate
-        watts[0] += self.seebeck * amps * (y[1] + 273.15) + 0.5 * amps**2 * self.ohms - self.leak * (y[1] - y[0])
+        watts[0] += self.seebeck * amps * (y[1] + 273.15)
         mean = np.mean(y[PLATE])
         aside = (self.to_beside[0] * (mean - y[BESIDE.start]) + self.uneven * (y[PLATE] - mean)) / PLATE_CELLS
         cold, hot = self.from_cold * (y[0] - y[FLOOR]), self.from_hot * (y[1] - y[FLOOR])
         up = self.up * (y[1] - y[BESIDE.start])
-        legs = self.from_legs * (0.5 * (y[0] + y[1]) + amps**2 * self.ohms / (12.0 * self.leak) - y[FLOOR])
+        pads = y[[0, LEGS, 1]]
+        legs = self.from_legs * (SIMPSON @ pads - y[FLOOR])
+        below, middle, above = SIMPSON * (amps**2 * self.ohms - np.sum(legs)) - self.leak * PARABOLA @ pads
         watts[1 + CELLS :] -= aside
-        watts[0] -= np.sum(hot) + 0.5 * np.sum(legs) + up
+        watts[0] += above - np.sum(hot) - up
         beside = self._chain(y[BESIDE], self.to_beside, np.sum(aside) + up) - self.strips * self._flux(
-            y[BESIDE], self.value("rotor_coefficient")
+            y[BESIDE], self.value("rotor_coefficient"), self.to_face[0]
         )
         floor = cold + hot + legs + self.among @ y[FLOOR] - np.sum(self.among, axis=1) * y[FLOOR]
-        floor -= self.below * self._flux(y[FLOOR], self.value("housing_coefficient"))
+        floor -= self.below * self._flux(y[FLOOR], self.value("housing_coefficient"), self.to_face[1])
         gap = self._gap(y)
         beside[:3] -= gap
         floor[[CORNER, *UPPER[1:]]] += gap
-        everything = np.concatenate([[self._cold(y, amps) - np.sum(cold) - 0.5 * np.sum(legs)], watts, beside, floor])
+        everything = np.concatenate([[self._cold(y, amps) + below - np.sum(cold)], watts, beside, floor, [middle]])
         if self.sink:
             given = self.window * self.value("sink_contact") * (y[0] - y[SINK])
             lost = self.value("sink_area") * self._flux(y[SINK], self.value("sink_coefficient"))
@@ -284,13 +306,17 @@ class AnotherStack:
         flows = -np.diff(t)[1:] / resistance[1:] * self.area
         return t, np.concatenate([[0.0], flows])
 
-    def _flux(self, celsius: Array | float, coefficient: float) -> Any:
-        """Convection and the Stefan-Boltzmann law [W/m^2]."""
-        radiated = STEFAN_BOLTZMANN * ((np.asarray(celsius) + 273.15) ** 4 - (self.ambient + 273.15) ** 4)
-        return coefficient * (celsius - self.ambient) + self.value("surface_emissivity") * radiated
+    def _flux(self, celsius: Array | float, coefficient: float, behind: Array | float = 0.0) -> Any:
+        """Convection and the Stefan-Boltzmann law [W/m^2] at a face, which lies a resistance before `celsius`."""
+        face = celsius
+        for _ in range(4):  # each step leaves a twentieth of the error
+            radiated = STEFAN_BOLTZMANN * ((np.asarray(face) + 273.15) ** 4 - (self.ambient + 273.15) ** 4)
+            lost = coefficient * (face - self.ambient) + self.value("surface_emissivity") * radiated
+            face = celsius - behind * lost
+        return lost
 
     def _cold(self, y: Array, amps: float) -> float:
-        drawn = self.seebeck * amps * (y[0] + 273.15) - 0.5 * amps**2 * self.ohms - self.leak * (y[1] - y[0])
+        drawn = self.seebeck * amps * (y[0] + 273.15)
         if self.sink:
             return -self.window * self.value("sink_contact") * (y[0] - y[SINK]) - drawn
         return -self.window * self._flux(y[0], self.value("cold_side_coefficient")) - drawn
@@ -311,7 +337,7 @@ class AnotherStack:
         """
         size = self.capacities.size
         near = np.eye(size) + np.eye(size, k=1) + np.eye(size, k=-1)
-        bodies = np.r_[0:2, BESIDE, FLOOR]
+        bodies = np.r_[0:2, BESIDE, FLOOR, LEGS]
         near[np.ix_(bodies, bodies)] = 1.0
         if self.sink:
             near[0, -1] = near[-1, 0] = 1.0

@@ -12,6 +12,7 @@ from support import ROOT
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.solve import search
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
@@ -276,3 +277,10 @@ def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, s
     eased = float(number) * (1.02 if word.startswith("soft") else 0.98)
     again = text.replace(targets, f"{word}: {eased:g} {unit.replace('·', '.')}")
     assert _solve(read_study_text(again, "a test")).starts
+
+
+def test_where_no_switch_is_found_the_arithmetic_conflict_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search, "find_conflicts", lambda *_: None)
+    asked = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
+    with pytest.raises(InfeasibleError, match=r"cannot hold together.*\n  spring_stiffness.*\n  spring_fatigue_safety"):
+        optimize(_study(f"{FOUR_SIZES_IN_SHEAR}require:\n{asked}solver: {{starts: 1}}\n"))

@@ -78,6 +78,9 @@ class SmallRecord:
     values: dict[str, float] = field(default_factory=dict)
     sizes: list[dict[str, float]] = field(default_factory=list)
 
+    def has(self, name: str) -> bool:
+        return name in self.values
+
     def value(self, name: str) -> float:
         if name not in self.values:
             raise CatalogError(f"{self.name} has no value {name!r}")

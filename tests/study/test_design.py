@@ -70,6 +70,15 @@ def test_an_edited_design_is_refused_in_words_with_the_line(name: str, tmp_path:
     assert all(problem.line > 0 for problem in told.value.problems)
 
 
+def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path: Path) -> None:
+    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    plain["study"]["catalog_folder"] = "9" * 5000
+    edited = tmp_path / "design.json"
+    edited.write_text(json.dumps(plain))
+    with pytest.raises(TvimError, match="the catalogue folder is not there"):
+        resolve_design(read_design(edited))
+
+
 def test_all_mistakes_of_a_design_are_told_at_once_and_that_another_version_wrote_it(tmp_path: Path) -> None:
     plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
     plain |= {"tvimdesign": "2019.1"}

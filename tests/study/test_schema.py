@@ -9,11 +9,14 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
+from support import STUDIES
 from test_reader import GOOD
 
+from tvimdesign import __version__
 from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.study import Study, StudyError, template_text
 from tvimdesign.study.schema import json_schema
+from tvimdesign.study.template import example_text
 
 WRONG = [
     "name: x",
@@ -108,3 +111,16 @@ def test_the_command_prints_the_schema_of_all_modes() -> None:
 def test_the_template_fits_the_schema() -> None:
     validator = jsonschema.Draft7Validator(json_schema({"shear": table_for("shear")}))
     validator.validate(yaml.safe_load(template_text()))
+
+
+def test_the_schema_names_format_and_version() -> None:
+    schema = json_schema({})
+    assert schema["$id"] == f"urn:tvimdesign:study:1:{__version__}"
+
+
+def test_every_shipped_study_and_what_is_written_of_it_names_its_schema() -> None:
+    line = "# yaml-language-server: $schema={}study.schema.json\n"
+    for path in STUDIES:
+        assert line.format("../") in path.read_text(), path.name
+        assert line.format("") in example_text(path.stem), path.name
+    assert line.format("") in template_text()

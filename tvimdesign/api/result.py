@@ -252,7 +252,8 @@ class Result:
         self, folder: str | os.PathLike[str], *, timestep: str | None = None, overwrite: bool = False,
         progress: bool = True,
     ) -> Path:  # fmt: skip
-        """Write the joint for simulators: MJCF and URDF of each operating point, meshes, tables; returns the folder.
+        """Write the joint for simulators: MJCF and URDF of each operating point, FMU, meshes, tables; returns the
+        folder.
 
         `timestep`, such as "0.5 ms", is that of the simulation; without it one that suits the bench's load. Raises
         GeometryError where the solids are not the design's, InputError for a time step that is none.

@@ -18,10 +18,7 @@ _PR_SET_PDEATHSIG = 1
 
 
 def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> subprocess.Popen[Any]:
-    """Start a module of this package as a process that speaks UTF-8; `options` are those of Popen.
-
-    The module's `main` calls `follow_parent` first.
-    """
+    """Start a module of this package as a process that speaks UTF-8 and ends with this one; `options` are Popen's."""
     here = str(Path(__file__).parents[2])
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     own = {"PYTHONPATH": os.pathsep.join(paths), "PYTHONIOENCODING": "utf-8", _PARENT: str(os.getpid())}
@@ -30,7 +27,7 @@ def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> s
         pipe = _pipe_of_this_process()
         environment[_ALIVE] = str(pipe)
         options["pass_fds"] = (pipe,)
-    command = [sys.executable, "-X", "utf8", "-m", module, *arguments]
+    command = [sys.executable, "-X", "utf8", "-m", "tvimdesign.base.run_child", module, *arguments]
     return subprocess.Popen(command, env=environment, **options)
 
 

@@ -60,6 +60,10 @@ class Record:
         """Return a value in SI; raises CatalogError where the record lacks it."""
         return self.entry(name).value
 
+    def has(self, name: str) -> bool:
+        """Whether the record has a value of that name."""
+        return name in self.entries
+
     def entry(self, name: str) -> Entry:
         """Return a value with its source and status; raises CatalogError where the record lacks it."""
         found: Entry = self._find("values", self.entries, name)

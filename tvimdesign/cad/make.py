@@ -14,6 +14,7 @@ from typing import IO, Any
 
 from tvimdesign.base.child_process import hear, start_child
 from tvimdesign.base.errors import GeometryError, InputError
+from tvimdesign.base.extras import require_extra
 from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.base.whole_files import make_folder
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
@@ -42,8 +43,10 @@ def make_cad(
     at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
     (`MODULES` in `cad/assembly/module_parts.py`) and call this one's `main`. Raises GeometryError where a part cannot
     be built or takes more than `part_timeout_s` [s], naming the part, once the files of the others are written; also
-    where the process crashes or `timeout_s` [s] have passed. Raises InputError where the design cannot be read.
+    where the process crashes or `timeout_s` [s] have passed. Raises InputError where the
+    design cannot be read, or the extra [cad] is not installed.
     """
+    require_extra("cad", "parts")
     make_folder(out)
     state: dict[str, Any] = {"progress": "starting"}
     with tempfile.TemporaryFile() as progress_output:

@@ -214,7 +214,11 @@ CATEGORIES: Mapping[str, Category] = {
         words={"form": ("flexible", "rigid"), "heat_source": ("pads", "layer")},
         usual_words={"heat_source": "pads"},
         may_be_zero=("seebeck",),  # a foil heater
-        values_of={"rigid": {"length": "mm", "width": "mm"}, "layer": {"electrode_gap": "mm", "electrode_width": "mm"}},
+        values_of={
+            "rigid": {"length": "mm", "width": "mm"},
+            "flexible": {"bulk_modulus": "GPa"},
+            "layer": {"electrode_gap": "mm", "electrode_width": "mm"},
+        },
     ),
     "spreaders": Category(
         values={

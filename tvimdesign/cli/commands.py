@@ -159,7 +159,7 @@ def robot(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Write the joint for simulators (MJCF, URDF, meshes, tables) into results/<name>-robot."""
+    """Write the joint for simulators (MJCF, URDF, FMU, meshes, tables) into results/<name>-robot."""
     from tvimdesign.base.units import parse_quantity
     from tvimdesign.report.robot.robot_files import write_robot
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from aiohttp import web
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.server import HOST, Server
+from tvimdesign.explore.server import FAREWELL, HOST, Server
 from tvimdesign.explore.states.history import FILE, open_kept
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.report.output.progress import wide_console
@@ -40,7 +40,7 @@ def serve(
 
 
 async def _serve(server: Server, port: int, browse: bool) -> None:
-    runner = web.AppRunner(server.app(), access_log=None)
+    runner = web.AppRunner(server.app(), access_log=None, shutdown_timeout=FAREWELL)
     await runner.setup()
     try:
         site = web.TCPSite(runner, HOST, port)

@@ -10,7 +10,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from aiohttp import WSMsgType, web
+from aiohttp import WSCloseCode, WSMsgType, web
 
 from tvimdesign.explore.answers.report_fragment import PARTS
 from tvimdesign.explore.explore_page import STATIC, content_policy, explore_page
@@ -21,6 +21,8 @@ HOST = "127.0.0.1"
 _LOCAL = {"127.0.0.1", "localhost", "[::1]"}
 _SLOWEST = 256
 """Messages that may wait for a page that does not read; one that is further behind is let go, and comes again."""
+FAREWELL = 1.0
+"""Seconds that a page has to answer that the server ends."""
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -32,6 +34,7 @@ class Server:
         self.token = token or secrets.token_urlsafe(24)
         self._source, self._folder, self._settings = source, folder, settings
         self._pages: set[asyncio.Queue[str]] = set()
+        self._sockets: set[web.WebSocketResponse] = set()
         self.session: Session | None = None
 
     def app(self) -> web.Application:
@@ -43,11 +46,17 @@ class Server:
         app.router.add_get(f"{base}/static/{{room}}/{{path:.+}}", self._static)
         app.router.add_get(f"{base}/{PARTS}/{{path:.+}}", self._part)
         app.on_startup.append(self._open)
+        app.on_shutdown.append(self._end_pages)
         app.on_cleanup.append(self._close)
         return app
 
     async def _open(self, _: web.Application) -> None:
         self.session = Session(self._source, self._folder, self._send, self._settings)
+
+    async def _end_pages(self, _: web.Application) -> None:
+        """Tell the pages; a server that ends would wait a minute for those that stay open."""
+        ended = (socket.close(code=WSCloseCode.GOING_AWAY) for socket in self._sockets)
+        await asyncio.gather(*ended, return_exceptions=True)
 
     async def _close(self, _: web.Application) -> None:
         if self.session:
@@ -94,15 +103,17 @@ class Server:
 
     async def _socket(self, request: web.Request) -> web.WebSocketResponse:
         """Messages in, answers out, until the page is closed; what was done stays."""
-        socket = web.WebSocketResponse(max_msg_size=MOST_BYTES, heartbeat=20.0)
+        socket = web.WebSocketResponse(max_msg_size=MOST_BYTES, heartbeat=20.0, timeout=FAREWELL)
         await socket.prepare(request)
         session = self.session
         assert session is not None
         queue: asyncio.Queue[str] = asyncio.Queue()
         answers = sorted(session.answers.values(), key=lambda one: int(one["number"]))
-        for told in (session.state_shown(), *answers):
+        drafts = [session.draft] if session.draft else []
+        for told in (session.state_shown(), *answers, *drafts):
             queue.put_nowait(json.dumps(told, allow_nan=False))
         self._pages.add(queue)
+        self._sockets.add(socket)
         sender = asyncio.create_task(_forward(queue, socket))
         try:
             async for message in socket:
@@ -111,6 +122,7 @@ class Server:
                         queue.put_nowait(json.dumps(told, allow_nan=False))
         finally:
             self._pages.discard(queue)
+            self._sockets.discard(socket)
             sender.cancel()
         return socket
 

@@ -13,7 +13,8 @@ from tvimdesign.base.units import pretty
 from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.explore.answers.engine import Stage
 from tvimdesign.explore.answers.shown import value_names
-from tvimdesign.explore.answers.solver import Job, Solver, Told
+from tvimdesign.explore.answers.solver import Job, Solver
+from tvimdesign.explore.drafts.drafter import Drafter, DraftJob
 from tvimdesign.explore.parts import PartsMaker
 from tvimdesign.explore.states import messages
 from tvimdesign.explore.states.controls import controls_shown
@@ -22,6 +23,7 @@ from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.saved_study import saved_text
 from tvimdesign.explore.states.source import Source, open_source
 from tvimdesign.explore.states.state import Pinned, State, changed, tree_of
+from tvimdesign.explore.worker_process import Told
 from tvimdesign.study import Study, read_tree
 
 QUIET = 0.35
@@ -50,6 +52,9 @@ class Session:
         """The last quick answer and the last exact one, for pages that come later."""
         self._design: dict[str, str] | None = None
         self.parts = PartsMaker(folder, send, self._parts_made)
+        self.draft: Told | None = None
+        """The last draft in 3-D, for pages that come later."""
+        self.drafter = Drafter(self._drafted)
         self.solver = Solver([str(source), str(folder), *settings], self._told)
         self._ask("quick")
 
@@ -58,6 +63,7 @@ class Session:
         if self._timer:
             self._timer.cancel()
         self.solver.close()
+        self.drafter.close()
 
     # --- what a page asks ---
 
@@ -99,7 +105,8 @@ class Session:
         if change.final:
             self.kept.advance(after, self._since)
             self._settle()
-        self._ask("quick")
+        if after != before:  # a control that is let go where it was dragged to has its answer, or will
+            self._ask("quick")
 
     def _become(self, after: State) -> None:
         """A state that is not one change of a value."""
@@ -214,6 +221,12 @@ class Session:
             answer = self.answers["exact"]
         self._follow(job, shown)
         self._send(answer)
+        if told.get("module"):
+            self.drafter.ask(DraftJob(job.number, told["module"]))
+
+    def _drafted(self, job: DraftJob, told: Told) -> None:
+        self.draft = {**told, "kind": "draft", "number": job.number}
+        self._send(self.draft)
 
     def _follow(self, job: Job, shown: Told) -> None:
         """Let the hand's variables be the optimum's, so that it can be gone on from."""

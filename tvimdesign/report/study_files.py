@@ -8,7 +8,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.study.design import read_design
 from tvimdesign.study.result_study import result_text
 from tvimdesign.study.schema import schema_text
-from tvimdesign.study.template import example_text, examples, template_text
+from tvimdesign.study.template import SCHEMA_FILE, example_text, examples, template_text
 from tvimdesign.study.text.named_file import printable
 
 
@@ -43,6 +43,7 @@ def write_new_study(file: Path | None, example: str = "", result: Path | None = 
     except OSError as error:
         raise InputError(f"{file}: cannot be written: {error.strerror}") from error
     print(f"{file} written; next: tvimdesign run {file}")
+    print(f"names and units while you type: tvimdesign schema > {file.with_name(SCHEMA_FILE)}")
 
 
 def print_schema() -> None:

@@ -13,6 +13,7 @@ from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
+from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
 from tvimdesign.solve.nlp.deadline import Deadline
@@ -72,6 +73,8 @@ def optimize(
             recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
     margined = study.robust is not None and study.robust.share is not None and run is not nominal
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
+    if hopeless and conflict_set is None and not (run.start.converged or deadline.passed):
+        refuse_infeasible(study)
     settled = put_at_bounds(relaxation.optimizer, run)
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
     if run.start.converged and all(run is not one for _, one in recorded):

@@ -18,6 +18,7 @@ from tvimdesign.study.reader import read_tree
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.json_places import JsonPlaces
 from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, quoted, step
+from tvimdesign.study.text.named_file import is_folder
 from tvimdesign.study.text.values import below, limits
 from tvimdesign.study.tree import tree_of_values
 from tvimdesign.study.written_study import written
@@ -96,7 +97,7 @@ def _study(design: Design, table: Table, problems: Mistakes) -> Study | None:
     unknown += [name for name in study.tolerances if name.partition("@")[0] not in table.by_name]
     for name in unknown:
         problems.unknown(_NOWHERE, "study", f"name: {quoted(name)}", name, table.by_name)
-    if unknown or (study.catalog_folder and not Path(study.catalog_folder).is_dir()):
+    if unknown or (study.catalog_folder and not is_folder(Path(study.catalog_folder))):
         return study
     try:
         read_tree(tree_of_values(written(study), problems.file, Path()))

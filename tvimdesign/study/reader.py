@@ -23,6 +23,7 @@ from tvimdesign.study.sections.tolerances import read_robust, read_tolerances
 from tvimdesign.study.sections.vary import check_against_module, read_vary, with_start
 from tvimdesign.study.study import FORMAT, ProfileOptions, Range, SolverOptions, Study, Vary, WriteOptions, unit_of
 from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted, step
+from tvimdesign.study.text.named_file import is_folder
 from tvimdesign.study.text.values import Reading, entries, flag, in_unit, misfit, number, text, unknown_keys, whole
 from tvimdesign.study.text.yaml_text import Mapping, Node, Text
 from tvimdesign.study.tree import SECTIONS, StudyTree, tree_of_file, tree_of_text
@@ -192,7 +193,7 @@ class _Reader:
         if word is None:
             return None
         folder = self.folder / word
-        if not _is_folder(folder):
+        if not is_folder(folder):
             found = f"there is no folder {quoted(word)} beside the study"
             self.problems.add(node, "catalog", found, "a folder of records")
             return None
@@ -231,13 +232,6 @@ class _Reader:
                 hint = f"{name} means: {fields[name].description}"
                 self.problems.add(known[name], step(key, name), message, hint=hint)
             return model()
-
-
-def _is_folder(path: Path) -> bool:
-    try:
-        return path.is_dir()
-    except (OSError, ValueError):  # no permission, a name too long
-        return False
 
 
 def _says_something(node: Node | None) -> bool:

@@ -110,19 +110,28 @@ def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str
     """The study's own value of an input, else its record's, else its default; zero for what the module lacks."""
     if own is not None:
         return float(own)
-    reason = "".join(f", needed as {one.choice} is {chosen[one.choice]}" for one in row.requires)
     if row.record is not None:
         choice, field = row.record
-        try:
+        if not isinstance(chosen[choice], str) and chosen[choice].has(field):
             return float(chosen[choice].value(field))
-        except CatalogError as error:
-            reason += f" ({error})"
     if row.default is not None:
         return row.default
     if not row.exists(chosen):
         return 0.0
     section = "operating_points" if row.per_point else "module"
-    raise InputError(f"{name} has no value{reason}; give it under `{section}`, in {row.unit}")
+    raise InputError(f"{name} has no value{_reason(row, chosen)}; give it under `{section}`, in {row.unit}")
+
+
+def _reason(row: Input, chosen: dict[str, Any]) -> str:
+    """Why an input without a value needs one, and what its record has instead."""
+    reason = "".join(f", needed as {one.choice} is {chosen[one.choice]}" for one in row.requires)
+    if row.record is not None and not isinstance(chosen[row.record[0]], str):
+        choice, field = row.record
+        try:
+            chosen[choice].value(field)
+        except CatalogError as error:
+            reason += f" ({error})"
+    return reason
 
 
 def _middle(allowed: Vary) -> float:

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 
+from tvimdesign import __version__
 from tvimdesign.device import MODES, Choice, FirstOscillation, Input, Output, Table, table_for
 from tvimdesign.study.sections.accept import rating_names
 from tvimdesign.study.sections.tolerances import STANDARD, tolerance_rows
@@ -39,7 +40,8 @@ def json_schema(tables: Mapping[str, Table]) -> _Schema:
     """
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "tvimdesign study",
+        "$id": f"urn:tvimdesign:study:{FORMAT}:{__version__}",
+        "title": f"tvimdesign study, format {FORMAT}, of tvimdesign {__version__}",
         "description": "A study of a thermo-active variable impedance module. Every quantity has its unit.",
         "type": "object",
         "required": ["mode"],

@@ -9,6 +9,9 @@ from pathlib import Path
 from tvimdesign.base.errors import InputError
 from tvimdesign.study.text.mistakes import did_you_mean, one_of
 
+SCHEMA_FILE = "study.schema.json"
+"""What editors find beside a study, or above `studies/`, once `tvimdesign schema` has written it."""
+
 
 def template_text() -> str:
     """Return the text of a commented study of the shear module."""
@@ -25,11 +28,12 @@ def examples() -> dict[str, str]:
 
 
 def example_text(name: str) -> str:
-    """Return the text of a shipped study. Raises InputError where there is none of that name."""
+    """Text of a shipped study, for a schema beside it. Raises InputError where there is none of that name."""
     known = list(examples())
     if name not in known:
         raise InputError(f"no shipped study is named {name[:60]!r}; {did_you_mean(name, known) or one_of(known)}")
-    return _shipped().joinpath(f"{name}.yaml").read_text(encoding="utf-8")
+    text = _shipped().joinpath(f"{name}.yaml").read_text(encoding="utf-8")
+    return text.replace(f"$schema=../{SCHEMA_FILE}", f"$schema={SCHEMA_FILE}")
 
 
 def _shipped() -> Traversable:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 from pydantic import BaseModel
@@ -47,8 +48,9 @@ def exactly(value: float, unit: str) -> str:
     for digits in range(1, 18):
         number = float(f"{from_si(value, unit):.{digits}g}")
         text = f"{number:.{max(digits, 6)}g} {unit}".removesuffix(" 1")
-        if parse_quantity(text, unit) == value:
-            return text
+        with suppress(UnitError):  # rounded, a temperature may lie below absolute zero
+            if parse_quantity(text, unit) == value:
+                return text
     return f"{value!r} {si_unit(unit)}".removesuffix(" 1")
 
 

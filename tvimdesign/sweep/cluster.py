@@ -6,12 +6,14 @@ import hashlib
 import pickle
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.extras import require_extra
 from tvimdesign.sweep.chunks import CellQueue, ChunkAnswers
 from tvimdesign.sweep.job import Cell, CellAnswer, Job
 from tvimdesign.sweep.pool import Heard, Spent
@@ -63,13 +65,9 @@ class Cluster:
 
     def __init__(self, address: str, job: Job, folder: Path, gone: float = GONE) -> None:
         """Nothing is asked yet; a scheduler that ends is waited for `gone` seconds. Raises InputError."""
-        try:
-            import distributed
-        except ModuleNotFoundError:
-            raise InputError(
-                f"--scheduler {address}: needs dask.distributed, which is not installed: "
-                "pip install 'tvimdesign[cluster]'"
-            ) from None
+        require_extra("cluster", f"--scheduler {address}")
+        import distributed
+
         self._distributed, self._address, self._gone = distributed, address, gone
         self._job, self._folder = job, folder
 
@@ -82,7 +80,7 @@ class Cluster:
         with ShardWriter(self._folder, self._job.columns) as shard:
             client = self._connected(CONNECT)
             while len(left):
-                with client:
+                with self._closing(client):
                     self._work(client, left, spent, shard, heard)
                 if len(left):
                     client = self._connected(self._gone)
@@ -104,6 +102,15 @@ class Cluster:
                     f"--scheduler {self._address}: the scheduler {after} (waited {seconds:g} s); `dask scheduler` "
                     "starts one and says its address"
                 ) from error
+
+    @contextmanager
+    def _closing(self, client: Client) -> Iterator[None]:
+        """Close a client at the end; one whose scheduler has too much to do to answer in time has no more to tell."""
+        try:
+            yield
+        finally:
+            with suppress(OSError, TimeoutError, self._distributed.CancelledError):
+                client.close()
 
     def _work(self, client: Client, left: CellQueue, spent: Spent, shard: ShardWriter, heard: Heard) -> None:
         """Ask for chunks until all are answered, or the scheduler is gone: what it had is left again then."""
@@ -128,8 +135,8 @@ class Cluster:
                 chunk = left.next(len(asked) % threads)
                 asked[client.submit(answer_chunk, job, chunk, __version__, pure=False)] = chunk
             for future in self._ended(list(asked)):
-                chunk = asked.pop(future)
-                self._take(future, chunk, left, (spent, shard))
+                self._take(future, asked[future], left, (spent, shard))
+                del asked[future]  # only now: where taking it fails, its cells are left again
                 heard(spent)
 
     @staticmethod

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.base.errors import OutputError
+from tvimdesign.base.extras import require_extra
 from tvimdesign.base.units import from_si
 from tvimdesign.base.whole_files import TABLE_ENCODING, whole_file
 from tvimdesign.study.sections.sweep_block import SweptAxis
@@ -143,11 +144,7 @@ def write_parquet(plan: SweepPlan, folder: Path) -> None:
 
 def parquet_library() -> Any:
     """PyArrow; raises InputError where it is not installed, so that it is known before the work."""
-    try:
-        import pyarrow
-    except ModuleNotFoundError:
-        raise InputError(
-            "--parquet: needs pyarrow, which is not installed: pip install 'tvimdesign[parquet]'; cells.csv and "
-            "cells.sqlite hold the same table"
-        ) from None
+    require_extra("parquet", "--parquet (cells.csv and cells.sqlite hold the same table)")
+    import pyarrow
+
     return pyarrow

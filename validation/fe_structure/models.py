@@ -21,6 +21,7 @@ LENGTHS = (
     "arc_count", "arc_span", "floor_web", "pcl_thickness", "peltier_thickness", "window_ledge", "vane_count",
     "vane_height", "vane_thickness", "block_height", "block_width", "slot_web", "housing_vane_thickness",
     "flange_bore_radius", "flange_outer_radius", "spreader_depth",
+    "block_depth", "slot_count", "adjuster_radius", "adjuster_thickness", "slip_clearance",
     "tile_radius", "heater_count", "peltier_length", "peltier_width",
     "link_screw_hole", "link_screw_depth", "link_bolt_circle_radius",
     "link_dowel_count", "link_dowel_diameter", "link_dowel_depth", "link_dowel_circle_radius",
@@ -51,17 +52,8 @@ class Row(NamedTuple):
         ]
 
 
-LEFT_OUT = {
-    "rigid_modules_compression",
-    "driven_joint",
-    "ankle",
-    "standard_parts",
-    "compare_compression",
-    "machined_compression",
-    "wrist_compression",
-}
-"""Shipped studies not in the table: rigid modules in a vane, and designs of which a part misses the tenth; README.md
-says which and by how much."""
+LEFT_OUT: set[str] = set()
+"""Shipped studies not in the table: those of which a part misses the tenth, with the reason in README.md."""
 DESIGN = ("SI", "record")
 """Units of a table's rows that tell the design."""
 
@@ -92,15 +84,11 @@ def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], 
         "mm": {name: float(f"{mm[name]:.5g}") for name in LENGTHS if mm.get(name)},
         "found": found,
     }
-    if mm.get("spreader_depth"):
+    if mm.get("spreader_depth") and inputs["mode"] == "shear":
         case["spreader_shear_modulus"] = values["spreader_shear_modulus"] * 1e-9
-    names = {"compression": {"block_stiffness": "frozen_block_stiffness"},
-             "shear": {"frozen_shear_modulus": "frozen_shear_modulus"}}[inputs["mode"]]  # fmt: skip
     table, given_here = table_for(inputs["mode"]), {**given(read_study(ROOT / f"studies/{study}.yaml")), **varied}
-    for name, output in names.items():
-        scale = 1e-9 if name == "frozen_shear_modulus" else 1e-3
-        case[name] = float(f"{float(table.evaluate(given_here, [output])[output]) * scale:.4g}")
-    return case
+    frozen = float(table.evaluate(given_here, ["frozen_shear_modulus"])["frozen_shear_modulus"])
+    return case | {"frozen_shear_modulus": float(f"{frozen * 1e-9:.4g}")}
 
 
 def fe_values(joint: dict[str, float], spring: dict[str, float]) -> dict[str, float]:

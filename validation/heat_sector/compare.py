@@ -23,9 +23,8 @@ import numpy as np
 import shear
 from plane import Array, Plane, passed
 
-from tvimdesign.device.core.impedance.warm_structure import WAY_OUT, PartTemperatures, in_series
-from tvimdesign.physics.layers import film
-from tvimdesign.physics.polymers import polymer
+from tvimdesign.device.core.impedance.warm_structure import PartTemperatures
+from tvimdesign.report.verify.warm_joint import WarmJoint
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
@@ -110,54 +109,39 @@ class Judge:
     def __init__(self, model: DeviceFunctions, found: Plane) -> None:
         """Take what the joint is beside its heat off the table."""
         self.model, self.found, self.known = model, found, inputs_of(model)
-        self.sheared = "arc_span" in self.known
-        names = ["pcl_rheology", "pcl_moment", "pcl_depth", "spring_stiffness", "soft_threshold",
-                 "structure_compliances", "structure_softening", "lossless_compliance"]  # fmt: skip
-        self.quantity = model.table.evaluate(self.known, names if self.sheared else [*names, "shape_factor"])
+        self.joint = WarmJoint(model.table, self.known)
+        self.sheared = self.joint.sheared
         layers = shear.columns if self.sheared else compression.rows
         self.layers, self.shares = layers(found, "layer")
         depths = (found.dy if self.sheared else found.dx)[self.layers[0]]
         self.slices = depths / np.sum(depths)
-        self.omega = 2.0 * np.pi * self.known["frequency@hot"]
 
     def _mean(self, state: Array, name: str) -> float:
         own = self.found.cells(name)
-        return float(self.found.volume[own] @ state[own] / np.sum(self.found.volume[own])) + 273.15
+        return float(self.found.volume[own] @ state[own] / np.sum(self.found.volume[own]))
 
     def parts(self, state: Array) -> PartTemperatures:
         """Temperatures of the structure's parts [K]."""
         found, count = self.found, self.found.count
-        cold, hot, core = self._mean(state, "cold"), self._mean(state, "hot"), float(state[count]) + 273.15
+        cold, hot, core = self._mean(state, "cold"), self._mean(state, "hot"), float(state[count])
         if self.sheared:
             cells, widths = shear.columns(found, "plate")
             within = found.middle[0][cells[:, 0]] < found.x[found.i[found.cells("layer")]].max()
             slices = widths[within] @ state[cells[within]] / np.sum(widths[within])
             depths = found.dy[cells[0]]
-            edge = float(depths @ state[cells[~within][0]] / np.sum(depths)) + 273.15
+            edge = float(depths @ state[cells[~within][0]] / np.sum(depths))
         else:
             cells, heights = shear.columns(found, "vane")
             slices = np.array([found.dy[column] @ state[column] / np.sum(found.dy[column]) for column in cells])[::-1]
             depths = heights[::-1]
             edge = self._mean(state, "plate")
         middle = (np.arange(8) + 0.5) / 8
-        at = np.interp(middle, (np.cumsum(depths) - 0.5 * depths) / np.sum(depths), slices) + 273.15
-        return PartTemperatures(core, core + WAY_OUT * (edge - core), list(at), 0.5 * (hot + cold), cold)
+        at = np.interp(middle, (np.cumsum(depths) - 0.5 * depths) / np.sum(depths), slices)
+        return self.joint.parts(core, edge, at, hot, cold)
 
     def stiffness(self, state: Array) -> float:
         """Size of the joint's dynamic stiffness at the hot point's frequency [N m/rad]."""
-        q = self.quantity
-        celsius = state[self.layers]
-        solid = 1.0 - self.found.polymer.molten(celsius)
-        storage, loss = polymer.moduli(celsius + 273.15, solid, self.omega, q["pcl_rheology"])
-        moments = np.full(len(celsius), q["pcl_moment"])
-        if not self.sheared:
-            soft = np.array([film.soft_share(*pair) for pair in zip(storage, loss, strict=True)])
-            shape = q["shape_factor"]
-            moments = moments * (1.0 + 2.0 * (shape / soft) ** 2) / (1.0 + 2.0 * shape**2)
-        layer = np.sum(self.shares * moments / ((1.0 / (storage + 1j * loss)) @ self.slices)) / q["pcl_depth"]
-        law = (q["structure_softening"], self.known["clamped_loss_factor"], q["lossless_compliance"])
-        support = complex(*in_series(q["structure_compliances"], self.parts(state), *law))
-        return float(abs(q["spring_stiffness"] + 1.0 / (1.0 / layer + 1.0 / support)))
+        return self.joint.stiffness(state[self.layers], self.shares, self.slices, self.parts(state))
 
     def far_face(self, state: Array) -> float:
         """Mean temperature of the polymer's face away from the pads [degC], from its last two cells."""
@@ -180,7 +164,7 @@ class Judge:
     def time(self, name: str, switch: Switch) -> float:
         """A time of the switch: when the joint is soft, the mean of the polymer or that of its far face is warm [s]."""
         if name == "softening_time":
-            return passed(switch.times, -np.log(switch.stiffness), -np.log(self.quantity["soft_threshold"]))
+            return passed(switch.times, -np.log(switch.stiffness), -np.log(self.joint.soft))
         return passed(switch.times, switch.of(name), self.known["target_temperature"] - 273.15)
 
 

@@ -111,6 +111,11 @@ def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
     return found
 
 
+def _heat(found: Plane, name: str) -> float:
+    """Heat capacity of what is drawn of a material [J/K]."""
+    return float(found.materials[name].heat_capacity * np.sum(found.volume[found.cells(name)]))
+
+
 def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> None:
     """Core, rim of the plate, housing, sink; plate and floor conduct to them around the axis."""
     k, capacity = v["structure_conductivity"], v["structure_density"] * v["structure_specific_heat"]
@@ -121,7 +126,8 @@ def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> Non
     found.bodies.extend([
         Body(core.capacity / wide),
         Body(rim * height * capacity / wide, rim / wide, v["rotor_coefficient"], v["surface_emissivity"]),
-        Body((v["housing_mass"] * v["structure_specific_heat"] - ring * depth * capacity) / wide,
+        # The housing's vanes are in the drawing.
+        Body((v["housing_mass"] * v["structure_specific_heat"] - ring * depth * capacity) / wide - _heat(found, "wall"),
              around.surface.area / wide, v["housing_coefficient"], v["surface_emissivity"]),
         Body(middle * height * capacity / wide, (middle - np.pi * v["core_radius"] ** 2) / wide,
              v["rotor_coefficient"], v["surface_emissivity"]),

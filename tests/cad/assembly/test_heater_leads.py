@@ -11,7 +11,9 @@ from cad_designs import TILES, design_of
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
+from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.build.main import _titles
+from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.catalog import Catalog
 from tvimdesign.study.design import Design
 
@@ -27,7 +29,11 @@ def switched(changes: dict[str, Any], hottest: float = 105.2, mode: str = "shear
 
 
 def listed(design: Design) -> dict[str, str]:
-    return {item.kind: item.title for item in beside(design, _titles(design))}
+    """Titles by kind: what is beside the parts, and the cut-out where the module has one."""
+    titles = _titles(design)
+    drawn = "thermal_cutout" in MODULES[design.mode].drawn(dimensions(design))
+    placed = {"thermal_cutout": cq.Solid.makeCylinder(2.1, 11.2)} if drawn else {}
+    return {item.kind: item.title for item in [*bill(design, titles, placed), *beside(design, titles)]}
 
 
 @pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])
@@ -45,9 +51,9 @@ def test_a_cut_out_that_opens_below_the_heater_s_rating_has_no_such_word() -> No
     assert "opens above" not in listed(switched({"peltier_module": "silicone_9ar_08_24v"}))["thermal_cutout"]
 
 
-def test_none_is_listed_where_the_study_has_none_or_nothing_is_known_of_the_cycle() -> None:
+def test_none_is_listed_where_the_study_has_none_and_no_type_where_nothing_is_known_of_the_cycle() -> None:
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
-    assert "thermal_cutout" not in listed(design_of("never switched", {}))
+    assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
     assert fuse_in_words(FUSE, switched({}, 200.0)).startswith("none fits: ")
 
 

@@ -25,7 +25,7 @@ WANTED = [
     "link_mass", "retainer_mass", "springs_mass", "rotor_bottom_level", "rotor_top_level", "pin_top_level",
     "link_bottom_level", "coil_end_level", "rotor_radius", "pin_radius", "hub_radius", "post_radius", "spring_count",
     "housing_inner_radius", "housing_outer_radius", "link_bolt_circle_radius", "link_screw_depth",
-    "retainer_screw_depth", "screws_mass", "dowels_mass", "link_dowel_depth",
+    "retainer_screw_depth", "screws_mass", "dowels_mass", "cutout_mass", "link_dowel_depth",
 ]  # fmt: skip
 
 
@@ -159,5 +159,5 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
 
 
 def test_masses_add_up(part: dict[str, Any]) -> None:
-    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels")
+    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels", "cutout")
     assert part["module_mass"] == pytest.approx(sum(part[f"{name}_mass"] for name in names), rel=1e-12)

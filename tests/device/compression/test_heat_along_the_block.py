@@ -8,7 +8,8 @@ from stiff_when_warm import STIFF_WHEN_WARM
 from support import ROOT, fine
 
 from tvimdesign.device import table_for
-from tvimdesign.device.compression.ring_heat import ABOVE_WALLS, RIM, WITHIN
+from tvimdesign.device.compression.ring_heat import ABOVE_PADS, ABOVE_WALLS, HOUSING, RIM, WITHIN
+from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study
@@ -17,7 +18,7 @@ TABLE = table_for("compression")
 # Nothing but block and pads takes heat, and nothing loses it.
 ALONE: dict[str, Any] = {
     "structure_specific_heat": 1.0, "structure_conductivity": 1e-3, "rotor_coefficient": 1e-3,
-    "surface_emissivity": 0.0, "peltier_specific_heat": 5.0, "hot_contact": 1e6, "rotor_contact": 1e5,
+    "surface_emissivity": 0.0, "peltier_specific_heat": 1e-4, "hot_contact": 1e6, "rotor_contact": 1e5,
     "peltier_conductance": 1e-4, "peltier_seebeck": 0.0, "cold_side_coefficient": 1e3, "horizon": 1e5,
     "response_criterion": "far_face", "air_conductivity": 1e-6, "housing_coefficient": 1e-4,
 }  # fmt: skip
@@ -91,21 +92,28 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = found["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
-    # Six roots of 14 by 5 mm, the mean of a vane of 3.9 mm heated all along is a third of its height away. So is
-    # that of the rotor plate above it, from its lower face.
-    thickness = TABLE.evaluate(squeezed, ["rotor_thickness"])["rotor_thickness"]
+    # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane of 3.9 mm heated all along
+    # is a third of its height away; in the rotor plate heat turns to the side.
+    airless = {**squeezed, "air_conductivity": 1e-9, "surface_emissivity": 1e-9}
+    tight = TABLE.evaluate(airless, ["stack", "rotor_thickness"])
+    thickness = tight["rotor_thickness"]
     root = 0.24 * 6 * 14e-3 * 5e-3 / (3.9e-3 / 3.0)
-    above = 0.24 * 6 * 14e-3 * 5e-3 / (thickness / 3.0)
-    assert stack.beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / above), rel=1e-9)
-    volume = 6 * 14e-3 * 5e-3 * thickness
+    above = 0.24 * 12 * 14e-3 / lumps.ledge_ways(2.5e-3 / thickness)[0]
+    assert tight["stack"].beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / above), rel=1e-6)
+    # 0.4 mm of the vanes stand beside the clearance above the blocks.
+    volume = 6 * 14e-3 * 5e-3 * (thickness + 0.4e-3)
     assert stack.beside[0].capacity == pytest.approx(stack.plate_heat_capacity * volume, rel=1e-9)
-    # Half a vane's two rims of 3.5 mm lose 5 W/m2 K.
-    rims = 12 * 2 * 3.5e-3 * 2.5e-3
-    assert stack.plate_surface.area * stack.plate_surface.coefficient == pytest.approx(5.0 * rims, rel=1e-9)
-    assert stack.plate_surface.area * stack.plate_surface.emissivity == pytest.approx(0.9 * rims, rel=1e-9)
+    # Half a vane's two rims of 3.5 mm face the chamber.
+    rims, (chamber,) = (
+        12 * 2 * 3.5e-3 * 2.5e-3,
+        [link.conductance for link in stack.links if (link.first, link.second) == (("plate", 0), ("around", HOUSING))],
+    )
+    shine = 4.0 * 0.9 * lumps.STEFAN_BOLTZMANN * squeezed["ambient_temperature"] ** 3
+    assert chamber == pytest.approx((5.0 + shine) * rims, rel=1e-9)
+    assert stack.plate_surface.coefficient == 0.0
     vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
-    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, ABOVE_WALLS))
+    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, ABOVE_WALLS, ABOVE_PADS))
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 

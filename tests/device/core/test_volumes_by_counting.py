@@ -32,7 +32,7 @@ def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, An
         *(f"{name}_length" for name in ("leg", "tang", "link")),
         *(f"{name}_level" for name in ("coil_end", "pin_top", "rotor_top", "link_bottom")),
         *(f"{name}_radius" for name in ("housing_outer", "housing_inner", "hub", "post", "rotor", "pin")),
-        "module_mass", "dowels_mass", "dowels_inertia", "link_dowel_depth", "link_screw_depth",
+        "module_mass", "cutout_mass", "dowels_mass", "dowels_inertia", "link_dowel_depth", "link_screw_depth",
         "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count",
         "link_bolt_circle_radius", "link_half_width",
     ]  # fmt: skip
@@ -201,5 +201,5 @@ def test_masses_are_volumes_times_densities_and_add_up(part: dict[str, Any]) -> 
     assert p["pcl_mass"] == pytest.approx(1145.0 * p["pcl_volume"], rel=1e-9)
     # The pads are cut from modules of 1600 mm^2 and 6 g; their corners of 0.2 mm take a ten-thousandth.
     assert p["peltier_mass"] == pytest.approx(6e-3 * p["pcl_area"] / 1600e-6, rel=1.5e-4)
-    parts = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels")
+    parts = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels", "cutout")
     assert p["module_mass"] == pytest.approx(sum(p[f"{name}_mass"] for name in parts), rel=1e-12)

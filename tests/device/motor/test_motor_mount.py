@@ -135,10 +135,13 @@ def test_the_drive_weighs_and_turns_what_its_parts_do_one_by_one() -> None:
 
 
 def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
-    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass motor_acceleration"
+    rows = (
+        "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass cutout_mass motor_acceleration"
+    )
     found = values_of(rows, **DRIVEN)
     springs = found["springs_mass"] * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
-    between = (found["pcl_mass"] + found["peltier_mass"]) * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
+    on_arcs = found["pcl_mass"] + found["peltier_mass"] + found["cutout_mass"]
+    between = on_arcs * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
     whole = found["drive_inertia"] + found["housing_inertia"] + springs + between
     assert found["driven_inertia"] == pytest.approx(whole)
     assert found["motor_acceleration"] == pytest.approx(0.7 / whole)
@@ -146,11 +149,12 @@ def test_the_motor_turns_the_whole_housing_with_what_it_carries() -> None:
 
 
 def test_the_motor_turns_cover_and_adjusters_as_well() -> None:
-    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass adjusters_mass "
+    rows = "driven_inertia drive_inertia housing_inertia springs_mass pcl_mass peltier_mass cutout_mass adjusters_mass "
     radii = "housing_inner_radius housing_outer_radius"
     found = values_of(rows + radii, **DRIVEN | {"cover": "plate", "preload_adjuster": "rotary"})
     springs = (found["springs_mass"] + found["adjusters_mass"]) * ((57.0 * MM) ** 2 + (0.5 * 24.4094 * MM) ** 2)
-    between = (found["pcl_mass"] + found["peltier_mass"]) * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
+    on_arcs = found["pcl_mass"] + found["peltier_mass"] + found["cutout_mass"]
+    between = on_arcs * ((26.0 * MM) ** 2 + (40.0 * MM) ** 2) / 2.0
     # A plate of 1.5 mm, less the core's hole of 10.4 mm, four of 1.2 mm on the wall's radius and four of 3.5 on 57 mm.
     polar = 0.5 * np.pi * (found["housing_outer_radius"] ** 4 - (10.4 * MM) ** 4)
     for radius, circle in ((1.2 * MM, found["housing_inner_radius"]), (3.5 * MM, 57.0 * MM)):

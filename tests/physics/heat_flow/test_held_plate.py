@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import fsolve
 
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
+from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Lump, Surface
 
 AIR, POLYMER = 295.15, 373.15
@@ -35,7 +36,9 @@ def balanced(stack: BehindPolymer) -> Any:
     def left(all_of_them: Any) -> Any:
         plate, (rim, core) = all_of_them[:CELLS], all_of_them[CELLS:]
         top = fsolve(lambda t: 2.0 * through * (plate[-1] - t[0]) - lost(stack.plate_surface, t[0]), plate[-1])[0]
-        flows = np.concatenate([[2.0 * through * (POLYMER - plate[0])], -through * np.diff(plate),
+        before = 0.0 if stack.liner is None else stack.liner.resistance + stack.liner.bond
+        into = (POLYMER - plate[0]) / (before + 0.5 / through)
+        flows = np.concatenate([[into], -through * np.diff(plate),
                                 [2.0 * through * (plate[-1] - top)]])  # fmt: skip
         mean = np.mean(plate)
         uneven = first.conductance if stack.uneven_conductance is None else stack.uneven_conductance
@@ -61,6 +64,16 @@ def test_plate_rim_and_core_have_the_temperatures_of_a_steady_balance(
     slices = plate.reshape(4, CELLS // 4).mean(axis=1)
     assert np.array(held.plate) == pytest.approx(slices, abs=0.15)
     assert np.array(held.beside) == pytest.approx(lumps, abs=0.15)
+
+
+@pytest.mark.parametrize("conductivity", [0.24, 167.0])
+def test_a_liner_keeps_all_behind_it_cooler_as_a_steady_balance_says(conductivity: float) -> None:
+    stack = behind(conductivity)._replace(liner=Liner(1e-3 / 0.29 / 1.5e-3, 1e-4 / 0.2 / 1.5e-3, 2.3))
+    held = held_plate(stack, POLYMER)
+    plate, lumps = balanced(stack)
+    assert np.array(held.plate) == pytest.approx(plate.reshape(4, CELLS // 4).mean(axis=1), abs=0.15)
+    assert np.array(held.beside) == pytest.approx(lumps, abs=0.15)
+    assert held.plate[0] < held_plate(behind(conductivity), POLYMER).plate[0] - 2.0
 
 
 def test_plastic_cools_down_on_the_way_and_metal_does_not() -> None:

@@ -144,4 +144,6 @@ def test_legs_that_the_current_heats_evenly_are_as_warm_as_their_heat_equation_s
     profile = np.concatenate([[hot], np.linalg.solve(inside, heated), [cold]])
     mean = step * (np.sum(profile) - 0.5 * (hot + cold))
     module = peltier.PeltierModule(seebeck=0.05, resistance=3.0, conductance=0.5)
-    assert peltier.legs_temperature(module, 2.0, hot, cold) == pytest.approx(mean, abs=1e-3)
+    middle = peltier.settled_middle(module, 2.0, hot, cold)
+    assert middle == pytest.approx(profile[count // 2], abs=1e-3)
+    assert peltier.legs_temperature(hot, middle, cold) == pytest.approx(mean, abs=1e-3)

@@ -68,6 +68,30 @@ def test_a_root_s_moment_turns_the_plate_as_it_does_a_beam_on_which_six_alike_st
         * (4.0 * np.eye(count) + np.roll(np.eye(count), 1, 0) + np.roll(np.eye(count), -1, 0))
     )
     slope = np.linalg.solve(beam, np.ones(count))[0]
-    footing = vane.Footing(height, vane.strip_beside(radius, count, thickness), 0.0, 0.0, 2.0)
-    found = vane.stiffness(YOUNGS, SHEAR, WIDTH, thickness, HEIGHT, 0.4e-3, 0.0, footing)
-    assert 1.0 / found == pytest.approx(slope * (0.4e-3 + 0.5 * HEIGHT) ** 2, rel=1e-9)
+    footing = vane.Footing(height, vane.strip_beside(radius, count, thickness), 0.0, 0.0, 0.0, 2.0)
+    found = vane.on_footing((YOUNGS, SHEAR), (WIDTH, thickness), between(1e-9), footing)
+    assert found.leaning == pytest.approx(slope * (0.4e-3 + 0.5 * HEIGHT) ** 2, rel=1e-9)
+    assert found.aside == 0.0
+
+
+def between(modulus: float) -> vane.BlockBetween:
+    return vane.BlockBetween((modulus, modulus), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
+
+
+def test_two_vanes_that_lean_alike_under_a_block_are_in_equilibrium_with_what_it_bears() -> None:
+    # Unknown angles of both; each vane's moment is F a less half of what the block bears, sheared by their mean.
+    one, other, block = vane.Vane(3e-7, 0.0), vane.Vane(8e-7, 0.0), between(140e6)
+    arm, volume = 0.4e-3 + 0.5 * HEIGHT, WIDTH * HEIGHT * 5e-3
+    borne = 0.25 * vane.UPRIGHT * 140e6 * volume
+    stiff = np.array([[arm**2 / one.leaning + borne, borne], [borne, arm**2 / other.leaning + borne]])
+    angles = np.linalg.solve(stiff, np.array([arm, arm]))
+    assert vane.compliance(one, other, block) == pytest.approx(angles[0] * arm, rel=1e-9)
+    assert vane.compliance(other, one, block) == pytest.approx(angles[1] * arm, rel=1e-9)
+    assert vane.compliance(one, other, between(1e-9)) == pytest.approx(one.leaning, rel=1e-9)
+
+
+def test_what_is_bonded_through_a_soft_pad_does_not_back_a_vane() -> None:
+    soft = vane.BlockBetween((140e6, 1e6), (4e-3, 1.6e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
+    stiff = vane.BlockBetween((140e6, 1e12), (4e-3, 1.6e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
+    assert soft.bonding < 0.02
+    assert stiff.bonding == pytest.approx(1.0, abs=1e-3)

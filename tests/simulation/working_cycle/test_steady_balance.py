@@ -55,8 +55,8 @@ def test_what_holds_the_layer_is_what_the_air_takes(
     seen = np.asarray(phase.temperatures(balance[:-1], balance[-1], model.start)).ravel() - 273.15
     cold, outer = seen[0], seen[4 + model.cells + int(value("rotor_cells")) - 1]
     beside = seen[4 + model.cells + int(value("rotor_cells")) :]
-    lost = np.sum(another.strips * another._flux(beside[:4], value("rotor_coefficient")))
-    lost += np.sum(another.below * another._flux(beside[-9:], value("housing_coefficient")))
+    lost = np.sum(another.strips * another._flux(beside[:4], value("rotor_coefficient"), another.to_face[0]))
+    lost += np.sum(another.below * another._flux(beside[-9:], value("housing_coefficient"), another.to_face[1]))
     lost += _plate_loss(another, outer, 0.5 * value("rotor_thickness") / value("rotor_cells"))
     if sink:
         lost += value("sink_area") * another._flux(beside[4], value("sink_coefficient"))

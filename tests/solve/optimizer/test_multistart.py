@@ -27,7 +27,9 @@ def searches(
     """Starts for a number from 1 to 100 that is `own` in the study, and what is said meanwhile."""
     said: list[str] = []
     table = SimpleNamespace(outputs=(), behind_supplied={"time"})
-    model: Any = SimpleNamespace(start=np.array([own, 7.0]), index={"size": 0, "other": 1}, table=table)
+    model: Any = SimpleNamespace(
+        start=np.array([own, 7.0]), index={"size": 0, "other": 1}, table=table, switch_names=["time"]
+    )
     model.values = lambda inputs, _: {"mass": mass(inputs[0]), "time": np.nan}
 
     def simulated(_: Any, inputs: np.ndarray) -> Cycle:
@@ -99,3 +101,26 @@ def test_where_no_point_will_do_the_search_begins_at_the_study_s_own() -> None:
     found, _ = searches(2, mass=lambda _: np.nan)
     assert sizes(found) == [2.0, 2.0]
     assert found.passed_over["no such module"] == MAX_DRAWS
+
+
+def test_a_point_that_can_be_simulated_takes_the_place_of_a_start_that_cannot() -> None:
+    def takes(size: float) -> float:
+        if size < 10.0:
+            raise SimulationError("it cannot be simulated")
+        return size if size < 40.0 else np.inf
+
+    found, said = searches(2, own=2.0, takes=takes)
+    first, second = sizes(found)
+    assert 10.0 <= first < 40.0
+    assert second == pytest.approx(next(size for size in drawn(50) if 10.0 <= size < 40.0))
+    assert found.model.start[0] == first
+    assert found.cycle.values["time"] == first
+    assert said == ["the study's own start cannot be simulated: starting elsewhere"]
+
+
+def test_where_no_point_can_be_simulated_the_error_says_what_to_do() -> None:
+    def takes(_: float) -> float:
+        raise SimulationError("it cannot be simulated")
+
+    with pytest.raises(SimulationError, match=r"it cannot be simulated; neither can 100 points .* set `module` to"):
+        searches(2, takes=takes)

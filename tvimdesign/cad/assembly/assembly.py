@@ -88,6 +88,11 @@ def place(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0, progress: Progress | None = None
 ) -> dict[str, cq.Solid]:
     """Place the drawn parts, and the springs built for the rotor's angle, by name."""
+    return stood(dims, drawn, rotor_angle) | installed_springs(dims, rotor_angle, progress)
+
+
+def stood(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
+    """Place the drawn parts, all but the springs, by name."""
     placed = {"housing": turned(drawn["housing"], 0.0)}
     placed |= {name: turned(drawn[name], rotor_angle) for name in MADE_TURNING}
     placed |= purchased_parts.stand(dims, drawn, rotor_angle)
@@ -98,8 +103,7 @@ def place(
     placed |= insert_parts.stand(dims, drawn, rotor_angle)
     placed |= dowel_parts.stand(dims, drawn, rotor_angle)
     placed |= motor_parts.stand(dims, drawn)
-    placed |= MODULES[dims.mode].stand(dims, drawn, rotor_angle)
-    return placed | installed_springs(dims, rotor_angle, progress)
+    return placed | MODULES[dims.mode].stand(dims, drawn, rotor_angle)
 
 
 def _left_of(right: cq.Solid, progress: Progress | None) -> cq.Solid:

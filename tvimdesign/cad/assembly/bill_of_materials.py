@@ -73,7 +73,7 @@ def bill(
         what = product(design, kind)
         mass = solids[0].Volume() * what.density * 1e-6
         stock = titles.get("stock_spring") if kind in SPRINGS else None
-        title = _titled(design, kind, stock or titles.get(KINDS[kind].material, what.material))
+        title = _titled(design, kind, stock or titles.get(KINDS[kind].material) or what.material)
         made = PRODUCTION[kind].down != "bought"
         fit = (fits or {}).get(kind, "")
         items.append(Item(kind, len(solids), made, what.material, title, mass, _papers(kind), (kind,), fit))
@@ -121,7 +121,12 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
     grease = "Thermal grease, a film under each pad, and above it where the PCL is not cast on"
     items = [_polymer(design, titles), Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design)]
-    items += [*_of_the_heater(design, titles), *_supply(design), *_glues(design)]
+    items += [*_of_the_heater(design), *_supply(design), *_glues(design)]
+    if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
+        record = str(design.choices["liner_adhesive"])
+        film = 1e3 * (inlay - design.value("liner_thickness"))
+        words = f"{titles.get('liner_adhesive', record)}, a film of {film:.2g} mm under each liner"
+        items.append(Item("liner_adhesive", 1, False, record, words, 0.0, ()))
     if design.choices.get("tang_hold") == BONDED:
         mass = 1e3 * design.value("tang_adhesive_mass")
         record = str(design.choices["tang_adhesive"])
@@ -170,17 +175,14 @@ def _with_spreaders(design: Design) -> list[Item]:
     ]
 
 
-def _of_the_heater(design: Design, titles: Mapping[str, str]) -> list[Item]:
-    """Thermal cut-out and wires, and a thermistor where none is drawn; through a hole of its own below a spreader."""
+def _of_the_heater(design: Design) -> list[Item]:
+    """Wires, and a thermistor where none is drawn; through a hole of its own below a spreader."""
     items = []
     if design.values.get("thermistor_diameter", 0.0) <= 0.0:
         hole = design.values.get("lead_hole_diameter", 0.0) if _has_lead_holes(design) else 0.0
         through = f", through a hole of {1e3 * hole:.3g} mm" if hole else ""
         count = round(design.value("arc_count")) if hole else 1
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
-    if titles.get("heater_fuse"):
-        record = str(design.choices["heater_fuse"])
-        items.append(Item("thermal_cutout", 1, False, record, titles["heater_fuse"], 0.0, ()))
     wire = wire_in_words(design, pad_count(design))
     return items + ([Item("heater_wire", 1, False, "", wire, 0.0, ())] if wire else [])
 

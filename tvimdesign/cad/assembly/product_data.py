@@ -9,10 +9,11 @@ import numpy as np
 import trimesh
 
 from tvimdesign.cad.assembly.assembly import installed_coils
-from tvimdesign.cad.export.mesh import Array, Instance, part_meshes
+from tvimdesign.cad.export.mesh import Instance, Mesh, part_meshes
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
+from tvimdesign.cad.geometry.placement import placement
 from tvimdesign.study.design import Design
 
 _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1.0]])
@@ -26,9 +27,12 @@ def product(design: Design, kind: str) -> Product:
     return Product(name=kind, colour=made_of.colour, material=material, density=design.value(made_of.density))
 
 
-def instances(dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, cq.Solid]) -> dict[str, Instance]:
-    """Mesh and place of every part at rest, by name."""
-    meshes = part_meshes(drawn, installed_coils(dims))
+def instances(
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, cq.Solid],
+    known: Mapping[str, Mesh] | None = None,
+) -> dict[str, Instance]:  # fmt: skip
+    """Mesh and place of every part at rest, by name; `known` are meshes of drawn parts that are made already."""
+    meshes = part_meshes(drawn, installed_coils(dims), known or {})
     return {name: Instance(meshes[kind_of(name)], placement(solid.location())) for name, solid in placed.items()}
 
 
@@ -57,10 +61,3 @@ def glb_bytes(placed: Mapping[str, Instance]) -> bytes:
 def _linear(part: float) -> float:
     """One part of a colour of the screen (sRGB, IEC 61966-2-1) in the linear light that glTF asks for."""
     return part / 12.92 if part <= 0.04045 else float(((part + 0.055) / 1.055) ** 2.4)
-
-
-def placement(location: cq.Location) -> Array:
-    """4 x 4 matrix of a location."""
-    place_of = location.wrapped.Transformation()
-    rows = [[place_of.Value(row, column) for column in range(1, 5)] for row in range(1, 4)]
-    return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])

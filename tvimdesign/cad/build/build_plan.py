@@ -23,7 +23,7 @@ from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
-from tvimdesign.cad.export.mesh import CHORD, spring_mesh
+from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
@@ -38,7 +38,7 @@ from tvimdesign.study.design import Design
 
 PICTURES = "pictures"
 """The work without which a module can still be made: a machine may not be able to render."""
-_SOLID = "solid.bin"
+_SOLID, _MESH = "solid.bin", "mesh.npz"
 _READ_BACK = 1e-6
 """How far a part may be from what its STEP file says, relative; centroids in mm."""
 
@@ -77,6 +77,7 @@ def _part(kind: str, job: Job) -> list[SolidCheck]:
     """One part that is drawn: its solid, STEP, and what it is printed or looked at from."""
     solid = drawn_part(job.dims, kind)
     _keep(job.folder / "kept" / _SOLID, solid)
+    write_mesh(job.folder / "kept" / _MESH, solid_mesh(solid))
     what = product(job.design, kind)
     checks = _step(job.folder, solid, what)
     if PRODUCTION[kind].drawn:
@@ -152,7 +153,7 @@ def _clearances(share: float, job: Job) -> list[SolidCheck]:
 
 
 def _inspect(kind: str, job: Job) -> list[SolidCheck]:
-    return part_checks(job.design, job.dims, kind, _solids(job.needs)[kind])
+    return part_checks(job.design, job.dims, kind, _solids(job.needs)[kind], _meshes(job.needs)[kind])
 
 
 def _inspect_casting(job: Job) -> list[SolidCheck]:
@@ -160,7 +161,7 @@ def _inspect_casting(job: Job) -> list[SolidCheck]:
 
 
 def _inspect_module(job: Job) -> list[SolidCheck]:
-    return list(module_checks(job.design, job.dims, _solids(job.needs)))
+    return list(module_checks(job.design, job.dims, _solids(job.needs), _meshes(job.needs)))
 
 
 def _assembly(job: Job) -> list[SolidCheck]:
@@ -169,7 +170,7 @@ def _assembly(job: Job) -> list[SolidCheck]:
     placed = place(job.dims, drawn)
     products = {name: product(job.design, kind_of(name)) for name in placed}
     write_assembly(job.folder / "out" / file_names.ASSEMBLY_STEP, job.design.name, placed, products)
-    meshed = instances(job.dims, drawn, placed)
+    meshed = instances(job.dims, drawn, placed, _meshes(job.needs))
     _write(job.folder, file_names.ASSEMBLY_GLB, glb_bytes(meshed))
     items = bill(job.design, job.titles, placed)
     _write(job.folder, file_names.ASSEMBLY_DATA, assembly_data(job.design, job.dims, items, meshed))
@@ -212,7 +213,7 @@ def _pictures(job: Job) -> list[SolidCheck]:
 
     drawn = _solids(job.needs)
     solids = place(job.dims, drawn)
-    placed = instances(job.dims, drawn, solids)
+    placed = instances(job.dims, drawn, solids, _meshes(job.needs))
     write_preview(_place(job.folder, file_names.PREVIEW), job.dims, drawn, placed)
     write_exploded(_place(job.folder, file_names.EXPLODED), placed)
     write_section(_place(job.folder, file_names.SECTION), solids, placed)
@@ -233,6 +234,11 @@ def _solids(needs: Mapping[str, Path]) -> dict[str, cq.Solid]:
             raise GeometryError(f"{kind}: its kept solid cannot be read; delete the folder of kept results")
         solids[kind] = cq.Shape.cast(shape)
     return solids
+
+
+def _meshes(needs: Mapping[str, Path]) -> dict[str, Mesh]:
+    """The meshes of those solids, by kind."""
+    return {kind: read_mesh(folder / _MESH) for kind, folder in needs.items()}
 
 
 def _write(folder: Path, name: str, data: bytes) -> None:

@@ -28,7 +28,7 @@ from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
 
 if TYPE_CHECKING:
-    from tvimdesign.cad.build.worker import Done
+    from tvimdesign.cad.build.cache import Result
 
 
 def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
@@ -51,9 +51,12 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
         prefix = HALF_MADE.removesuffix("*")
         own = user_folder() or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
-        workshop = WorkerPool(TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), timeout_s)
+        workshop = WorkerPool(
+            TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), timeout_s,
+            made=lambda result: _hand_out(result, out),
+        )  # fmt: skip
         done = workshop.do(build_plan(dimensions(design)))
-        files = _hand_out(done, out)
+        files = sorted(name for result in done.results.values() for name in result.out)
     pictures = done.failed.pop(PICTURES, "")
     if done.failed:
         without = [f"without it there is no {', '.join(done.lost)}"] if done.lost else []
@@ -100,15 +103,11 @@ def _ordered_by(record: Record, design: Design, row: str) -> str:
     return record.words["designation"].format(length=f"{1e3 * length:.3g}")
 
 
-def _hand_out(done: Done, out: Path) -> list[str]:
-    """Copy the results into the user's folder, each file whole; returns their names."""
-    files = []
-    for result in done.results.values():
-        for name in result.out:
-            (out / name).parent.mkdir(parents=True, exist_ok=True)
-            write_whole(out / name, (result.folder / "out" / name).read_bytes())
-            files.append(name)
-    return sorted(files)
+def _hand_out(result: Result, out: Path) -> None:
+    """Copy a result into the user's folder, each file whole: the first are there long before the last."""
+    for name in result.out:
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        write_whole(out / name, (result.folder / "out" / name).read_bytes())
 
 
 def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] = run) -> int:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import multiprocessing as mp
 import os
+import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
@@ -89,13 +90,18 @@ class WorkerPool:
         progress: Progress,
         timeout_s: float = TIMEOUT,
         hands: int | None = None,
+        made: Callable[[Result], object] = lambda _result: None,
     ) -> None:
-        """`hands` is how many pieces of work are in progress at once; as many as there are cores, at most four."""
+        """`hands` is how many pieces of work are in progress at once; as many as there are cores, at most four.
+
+        `made` is told every result as soon as it is there.
+        """
+        self._made = made
         self._subject, self._store, self._progress = subject, store, progress
         self._timeout = timeout_s
         self._hands = hands or min(os.cpu_count() or 1, 4)
-        ways = mp.get_all_start_methods()
-        self._context: Any = mp.get_context("fork" if "fork" in ways else "spawn")
+        # Elsewhere a fork is not safe: a library's threads may hold locks, and macOS ends such a child.
+        self._context: Any = mp.get_context("fork" if sys.platform == "linux" else "spawn")
 
     def do(self, build_plan: Sequence[Work]) -> Done:
         """Do all pieces of work, each after those that it needs."""
@@ -122,6 +128,7 @@ class WorkerPool:
                 left.append(work)
             elif kept := self._store.find(work.name, self._subject, self._needs(work, done)):
                 done.results[work.name] = kept
+                self._made(kept)
                 done.reused.append(work.name)
             elif len(running) < self._hands:
                 running.append(self._fork(work, done))
@@ -183,6 +190,7 @@ class WorkerPool:
             checks = [SolidCheck(**check) for check in one.reported["checks"]]
             reads: Reads = one.reported["reads"]
             done.results[name] = self._store.close(name, one.folder, reads, self._needs(one.work, done), checks)
+            self._made(done.results[name])
         _end(one.process, grace_s=0.0 if one.reported is None else 5.0)
         if name in done.failed:
             self._store.discard(one.folder)

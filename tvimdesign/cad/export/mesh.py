@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil, pi, sqrt
+from pathlib import Path
 
 import cadquery as cq
 import numpy as np
@@ -51,6 +52,17 @@ class Instance:
     def points(self) -> Array:
         """Its vertices where they stand in the module [mm], one a row."""
         return np.asarray(self.mesh.vertices @ self.matrix[:3, :3].T + self.matrix[:3, 3])
+
+
+def write_mesh(path: Path, mesh: Mesh) -> None:
+    """Keep a mesh as it is, to the last digit."""
+    np.savez(path, vertices=mesh.vertices, faces=mesh.faces)
+
+
+def read_mesh(path: Path) -> Mesh:
+    """A mesh that `write_mesh` has kept."""
+    with np.load(path) as kept:
+        return Mesh(kept["vertices"], kept["faces"])
 
 
 def solid_mesh(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> Mesh:
@@ -138,9 +150,14 @@ def coil_points(coil: Coil) -> int:
     return ceil(2.0 * pi * coil.turns / step) + 1
 
 
-def part_meshes(drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil]) -> dict[str, Mesh]:
-    """Mesh of each kind of part in its own coordinates; `coils` says which shape the springs have."""
-    meshes = {kind: solid_mesh(solid) for kind, solid in drawn.items()}
+def part_meshes(
+    drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil], known: Mapping[str, Mesh]
+) -> dict[str, Mesh]:  # fmt: skip
+    """Mesh of each kind of part in its own coordinates; `coils` says which shape the springs have.
+
+    `known` are those that are made already.
+    """
+    meshes = {kind: known[kind] if kind in known else solid_mesh(solid) for kind, solid in drawn.items()}
     meshes["spring_right"] = spring_mesh(coils["spring_right"])
     meshes["spring_left"] = spring_mesh(coils["spring_left"]).mirrored()
     return meshes

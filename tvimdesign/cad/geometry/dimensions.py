@@ -78,15 +78,20 @@ class Dimensions:
 
 def dimensions(design: Design) -> Dimensions:
     """Convert a design's values to the units of CAD; dimensions that only other rows use are worked out first."""
-    table = table_for(design.mode)
+    return dimensions_of(design.mode, design.values, design.choices)
+
+
+def dimensions_of(mode: str, given: Mapping[str, float], choices: Mapping[str, str]) -> Dimensions:
+    """The same of values [SI] and chosen words by name."""
+    table = table_for(mode)
     rows: list[Input | Output] = [*table.inputs, *table.outputs]
     units = {row.name: row.unit for row in rows if row.unit in _SCALE}
-    values = design.values | table.evaluate(design.values, [row.name for row in table.outputs if _unprinted(row)])
+    values = {**given, **table.evaluate(given, [row.name for row in table.outputs if _unprinted(row)])}
     lengths = {name: value * _SCALE[units[name]] for name, value in values.items() if name in units}
     for row in table.outputs:
         if row.name.endswith(HOLES):
-            lengths |= _circles(row.name, table.evaluate(design.values | design.choices, [row.name])[row.name])
-    return Dimensions(design.mode, lengths)
+            lengths |= _circles(row.name, table.evaluate({**given, **choices}, [row.name])[row.name])
+    return Dimensions(mode, lengths)
 
 
 def _circles(name: str, circles: Iterable[Any]) -> dict[str, float]:

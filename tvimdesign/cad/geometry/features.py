@@ -81,9 +81,11 @@ def _round(value: float) -> float:
     return round(value, _DIGITS) + 0.0
 
 
-def holes(solid: cq.Solid) -> list[Cylinder]:
-    """Round upright holes: cylinders with material around and none inside."""
+def holes(solid: cq.Solid, at: tuple[float, float] | None = None) -> list[Cylinder]:
+    """Round upright holes: cylinders with material around and none inside; with `at` those about a place."""
     inside_out = [one for one in upright_cylinders(solid) if one.concave and one.is_round]
+    if at is not None:
+        inside_out = [one for one in inside_out if abs(one.x - at[0]) < 1e-4 and abs(one.y - at[1]) < 1e-4]
     return [one for one in inside_out if _is_empty(solid, one)]
 
 

@@ -40,7 +40,9 @@ KINDS = {
     "pcl_block": _kind((0.95, 0.93, 0.82), "pcl_grade", "pcl_density", "pcl_volume"),
     "peltier_pad": _kind((0.72, 0.20, 0.18), "peltier_module", "peltier_density", "peltier_volume"),
     "spreader": _kind((0.80, 0.80, 0.78), "spreader_material", "spreader_density", "spreader_volume"),
+    "liner": _kind((0.55, 0.50, 0.40), "liner_material", "liner_density", "liner_volume"),
     "thermistor": _kind((0.10, 0.10, 0.12), "thermistor", "thermistor_density", "thermistor_volume"),
+    "thermal_cutout": _kind((0.78, 0.74, 0.62), "heater_fuse", "cutout_density", "cutout_volume"),
     "link_screw": _kind(_STEEL, "link_screw", "link_screw_density", "link_screw_volume"),
     "link_insert": _kind(_BRASS, "link_insert", "link_insert_density", "link_insert_volume"),
     "link_dowel": _kind((0.72, 0.74, 0.78), "link_dowel", "link_dowel_density", "link_dowel_volume"),
@@ -71,7 +73,7 @@ KINDS = {
 """Of all modes, by name; a placed part is named after its kind, with a number where there are several."""
 TURNING = (
     "rotor", "link", "retainer", "link_screw", "retainer_screw", "link_insert", "retainer_insert", "bearing_inner",
-    "link_dowel",
+    "link_dowel", "liner",
 )  # fmt: skip
 """The kinds that turn together."""
 MADE_TURNING = TURNING[:3]

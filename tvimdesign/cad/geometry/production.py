@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from tvimdesign.cad.geometry.dimensions import Dimensions
+
 
 @dataclass(frozen=True, kw_only=True)
 class Production:
@@ -27,7 +29,7 @@ PRODUCTION = {
     "rotor": Production(
         down="top", drawn=True,
         why="link end of the core on the bed: the face the PCL bonds to, or the vanes, come out on top without marks "
-        "of supports, which stand between plate and bed",
+        "of supports, which stand between plate and bed, and under the pins",
     ),
     "link": Production(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
     "retainer": Production(down="bottom", drawn=True, why="flat: no support"),
@@ -43,7 +45,9 @@ PRODUCTION = {
         why="a Peltier module of the catalogue, cut to this outline or of this size as it is sold",
     ),
     "spreader": Production(down="bought", drawn=True, why="cut from sheet of its material by its drawing"),
+    "liner": Production(down="bought", drawn=True, why="cut from sheet of its material by its drawing, or printed"),
     "thermistor": Production(down="bought", why="a thermistor in glass with a bead of this size and insulated wires"),
+    "thermal_cutout": Production(down="bought", why="a thermal cut-out of the catalogue, its type by the bill"),
     "adjuster": Production(
         down="bottom", drawn=True, why="flange on the bed: post and slot grow upwards, the screw's hole stands upright",
     ),
@@ -79,3 +83,10 @@ PRODUCTION = {
     "spring_left": Production(down="bought", why="wound to the spring maker's sheet"),
 }  # fmt: skip
 """By kind of part, of all modes."""
+
+
+def supported_levels(kind: str, dims: Dimensions) -> tuple[float, ...]:
+    """Levels [mm] at which `PRODUCTION` says that a part stands on support as it is printed, in the open."""
+    if kind == "housing":
+        return (-dims.floor_thickness,)
+    return (dims.rotor_top_level, dims.pin_top_level) if kind == "rotor" else ()

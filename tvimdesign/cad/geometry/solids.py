@@ -1,19 +1,35 @@
-"""Drawing aids: upright cylinders, rings, sectors and slots between two levels. Lengths in mm, angles in rad."""
+"""Drawing aids: upright cylinders, rings, sectors and slots between two levels. Lengths in mm, angles in rad.
+
+What draws them is a kernel: CadQuery's, unless another one is chosen for a while (`drawn_by`). So the parts are said
+once, for exact solids and for drafts.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from math import acos, cos, pi, sin, sqrt, tan
 
 import cadquery as cq
-from OCP.StdFail import StdFail_NotDone
 
 from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.geometry.exact_kernel import ExactKernel
+from tvimdesign.cad.geometry.outlines import Kernel, Point, Segment
 
-Point = tuple[float, float]
 _UP = cq.Vector(0, 0, 1)
-_UPRIGHT = 0.999
-"""Least upward part of the direction of an edge that counts as upright."""
+_EXACT: Kernel = ExactKernel()
+_KERNEL: ContextVar[Kernel] = ContextVar("kernel", default=_EXACT)
+
+
+@contextmanager
+def drawn_by(kernel: Kernel) -> Iterator[None]:
+    """Let another kernel draw, within a `with` block."""
+    before = _KERNEL.set(kernel)
+    try:
+        yield
+    finally:
+        _KERNEL.reset(before)
 
 
 def polar(radius: float, azimuth: float) -> Point:
@@ -31,38 +47,33 @@ def _require(**lengths: float) -> None:
 def cylinder(radius: float, bottom: float, top: float, at: Point = (0.0, 0.0)) -> cq.Solid:
     """Upright cylinder between two levels."""
     _require(radius=radius, height=top - bottom)
-    return cq.Solid.makeCylinder(radius, top - bottom, cq.Vector(*at, bottom), _UP)
+    return _KERNEL.get().cylinder(radius, bottom, top, at)
 
 
 def block(along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
     """Upright block across the x axis, between two places on it and two levels."""
     start, end = along_x
     _require(length=end - start, width=width, height=top - bottom)
-    return cq.Solid.makeBox(end - start, width, top - bottom, cq.Vector(start, -0.5 * width, bottom))
+    return _KERNEL.get().block(along_x, width, bottom, top)
 
 
 def ring(inner: float, outer: float, bottom: float, top: float) -> cq.Solid:
     """Upright ring about the axis between two levels."""
     _require(inner_radius=inner, width_of_a_ring=outer - inner, height=top - bottom)
-    outside, inside = (cq.Wire.makeCircle(radius, cq.Vector(0, 0, bottom), _UP) for radius in (outer, inner))
-    return cq.Solid.extrudeLinear(outside, [inside], cq.Vector(0, 0, top - bottom))
+    return _KERNEL.get().prism(outer, [inner], bottom, top)
 
 
 def sector(inner: float, outer: float, span: float, bottom: float, top: float) -> cq.Solid:
     """Upright annular sector about the axis, centred on the x axis, between two levels."""
     _require(inner_radius=inner, width_of_a_sector=outer - inner, span=span, height=top - bottom)
     first, last = -0.5 * span, 0.5 * span
-
-    def at(radius: float, angle: float) -> cq.Vector:
-        return cq.Vector(*polar(radius, angle), bottom)
-
-    outline = cq.Wire.assembleEdges([
-        cq.Edge.makeThreePointArc(at(outer, first), at(outer, 0.0), at(outer, last)),
-        cq.Edge.makeLine(at(outer, last), at(inner, last)),
-        cq.Edge.makeThreePointArc(at(inner, last), at(inner, 0.0), at(inner, first)),
-        cq.Edge.makeLine(at(inner, first), at(outer, first)),
-    ])  # fmt: skip
-    return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+    outline: list[Segment] = [
+        (polar(outer, first), polar(outer, 0.0), polar(outer, last)),
+        (polar(outer, last), polar(inner, last)),
+        (polar(inner, last), polar(inner, 0.0), polar(inner, first)),
+        (polar(inner, first), polar(outer, first)),
+    ]
+    return _KERNEL.get().prism(outline, [], bottom, top)
 
 
 def wedge(along_x: Point, span: float, inset: float, bottom: float, top: float) -> cq.Solid:
@@ -72,8 +83,8 @@ def wedge(along_x: Point, span: float, inset: float, bottom: float, top: float) 
     _require(width_of_a_wedge=min(halves))
     (near, far), (start, end) = halves, along_x
     corners = [(start, -near), (end, -far), (end, far), (start, near)]
-    outline = cq.Wire.makePolygon([cq.Vector(*corner, bottom) for corner in corners], close=True)
-    return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+    outline = list(zip(corners, [*corners[1:], corners[0]], strict=True))
+    return _KERNEL.get().prism(outline, [], bottom, top)
 
 
 def spoked_disc(
@@ -86,10 +97,10 @@ def spoked_disc(
     along = sqrt((radius + corner) ** 2 - (half_width + corner) ** 2)
     touch, beside = radius / (radius + corner), half_width + corner
 
-    def at(x: float, y: float, azimuth: float) -> cq.Vector:
-        return cq.Vector(x * cos(azimuth) - y * sin(azimuth), x * sin(azimuth) + y * cos(azimuth), bottom)
+    def at(x: float, y: float, azimuth: float) -> Point:
+        return x * cos(azimuth) - y * sin(azimuth), x * sin(azimuth) + y * cos(azimuth)
 
-    def fillet(side: float, azimuth: float) -> tuple[cq.Vector, cq.Vector, cq.Vector]:
+    def fillet(side: float, azimuth: float) -> tuple[Point, Point, Point]:
         """Where it touches the disc, its middle, and where it touches the spoke."""
         inwards = cq.Vector(-along, -side * beside, 0.0).normalized() + cq.Vector(0.0, -side, 0.0)
         half = inwards.normalized() * corner
@@ -99,19 +110,19 @@ def spoked_disc(
             at(along, side * half_width, azimuth),
         )
 
-    edges = []
+    edges: list[Segment] = []
     for azimuth, following in zip(azimuths, [*azimuths[1:], azimuths[0] + 2.0 * pi], strict=True):
         before, after, later = fillet(-1.0, azimuth), fillet(1.0, azimuth), fillet(-1.0, following)
         near, far = at(length, -half_width, azimuth), at(length, half_width, azimuth)
         edges += [
-            cq.Edge.makeThreePointArc(*before),
-            cq.Edge.makeLine(before[2], near),
-            cq.Edge.makeThreePointArc(near, at(length + half_width, 0.0, azimuth), far),
-            cq.Edge.makeLine(far, after[2]),
-            cq.Edge.makeThreePointArc(*reversed(after)),
-            cq.Edge.makeThreePointArc(after[0], at(radius, 0.0, 0.5 * (azimuth + following)), later[0]),
+            before,
+            (before[2], near),
+            (near, at(length + half_width, 0.0, azimuth), far),
+            (far, after[2]),
+            after[::-1],
+            (after[0], at(radius, 0.0, 0.5 * (azimuth + following)), later[0]),
         ]
-    return cq.Solid.extrudeLinear(cq.Wire.assembleEdges(edges), [], cq.Vector(0, 0, top - bottom))
+    return _KERNEL.get().prism(edges, [], bottom, top)
 
 
 def bossed_ring(radii: Point, boss: float, corner: float, azimuths: Sequence[float], levels: Point) -> cq.Solid:
@@ -128,49 +139,44 @@ def bossed_ring(radii: Point, boss: float, corner: float, azimuths: Sequence[flo
     def at(radius: float, azimuth: float) -> cq.Vector:
         return cq.Vector(*polar(radius, azimuth), bottom)
 
-    def fillet(azimuth: float, side: float) -> tuple[cq.Vector, cq.Vector, cq.Vector]:
+    def fillet(azimuth: float, side: float) -> tuple[Point, Point, Point]:
         """Where it touches the circle, its middle, and where it touches the disc."""
         centre, out = at(rim, azimuth + side * beside), at(1.0, azimuth + side * beside) - at(0.0, 0.0)
         towards = (at(inner, azimuth) - centre).normalized()
-        return centre + out * corner, centre + (out + towards).normalized() * corner, centre + towards * corner
+        touch, middle, end = out * corner, (out + towards).normalized() * corner, towards * corner
+        first, second, third = (centre + part for part in (touch, middle, end))
+        return (first.x, first.y), (second.x, second.y), (third.x, third.y)
 
-    edges = []
+    edges: list[Segment] = []
     for azimuth, following in zip(azimuths, [*azimuths[1:], azimuths[0] + 2.0 * pi], strict=True):
         before, after, later = fillet(azimuth, -1.0), fillet(azimuth, 1.0), fillet(following, -1.0)
         edges += [
-            cq.Edge.makeThreePointArc(*before),
-            cq.Edge.makeThreePointArc(before[2], at(inner - boss, azimuth), after[2]),
-            cq.Edge.makeThreePointArc(*reversed(after)),
-            cq.Edge.makeThreePointArc(after[0], at(inner, 0.5 * (azimuth + following)), later[0]),
+            before,
+            (before[2], polar(inner - boss, azimuth), after[2]),
+            after[::-1],
+            (after[0], polar(inner, 0.5 * (azimuth + following)), later[0]),
         ]
-    outside = cq.Wire.makeCircle(outer, cq.Vector(0, 0, bottom), _UP)
-    return cq.Solid.extrudeLinear(outside, [cq.Wire.assembleEdges(edges)], cq.Vector(0, 0, top - bottom))
+    return _KERNEL.get().prism(outer, [edges], bottom, top)
 
 
 def rounded(body: cq.Shape, radius: float) -> cq.Solid:
     """The one solid of a body with every upright edge rounded."""
     _require(corner_radius=radius)
-    solid = body.Solids()[0]
-    upright = [edge for edge in solid.Edges() if edge.geomType() == "LINE" and abs(edge.tangentAt(0.5).z) > _UPRIGHT]
-    try:
-        return cq.Solid(solid.fillet(radius, upright).Solids()[0].wrapped)
-    except StdFail_NotDone as error:
-        raise GeometryError(f"corners of {radius:.4g} mm do not fit; choose a smaller corner_radius") from error
+    return _KERNEL.get().rounded(body, radius)
 
 
 def slot(half_width: float, length: float, bottom: float, top: float) -> cq.Solid:
     """Upright obround from the axis to `length` along x, with a half disc at each end."""
     _require(half_width=half_width, length=length, height=top - bottom)
     b = half_width
-    corners = [cq.Vector(x, y, bottom) for x, y in ((0, -b), (length, -b), (length, b), (0, b))]
-    far, near = cq.Vector(length + b, 0, bottom), cq.Vector(-b, 0, bottom)
-    outline = cq.Wire.assembleEdges([
-        cq.Edge.makeLine(corners[0], corners[1]),
-        cq.Edge.makeThreePointArc(corners[1], far, corners[2]),
-        cq.Edge.makeLine(corners[2], corners[3]),
-        cq.Edge.makeThreePointArc(corners[3], near, corners[0]),
-    ])  # fmt: skip
-    return cq.Solid.extrudeLinear(outline, [], cq.Vector(0, 0, top - bottom))
+    corners = [(0.0, -b), (length, -b), (length, b), (0.0, b)]
+    outline: list[Segment] = [
+        (corners[0], corners[1]),
+        (corners[1], (length + b, 0.0), corners[2]),
+        (corners[2], corners[3]),
+        (corners[3], (-b, 0.0), corners[0]),
+    ]
+    return _KERNEL.get().prism(outline, [], bottom, top)
 
 
 def join(body: cq.Shape, others: Iterable[cq.Shape]) -> cq.Shape:

@@ -10,10 +10,10 @@ from tvimdesign.base.units import from_si
 from tvimdesign.cad.assembly.assembly import place
 from tvimdesign.cad.assembly.product_data import instances
 from tvimdesign.cad.cad_report import SolidCheck
-from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.export.mesh import Mesh, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import holes
-from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.production import PRODUCTION, supported_levels
 from tvimdesign.cad.inspection.coils import coil_checks
 from tvimdesign.cad.inspection.corners import corner_checks, hole_check
 from tvimdesign.cad.inspection.finding import at_least, finding
@@ -29,9 +29,11 @@ from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
 
 
-def part_checks(design: Design, dims: Dimensions, kind: str, solid: cq.Solid) -> list[SolidCheck]:
-    """Hold one made part against its process: all it needs is its own solid."""
-    mesh = solid_mesh(solid)
+def part_checks(
+    design: Design, dims: Dimensions, kind: str, solid: cq.Solid, mesh: Mesh | None = None
+) -> list[SolidCheck]:  # fmt: skip
+    """Hold one made part against its process: all it needs is its own solid, and its mesh if that is there."""
+    mesh = mesh or solid_mesh(solid)
     triangles = Triangles(mesh)
     bed = (dims.bed_length, dims.bed_width, dims.bed_height)
     found = [solid_check(kind, solid), *wall_checks(kind, triangles, dims.minimum_wall, dims.thinnest_wall)]
@@ -41,8 +43,8 @@ def part_checks(design: Design, dims: Dimensions, kind: str, solid: cq.Solid) ->
         found += corner_checks(kind, solid, dims.corner_radius, dims.corner_depth_ratio)
         found += [hole_check(kind, drilled, dims.hole_depth_ratio)]
         return [*found, bed_check(kind, triangles.upper - triangles.lower, bed)]
-    down = PRODUCTION[kind].down
-    return [*found, *printing_checks(kind, mesh, down, dims.overhang_angle, dims.bridge_span, bed)]
+    down, levels = PRODUCTION[kind].down, supported_levels(kind, dims)
+    return [*found, *printing_checks(kind, mesh, down, dims.overhang_angle, dims.bridge_span, bed, levels)]
 
 
 def solid_check(kind: str, shape: cq.Shape) -> SolidCheck:
@@ -52,12 +54,17 @@ def solid_check(kind: str, shape: cq.Shape) -> SolidCheck:
     return finding(kind, "solid", count, 1.0, "", "pass" if count == 1 and sound else "failure", text)
 
 
-def module_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
-    """Hold the module against its own rules, its springs as they wind, its screws, and the order of its assembly."""
+def module_checks(
+    design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], known: Mapping[str, Mesh] | None = None
+) -> Iterator[SolidCheck]:
+    """Hold the module against its own rules, its springs as they wind, its screws, and the order of its assembly.
+
+    `known` are meshes of the drawn parts that are made already, by kind.
+    """
     yield from rule_checks(design)
     yield from coil_checks(dims)
     yield from thread_checks(dims, drawn)
-    yield from order_checks(dims, instances(dims, drawn, place(dims, drawn)))
+    yield from order_checks(dims, instances(dims, drawn, place(dims, drawn), known))
 
 
 def rule_checks(design: Design) -> Iterator[SolidCheck]:
@@ -109,5 +116,4 @@ def _threads(
     if insert_length(dims, joint):
         box, (_, _, bottom) = drawn[f"{joint}_insert"].BoundingBox(), insert_places(dims, joint)[0]
         return [(bottom + box.zmin, bottom + box.zmax)]
-    found = holes(drawn[host])
-    return [(one.bottom, one.top) for one in found if abs(one.x - at[0]) < 1e-4 and abs(one.y - at[1]) < 1e-4]
+    return [(one.bottom, one.top) for one in holes(drawn[host], at)]

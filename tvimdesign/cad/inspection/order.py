@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
 from math import cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
@@ -40,24 +39,32 @@ class PlacedPart(NamedTuple):
 
 
 class Standing:
-    """The parts that are in place, as one mesh that knows which part each triangle is of."""
+    """The parts that are in place; each keeps its triangles, however many others come after it."""
 
-    def __init__(self, parts: Mapping[str, Mesh]) -> None:
-        """`parts` are meshes in the module's coordinates, by name."""
-        self._parts = dict(parts)
+    def __init__(self, parts: Mapping[str, Mesh] | Mapping[str, Triangles]) -> None:
+        """`parts` are meshes or triangles in the module's coordinates, by name."""
+        self._parts = {n: one if isinstance(one, Triangles) else Triangles(one) for n, one in parts.items()}
 
-    @cached_property
-    def triangles(self) -> Triangles:
-        """All of them together."""
-        first = np.cumsum([0] + [len(mesh.vertices) for mesh in self._parts.values()])
-        faces = [mesh.faces + start for mesh, start in zip(self._parts.values(), first, strict=False)]
-        return Triangles(Mesh(np.concatenate([mesh.vertices for mesh in self._parts.values()]), np.concatenate(faces)))
+    def first_distances(self, origins: Array, out: Array) -> Array:
+        """How far rays up or down along the axis come before they meet a part [mm]; infinite if they meet none."""
+        nearest = np.full(len(origins), inf)
+        low, high = origins[:, :2].min(axis=0), origins[:, :2].max(axis=0)
+        for part in self._parts.values():
+            if np.any(part.upper[:2] < low - _SKIN) or np.any(part.lower[:2] > high + _SKIN):
+                continue
+            near = np.all(
+                (origins[:, :2] >= part.lower[:2] - _SKIN) & (origins[:, :2] <= part.upper[:2] + _SKIN), axis=1
+            )
+            rays = np.flatnonzero(near)
+            found = part.first_hits(origins[rays], np.tile(out, (len(rays), 1))).distance
+            nearest[rays] = np.minimum(nearest[rays], found)
+        return nearest
 
     def nearest(self, point: Array) -> str:
         """Name of the part whose box a point lies closest to."""
 
-        def away(mesh: Mesh) -> float:
-            outside = np.maximum(mesh.vertices.min(axis=0) - point, point - mesh.vertices.max(axis=0))
+        def away(part: Triangles) -> float:
+            outside = np.maximum(part.lower - point, point - part.upper)
             return float(np.linalg.norm(np.maximum(outside, 0.0)))
 
         return min(self._parts, key=lambda name: away(self._parts[name]))
@@ -76,18 +83,19 @@ def sequence(names: Sequence[str]) -> list[PlacedPart]:
 def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[SolidCheck]:
     """Put part after part in its place and hold its way in against those that are there; then look at the screws."""
     meshes = {name: in_module(instance) for name, instance in placed.items()}
+    shapes = {name: Triangles(mesh) for name, mesh in meshes.items()}
     order = sequence(list(meshes))
     left = sorted(set(meshes) - {one.name for one in order})
     text = "every part has its step" if not left else f"no step puts these in their places: {', '.join(left)}"
     yield finding("module", "steps", len(left), 0.0, "", at_most(len(left), 0.0), text)
-    there: dict[str, Mesh] = {}
+    there: dict[str, Triangles] = {}
     for group in _groups(order):
         together = Standing(there) if there else None
         names = [one.name for one in group]
         if together:
             # Copies of a part go in alike: what is before one is before all of them but for the angle.
-            yield _way_check(kind_of(names[0]), group[0].side, {name: meshes[name] for name in names}, together)
-        there |= {name: meshes[name] for name in names}
+            yield _way_check(kind_of(names[0]), group[0].side, {name: shapes[name] for name in names}, together)
+        there |= {name: shapes[name] for name in names}
         if kind_of(names[0]).endswith("_screw"):
             standing, out = Standing(there), _WAY[group[0].side]
             key = dims.of(kind_of(names[0]), "key")
@@ -114,17 +122,17 @@ def in_module(instance: Instance) -> Mesh:
     return Mesh(instance.mesh.vertices @ turn.T + shift, instance.mesh.faces)
 
 
-def _way_check(kind: str, side: str, copies: Mapping[str, Mesh], there: Standing) -> SolidCheck:
+def _way_check(kind: str, side: str, copies: Mapping[str, Triangles], there: Standing) -> SolidCheck:
     """Look back along the way in from every copy: what it meets there, the part would have to pass through."""
     out = _WAY[side]
-    points = [_leading(mesh, out) for mesh in copies.values()]
-    found = there.triangles.first_hits(np.concatenate(points), np.tile(out, (sum(map(len, points)), 1)))
-    blocked = np.flatnonzero(~found.missed)
+    points = np.concatenate([_leading(copy, out) for copy in copies.values()])
+    found = there.first_distances(points, out)
+    blocked = np.flatnonzero(np.isfinite(found))
     text = f"comes into its place from {side}, nothing in its way"
     place = None
     if len(blocked):
-        first = blocked[int(np.argmin(found.distance[blocked]))]
-        place = np.concatenate(points)[first] + found.distance[first] * out
+        first = blocked[int(np.argmin(found[blocked]))]
+        place = points[first] + found[first] * out
         text = (
             f"comes from {side}, and {there.nearest(place)} is in its way: {len(blocked)} samples of it meet something"
         )
@@ -134,9 +142,8 @@ def _way_check(kind: str, side: str, copies: Mapping[str, Mesh], there: Standing
     )  # fmt: skip
 
 
-def _leading(mesh: Mesh, out: Array) -> Array:
+def _leading(triangles: Triangles, out: Array) -> Array:
     """Points just under the faces a part goes in with."""
-    triangles = Triangles(mesh)
     where = samples(triangles, SPACING, np.flatnonzero(triangles.normal @ out < _STEEPEST))
     inwards = where.point - _SKIN * where.normal
     # Under a face, but also away from its edges: towards the middle of the triangle, as far.
@@ -166,7 +173,7 @@ def _driver(name: str, head: Array, out: Array, there: Standing, key: float) -> 
     angles = np.arange(_TOOL_RAYS) * 2.0 * pi / _TOOL_RAYS
     rim = [[share * radius * cos(one), share * radius * sin(one), 0.0] for share in (0.5, 1.0) for one in angles]
     starts = head + _SKIN * out + np.array([[0.0, 0.0, 0.0], *rim])
-    free = there.triangles.first_hits(starts, np.tile(out, (len(starts), 1))).distance
+    free = there.first_distances(starts, out)
     least = float(free.min())
     text = f"a key of {key:.3g} mm has {TOOL_LENGTH:.3g} mm before the screw"
     place = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import degrees, sin, sqrt
 from typing import NamedTuple
 
@@ -37,6 +38,8 @@ class Overhang(NamedTuple):
     span: float
     """Longest of the shortest ways between walls across it [mm]; infinite where it ends in the air, or leans."""
     middle: Array
+    level: bool
+    """Whether it lies level throughout."""
 
 
 def lying(mesh: Mesh, down: str) -> Mesh:
@@ -45,9 +48,18 @@ def lying(mesh: Mesh, down: str) -> Mesh:
 
 
 def printing_checks(
-    part: str, mesh: Mesh, down: str, overhang_angle: float, bridge_span: float, bed: tuple[float, float, float]
+    part: str,
+    mesh: Mesh,
+    down: str,
+    overhang_angle: float,
+    bridge_span: float,
+    bed: tuple[float, float, float],
+    supported: Sequence[float] = (),
 ) -> list[SolidCheck]:
-    """Hold a part as it is printed against the process: angle from upright [rad], lengths [mm]."""
+    """Hold a part as it is printed against the process: angle from upright [rad], lengths [mm].
+
+    `supported` are levels of the module at which faces stand on support: that is told, and no fault.
+    """
     triangles = Triangles(lying(mesh, down))
     found = overhangs(triangles, overhang_angle)
     back = _TURNED_OVER if down == "top" else np.ones(3)
@@ -55,6 +67,7 @@ def printing_checks(
     hanging = [one for one in found if one.span > bridge_span]
     area = sum(one.area for one in hanging)
     worst = max(hanging, key=lambda one: one.area, default=None)
+    is_open = all(one.level and any(abs(one.middle[2] * back[2] - at) < _ON_BED for at in supported) for one in hanging)
     angle = f"{degrees(overhang_angle):.3g} deg"
     text = f"{area:.4g} mm2 lean more than {angle} and are no bridge of {bridge_span:.3g} mm or less"
     if worst:
@@ -64,7 +77,7 @@ def printing_checks(
     bridged = f"{len(bridges)} bridges, the longest {span:.3g} mm" if bridges else "nothing is bridged"
     return [
         finding(
-            part, "overhang", area, _NOTHING, "mm^2", "warning" if worst else "pass", text,
+            part, "overhang", area, _NOTHING, "mm^2", "pass" if is_open else "warning", text,
             place=worst.middle * back if worst else None, resolution=SPACING,
         ),
         finding(
@@ -112,7 +125,7 @@ def _overhang(triangles: Triangles, group: Index) -> Overhang:
     down = np.array([0.0, 0.0, -1.0])
     spans = across(triangles, where.point + _BELOW * down, down)[0] if level else np.full(len(where), np.inf)
     worst = int(np.argmax(spans))
-    return Overhang(area, float(spans[worst]), where.point[worst])
+    return Overhang(area, float(spans[worst]), where.point[worst], level)
 
 
 def _places(count: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -47,7 +48,11 @@ class Triangles:
         self.area: Array = 0.5 * twice[sound]
         self.normal: Array = crossed[sound] / twice[sound][:, None]
         self.lower, self.upper = self.corners.reshape(-1, 3).min(axis=0), self.corners.reshape(-1, 3).max(axis=0)
-        self._order, self._boxes = _tree(self.corners)
+
+    @cached_property
+    def _grown(self) -> tuple[Index, list[tuple[Array, Array]]]:
+        """The tree, grown when the first ray is followed."""
+        return _tree(self.corners)
 
     def first_hits(self, origins: Array, directions: Array, beyond: float = 1e-6) -> Hits:
         """Return the first triangle each ray meets further than `beyond` [mm] from where it starts; unit directions."""
@@ -62,15 +67,16 @@ class Triangles:
         """Walk down the tree with the rays that are still inside, a level at a time."""
         with np.errstate(divide="ignore"):
             inverse = 1.0 / directions
+        order, boxes = self._grown
         rays = np.arange(len(origins))
         nodes = np.zeros(len(origins), dtype=np.int64)
-        for lower, upper in self._boxes[:-1]:
+        for lower, upper in boxes[:-1]:
             inside = _meets_box(lower[nodes], upper[nodes], origins[rays], inverse[rays])
             rays, nodes = rays[inside], nodes[inside]
             rays, nodes = np.repeat(rays, 2), np.stack((2 * nodes, 2 * nodes + 1), axis=1).ravel()
-        lower, upper = self._boxes[-1]
+        lower, upper = boxes[-1]
         inside = _meets_box(lower[nodes], upper[nodes], origins[rays], inverse[rays])
-        rays, leaves = rays[inside], self._order[nodes[inside]]
+        rays, leaves = rays[inside], order[nodes[inside]]
         rays, met = np.repeat(rays, leaves.shape[1]), leaves.ravel()
         far = _meets_triangle(self.corners[met], origins[rays], directions[rays])
         wanted = far > beyond

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
@@ -22,8 +24,11 @@ _NEIGHBOURS = 1.5
 """Samples no further apart than so many of their spacings are neighbours."""
 _AROUND = 40
 """Samples with the thinnest walls whose triangles are sampled closer in any case."""
-_OPPOSED = -0.5
-"""A ray that comes out at an edge has measured no wall: both faces must look away from each other, within 60 deg."""
+_OPPOSED = -sqrt(0.5)
+"""A ray that comes out at an edge has measured no wall: both faces must look away from each other, within 45 deg.
+
+Faces that meet at a wider angle make an edge, such as that of a driver's slot with the round of its post.
+"""
 
 
 def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float) -> list[SolidCheck]:
@@ -66,11 +71,12 @@ def _tapering(where: Samples, thickness: Array, minimum_wall: float) -> NDArray[
 
 
 def _thinnest(part: str, where: Samples, thickness: Array, minimum_wall: float, thinnest_wall: float) -> SolidCheck:
+    # The mesh lies within CHORD of the part: a round wall of just the least thickness comes out thinner by as much.
     at = int(np.argmin(thickness))
     least = float(thickness[at])
     text = f"the thinnest wall is {least:.3g} mm; the process makes {minimum_wall:.3g} mm"
     return finding(
-        part, "wall", least, minimum_wall, "mm", at_least(least, minimum_wall - 1e-6, thinnest_wall - 1e-6), text,
+        part, "wall", least, minimum_wall, "mm", at_least(least, minimum_wall - CHORD, thinnest_wall - 1e-6), text,
         place=where.point[at] - 0.5 * least * where.normal[at], resolution=SPACING,
     )  # fmt: skip
 

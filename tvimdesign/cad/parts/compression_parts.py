@@ -13,12 +13,12 @@ import cadquery as cq
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
-from tvimdesign.cad.parts import vane_tile_parts
+from tvimdesign.cad.parts import cutout_parts, liner_parts, vane_tile_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "spreader", "bearing_outer", "preload_spring", "adjuster", "adjuster_screw",
-    "adjuster_insert", "cover", "cover_screw", "cover_insert",
+    "housing", "peltier_pad", "spreader", "thermal_cutout", "bearing_outer", "preload_spring",
+    "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 """Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
 _SIDES = (1.0, -1.0)
@@ -51,7 +51,9 @@ def rotor(dims: Dimensions) -> cq.Shape:
     """Rotor with vanes that hang from its plate to a running clearance above the floor."""
     top = dims.rotor_bottom_level
     vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.rotor_vane_angle, top - dims.vane_height, top)
-    return bare_rotor(dims, [turned(vane, azimuth) for azimuth in dims.azimuths("vane_count")])
+    recesses = liner_parts.recesses_in_vane(dims)
+    lined = vane.cut(*recesses) if recesses else vane
+    return bare_rotor(dims, [turned(lined, azimuth) for azimuth in dims.azimuths("vane_count")])
 
 
 def pcl_block(dims: Dimensions, squeeze: float = 0.0) -> cq.Shape:
@@ -85,15 +87,19 @@ DRAWN = {
 
 
 def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
-    """Place pads, and blocks between the pads and the rotor's vanes at an angle [rad], by name.
+    """Place pads, liners, and blocks between the pads and the rotor's vanes at an angle [rad], by name.
 
     Blocks stay on their pads: of the two beside a vane one is squeezed to what the vane leaves it, the other one parts
     from the vane and keeps its shape.
     """
-    placed: dict[str, cq.Shape] = {}
+    placed = cutout_parts.stand(drawn, _housing_vanes(dims)[0])
     for index, azimuth in enumerate(_housing_vanes(dims)):
         for face, side in enumerate(_SIDES):
             placed |= _heaters(dims, drawn, 2 * index + face, azimuth, side)
+    if "liner" in drawn:
+        for index, azimuth in enumerate(dims.azimuths("vane_count")):
+            for second, sheet in enumerate(liner_parts.on_vane(dims, drawn["liner"], azimuth + rotor_angle)):
+                placed[f"liner_{2 * index + second + 1}"] = sheet
     shapes = {side: max(side * rotor_angle, 0.0) for side in _SIDES}
     pressed = {side: pcl_block(dims, squeeze) if squeeze else drawn["pcl_block"] for side, squeeze in shapes.items()}
     for index, azimuth in enumerate(dims.azimuths("vane_count")):

@@ -9,12 +9,12 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import cylinder, join, polar, ring, rounded, sector, turned
-from tvimdesign.cad.parts import thermistor_parts, tile_parts
+from tvimdesign.cad.parts import cutout_parts, liner_parts, thermistor_parts, tile_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "spreader", "thermistor", "pcl_arc", "bearing_outer", "preload_spring", "adjuster",
-    "adjuster_screw", "adjuster_insert", "cover", "cover_screw", "cover_insert",
+    "housing", "peltier_pad", "spreader", "thermistor", "thermal_cutout", "pcl_arc", "bearing_outer", "preload_spring",
+    "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 
 
@@ -45,9 +45,10 @@ def _window(dims: Dimensions) -> cq.Solid:
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
-    """Rotor with pockets in its plate for the keys of the arcs, and lips beside them where it has these."""
+    """Rotor with pockets in its plate for the keys of the arcs or for liners, and lips beside them."""
+    pockets = [*_keys(dims), *liner_parts.recesses_over_arc(dims)]
     return bare_rotor(
-        dims, _melt_lips(dims), [turned(key, azimuth) for azimuth in _azimuths(dims) for key in _keys(dims)]
+        dims, _melt_lips(dims), [turned(pocket, azimuth) for azimuth in _azimuths(dims) for pocket in pockets]
     )
 
 
@@ -93,7 +94,7 @@ DRAWN = {
 
 
 def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -> dict[str, cq.Shape]:
-    """Place Peltier modules, spreaders and arcs, the keys of these with the rotor at an angle [rad], by name.
+    """Place Peltier modules, spreaders, arcs and liners, these and keys with the rotor at an angle [rad], by name.
 
     The arcs are drawn unsheared: the floor holds their lower face, the keys go with the rotor.
     """
@@ -103,12 +104,14 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     pads = [azimuth + of_tile for azimuth in _azimuths(dims) for of_tile in beside]
     sensed = _azimuths(dims)[: dims.count("thermistor_count")] if "thermistor" in drawn else []
     places = {"peltier_pad": pads, "pcl_arc": _azimuths(dims), "spreader": _azimuths(dims), "thermistor": sensed}
+    places["liner"] = [azimuth + rotor_angle for azimuth in _azimuths(dims)]
     shapes = {kind: drawn[kind] for kind in places if kind in drawn} | {"pcl_arc": arc}
-    return {
+    placed = {
         f"{kind}_{index + 1}": turned(shape, azimuth)
         for kind, shape in shapes.items()
         for index, azimuth in enumerate(places[kind])
     }
+    return placed | cutout_parts.stand(drawn, _azimuths(dims)[0])
 
 
 def _azimuths(dims: Dimensions) -> list[float]:

@@ -49,6 +49,7 @@ def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer
     image = vtkWindowToImageFilter()
     image.SetInput(window)
     image.ReadFrontBufferOff()
+    image.ShouldRerenderOff()  # it is drawn already
     with TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
         beside = Path(folder) / path.name
         writer = vtkPNGWriter()

@@ -37,6 +37,8 @@ def write_section(path: Path, solids: Mapping[str, cq.Solid], placed: Mapping[st
         if kind_of(name) in SPRINGS:
             surface = _spring_outside(instance, first, last)
             shown = surface_actors(surface, colour) if surface.GetNumberOfPolys() else ()
+        elif _apart(instance, first, last):
+            shown = actors(instance.mesh, instance.matrix, colour)
         else:
             left = solids[name].cut(cutter)
             shown = actors(solid_mesh(left), np.eye(4), colour) if left.Solids() else ()
@@ -75,6 +77,17 @@ def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> cq.Soli
     return body
 
 
+def _outwards(first: float, last: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Normals of the wedge's faces, out of it."""
+    return (sin(first), -cos(first), 0.0), (-sin(last), cos(last), 0.0)
+
+
+def _apart(instance: Instance, first: float, last: float) -> bool:
+    """Whether a face of the wedge has all of a part before it, so that nothing of it is cut away."""
+    points = instance.points()
+    return any(bool((points @ np.array(outward)).min() >= 0.0) for outward in _outwards(first, last))
+
+
 def _spring_outside(instance: Instance, first: float, last: float) -> vtkPolyData:
     """The part of a spring outside the wedge. A plane that cuts it clips its closed mesh; no spring meets both."""
     clean = vtkCleanPolyData()
@@ -83,7 +96,7 @@ def _spring_outside(instance: Instance, first: float, last: float) -> vtkPolyDat
     whole: vtkPolyData = clean.GetOutput()
     points = instance.points()
     planes = vtkPlaneCollection()
-    for outward in ((sin(first), -cos(first), 0.0), (-sin(last), cos(last), 0.0)):
+    for outward in _outwards(first, last):
         ahead = points @ np.array(outward)
         if ahead.min() >= 0.0:
             return whole

@@ -39,17 +39,9 @@ def plate_depth(vane_thickness: Scalar) -> Scalar:
 
 
 @quantities.helper()
-def plate_outside(
-    pcl_area: Scalar,
-    block_area: Scalar,
-    block_height: Scalar,
-    plate_depth: Scalar,
-    rotor_coefficient: Scalar,
-    surface_emissivity: Scalar,
-) -> lumps.Surface:
-    """Inner and outer rims of the rotor's vanes, which lose heat; as a share of the blocks' faces."""
-    share = 2.0 * block_height * plate_depth / block_area
-    return lumps.Surface(pcl_area, share * rotor_coefficient, share * surface_emissivity)
+def plate_outside(pcl_area: Scalar) -> lumps.Surface:
+    """The middle of the rotor's vanes, which no heat passes; their rims face the chamber (`side_links`)."""
+    return lumps.Surface(pcl_area, 0.0)
 
 
 @quantities.helper()
@@ -89,31 +81,35 @@ def ways_along(heated_length: Scalar, plate_depth: Scalar, wall_depth: Scalar) -
 def rotor_beside(
     ring_width: Scalar,
     heated_length: Scalar,
+    pads_share: Scalar,
     ways_along: tuple[Scalar, ...],
     plate_depth: Scalar,
     rotor_thickness: Scalar,
+    pcl_area: Scalar,
     rotor_vanes: Section,
     vane_height: Scalar,
+    vane_ways: tuple[Scalar, Scalar, Scalar],
     structure_conductivity: Scalar,
     structure_density: Scalar,
     structure_specific_heat: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[lumps.Lump, ...]:
-    """Rotor plate above the vanes, heated by their roots; beside that above blocks and pads, three bodies in depth.
-
-    A vane is a fin heated evenly over its faces: its mean temperature is a third of its height away from the root
-    (Incropera, Fundamentals of Heat and Mass Transfer, ch. 3, even generation). Above it heat turns to the side.
-    """
+    """Rotor plate above the vanes, heated by their roots; beside that above blocks and pads, three bodies in depth."""
     k, capacity = structure_conductivity, rotor_thickness * structure_density * structure_specific_heat
     above_vanes, heated = ring_width * plate_depth, ring_width * heated_length
-    outside = lumps.Surface(1.0, rotor_coefficient, surface_emissivity)
-    root = lumps.in_series(3.0 * k * rotor_vanes.area / vane_height, 3.0 * k * above_vanes / rotor_thickness)
-    vanes = lumps.Lump(root, above_vanes * capacity, outside._replace(area=above_vanes))
+    outside = lumps.Surface(1.0, rotor_coefficient, surface_emissivity, rotor_thickness / 3.0 / k)
+    # What of a vane stands beside the clearance above the blocks counts as plate.
+    upper = (rotor_vanes.area * vane_height - pcl_area * plate_depth) * structure_density * structure_specific_heat
+    vanes = lumps.Lump(vane_ways[0], above_vanes * capacity + upper, outside._replace(area=above_vanes))
     first, *others = lumps.strip(heated, capacity, k * heated / rotor_thickness, lumps.Surface(1.0, 0.0))
     along = k * rotor_thickness * ring_width * ways_along[0]
-    others[-1] = others[-1]._replace(surface=outside._replace(area=heated))
-    return (vanes, first._replace(conductance=lumps.STRIP[0] * along), *others)
+    others[-1] = others[-1]._replace(surface=outside._replace(area=heated, behind=lumps.BEYOND * rotor_thickness / k))
+    # The lower tenth is divided in what is above blocks and above pads.
+    blocks = 1.0 - pads_share
+    first = first._replace(conductance=lumps.STRIP[0] * along, capacity=blocks * first.capacity)
+    others[0] = others[0]._replace(conductance=blocks * others[0].conductance)
+    return (vanes, first, *others)
 
 
 @quantities.helper()

@@ -15,6 +15,7 @@ from tvimdesign.device.core.impedance.joint_impedance import quantities as share
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
+from tvimdesign.device.fixtures.liner import traction_with_liner
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
@@ -78,74 +79,10 @@ def pcl_damping(pcl_dynamic_stiffness: tuple[Scalar, Scalar], frequency: Scalar)
     return pcl_dynamic_stiffness[1] / (2.0 * np.pi * frequency)
 
 
-@quantities.helper()
-def frozen_block_stiffness(
-    pcl_flexural_modulus: Scalar,
-    shape_factor: Scalar,
-    block_area: Scalar,
-    block_depth: Scalar,
-    pad_press_stiffness: Scalar,
-) -> Scalar:
-    """Stiffness of a frozen block with its pad [N/m], which decides how it presses on its vanes."""
-    pressed = pcl_flexural_modulus * block.shape_stiffening(shape_factor) * block_area / block_depth
-    return structure.series(pressed, pad_press_stiffness)
-
-
-@quantities.helper()
-def rotor_vane_stiffness(
-    structure_youngs_modulus: Scalar,
-    structure_shear_modulus: Scalar,
-    block_width: Scalar,
-    vane_thickness: Scalar,
-    block_height: Scalar,
-    running_clearance: Scalar,
-    rotor_thickness: Scalar,
-    vane_count: Scalar,
-    pcl_mean_radius: Scalar,
-    frozen_block_stiffness: Scalar,
-) -> Scalar:
-    """Stiffness of the rotor's vanes about the axis [N*m/rad], and of the plate under their roots."""
-    footing = vane.on_plate(rotor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, vane_thickness))
-    one = vane.stiffness(structure_youngs_modulus, structure_shear_modulus, block_width, vane_thickness, block_height,
-                         running_clearance, frozen_block_stiffness, footing)  # fmt: skip
-    return vane_count * one * pcl_mean_radius**2
-
-
 @quantities.output("mm")
 def housing_vane_thickness(slot_angle: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """Thickness of the housing's vanes between their pads, at the mean radius."""
     return slot_angle * pcl_mean_radius
-
-
-@quantities.helper()
-def vane_webs(slot_web: Scalar, slot_count: Scalar) -> Scalar:
-    """Radial width of all that a housing vane has beside its slots [m]."""
-    return 2.0 * slot_web * slot_count
-
-
-@quantities.helper()
-def housing_vane_stiffness(
-    structure_youngs_modulus: Scalar,
-    structure_shear_modulus: Scalar,
-    vane_webs: Scalar,
-    housing_vane_thickness: Scalar,
-    block_height: Scalar,
-    running_clearance: Scalar,
-    floor_thickness: Scalar,
-    vane_count: Scalar,
-    pcl_mean_radius: Scalar,
-    frozen_block_stiffness: Scalar,
-) -> Scalar:
-    """Stiffness of the housing's vanes about the axis [N*m/rad], and of the floor under them.
-
-    Of the vanes what stands on either side of their slots.
-    """
-    footing = vane.on_floor(floor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, housing_vane_thickness))
-    one = vane.stiffness(
-        structure_youngs_modulus, structure_shear_modulus, vane_webs, housing_vane_thickness, block_height,
-        running_clearance, frozen_block_stiffness, footing,
-    )  # fmt: skip
-    return vane_count * one * pcl_mean_radius**2
 
 
 @quantities.helper()
@@ -185,11 +122,12 @@ def structure_compliances(
     pcl_mean_radius: Scalar,
     vane_count: Scalar,
     pad_press_stiffness: Scalar,
+    liner_compliance: Scalar,
 ) -> Compliances:
-    """What is in series with the blocks: core, plate, vanes of both, floor up to its feet or its flange, and pads."""
+    """What is in series with the blocks: core, plate, vanes, floor up to its feet or its flange, pads and liners."""
     pads = vane_count * pad_press_stiffness * pcl_mean_radius**2
     return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness, 1.0 / rotor_vane_stiffness,
-                       1.0 / housing_vane_stiffness, 1.0 / floor_stiffness, 1.0 / pads)  # fmt: skip
+                       1.0 / housing_vane_stiffness, 1.0 / floor_stiffness, 1.0 / pads + liner_compliance)  # fmt: skip
 
 
 @quantities.output("N*m/rad")
@@ -243,10 +181,16 @@ def stroke_strains(largest_melt_strain: Scalar) -> list[tuple[Scalar, Scalar]]:
 
 @quantities.output("N*m")
 def block_holding_torque(
-    pcl_tensile_yield: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar
+    pcl_tensile_yield: Scalar,
+    liner_material: Record | str,
+    liner_strength: Scalar,
+    vane_count: Scalar,
+    block_area: Scalar,
+    pcl_mean_radius: Scalar,
 ) -> Scalar:
-    """Torque at which the frozen blocks yield."""
-    return block.torque_at_stress(pcl_tensile_yield, vane_count, block_area, pcl_mean_radius)
+    """Torque at which the frozen blocks, or the liners they press on, yield."""
+    stress = traction_with_liner(liner_material, pcl_tensile_yield, liner_strength)
+    return block.torque_at_stress(stress, vane_count, block_area, pcl_mean_radius)
 
 
 @quantities.helper()
@@ -259,14 +203,14 @@ def vane_arm(block_height: Scalar, running_clearance: Scalar) -> Scalar:
 def rotor_vane_holding_torque(
     cold_layer_strength: Scalar,
     block_width: Scalar,
-    vane_thickness: Scalar,
+    vane_web: Scalar,
     vane_arm: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque at which the roots of the rotor's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(cold_layer_strength, block_width, vane_thickness, vane_arm)
+    force = vane.force_at_yield(cold_layer_strength, block_width, vane_web, vane_arm)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 

@@ -6,7 +6,16 @@ from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, corners, radial_strip, sector, stacked, wedge, wedge_corners
+from tvimdesign.physics.bodies.shapes import (
+    Section,
+    corners,
+    mean_square,
+    radial_strip,
+    sector,
+    stacked,
+    wedge,
+    wedge_corners,
+)
 
 quantities = QuantityGroup(shared.group)
 
@@ -127,8 +136,7 @@ def housing_vanes_moments(
     """
     whole = sector(housing_vane_angle, pcl_inner_radius, pcl_outer_radius)
     strip = 2.0 * radial_strip(pad_depth, pcl_inner_radius, pcl_outer_radius)
-    mean_square = (pcl_inner_radius**2 + pcl_inner_radius * pcl_outer_radius + pcl_outer_radius**2) / 3.0
-    pads = Section(strip, strip * mean_square)
+    pads = Section(strip, strip * mean_square(pcl_inner_radius, pcl_outer_radius))
     return stacked(
         (whole.times(vane_count), vane_height),
         (pads.times(vane_count), -block_height),
@@ -176,6 +184,8 @@ def rotor_vanes(
 
 
 @quantities.helper()
-def rotor_moments(bare_rotor_moments: Section, rotor_vanes: Section, vane_height: Scalar) -> Section:
-    """Volume and its polar moment about the axis, of the rotor with its vanes."""
-    return bare_rotor_moments.plus(rotor_vanes.times(vane_height))
+def rotor_moments(
+    bare_rotor_moments: Section, rotor_vanes: Section, vane_height: Scalar, liner_recess: Section
+) -> Section:
+    """Volume and its polar moment about the axis, of the rotor with its vanes, less the recesses for liners."""
+    return bare_rotor_moments.plus(rotor_vanes.times(vane_height)) - liner_recess

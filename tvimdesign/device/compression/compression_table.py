@@ -11,7 +11,10 @@ from tvimdesign.device.compression import (
     tile_heat,
     tile_load,
     vane_clearances,
+    vane_heat,
     vane_layout,
+    vane_liners,
+    vane_stiffness,
     vane_tiles,
 )
 from tvimdesign.device.shared import BOOKS
@@ -19,6 +22,17 @@ from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (vane_layout, block_impedance, block_heat, ring_heat, block_volumes, vane_clearances, tile_heat, tile_load)
-GROUPS = (*vane_tiles.groups, *block_shrinkage.groups)
+ROOMS = (
+    vane_layout,
+    block_impedance,
+    vane_stiffness,
+    block_heat,
+    ring_heat,
+    block_volumes,
+    vane_clearances,
+    vane_heat,
+    tile_heat,
+    tile_load,
+)
+GROUPS = (*vane_tiles.groups, *vane_liners.groups, *block_shrinkage.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "compression"), PHASES)

@@ -13,14 +13,18 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link, Place
+from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link, Place
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
 FLOOR = (0, 1, 2)
 """Places of the floor's bodies below blocks and pads, from its upper face on."""
-WALLS, RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS, HOUSING = 3, 4, 5, 6, 7, 8, 9
+WALLS = (3, 4, 5)
+"""The housing's vanes, from the pads on."""
+RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, 9, 10
+BELOW_PADS, ABOVE_PADS, HOUSING = 11, 12, 13
+"""Beside the upper of the floor's bodies, which is below the blocks, and the plate's lower one, which is above."""
 ABOVE_VANES, ABOVE = 0, (1, 2, 3)
 """Places beside the vanes: the rotor plate above them; above blocks and pads, from its lower face on."""
 LEGS = ("legs", 0)
@@ -43,8 +47,14 @@ def ring_width(vane_count: Scalar, block_width: Scalar) -> Scalar:
 
 @quantities.helper()
 def ring_places() -> tuple[Place, Place, Place, Place]:
-    """Where the floor's upper face, the rotor plate's lower face, the housing's vanes and the housing stand."""
-    return ("around", FLOOR[0]), ("beside", ABOVE[0]), ("around", WALLS), ("around", HOUSING)
+    """What pads face: floor, rotor plate and housing's vanes; and the housing."""
+    return ("around", BELOW_PADS), ("around", ABOVE_PADS), ("around", WALLS[0]), ("around", HOUSING)
+
+
+@quantities.helper()
+def pads_share(heated_length: Scalar, block_depth: Scalar) -> Scalar:
+    """What the pads have of the depth of a block and its pad."""
+    return 1.0 - block_depth / heated_length
 
 
 @quantities.helper()
@@ -53,36 +63,46 @@ def around_pads(
     cold_area: Scalar,
     ring_width: Scalar,
     heated_length: Scalar,
+    pads_share: Scalar,
     plate_depth: Scalar,
     wall_depth: Scalar,
+    running_clearance: Scalar,
+    block_height: Scalar,
     plate_around: tuple[Body, ...],
     housing_inner_radius: Scalar,
     floor_thickness: Scalar,
+    rotor_thickness: Scalar,
     structure_heat_capacity: Scalar,
+    structure_conductivity: Scalar,
     floor_in_air: lumps.Surface,
     housing_rest: Body,
 ) -> tuple[Body, ...]:
     """Floor below blocks and pads, housing vanes, rotor plate without and within the ring, floor below the rotor's and
-    the housing's vanes, rotor plate above the housing's, the rest."""
+    the housing's vanes, rotor plate above the housing's, floor and plate next to the pads, the rest."""
     areas = [ring_width * depth for depth in (heated_length, plate_depth, wall_depth)]
-    below = [Body(area * floor_thickness * structure_heat_capacity, floor_in_air._replace(area=area)) for area in areas]
+    deep = floor_thickness / structure_conductivity
+    below = [
+        Body(area * floor_thickness * structure_heat_capacity, floor_in_air._replace(area=area, behind=way * deep))
+        for area, way in zip(areas, (BEYOND, 1.0 / 3.0, 1.0 / 3.0), strict=True)
+    ]
     floor = [Body(share * below[0].capacity, lumps.NOWHERE) for share in STRIP]
     floor[-1] = floor[-1]._replace(surface=below[0].surface)
-    walls = Body((pcl_area - cold_area) * wall_depth * structure_heat_capacity, lumps.NOWHERE)
+    wall = (pcl_area - cold_area) * (1.0 + running_clearance / block_height) * wall_depth * structure_heat_capacity
+    walls = [Body(share * wall, lumps.NOWHERE) for share in STRIP]
     rim, within, above_walls = plate_around
-    parts = (*floor, walls, *below[1:])
+    below_pads = Body(pads_share * floor[0].capacity, lumps.NOWHERE)
+    above_pads = Body(rotor_thickness / floor_thickness * below_pads.capacity, lumps.NOWHERE)
+    floor[0] = floor[0]._replace(capacity=(1.0 - pads_share) * floor[0].capacity)
+    parts = (*floor, *walls, *below[1:], below_pads)
     rest = lumps.less(housing_rest, parts, np.pi * housing_inner_radius**2 - sum(areas))
-    return (*floor, walls, rim, within, *below[1:], above_walls, rest)
+    return (*floor, *walls, rim, within, *below[1:], above_walls, below_pads, above_pads, rest)
 
 
 @quantities.helper()
 def plate_around(
-    pcl_area: Scalar,
-    plate_depth: Scalar,
     wall_depth: Scalar,
     ring_width: Scalar,
     faced_area: Scalar,
-    plate_mass: Scalar,
     rotor_thickness: Scalar,
     rotor_radius: Scalar,
     core_radius: Scalar,
@@ -90,24 +110,24 @@ def plate_around(
     pcl_outer_radius: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
-    structure_density: Scalar,
     structure_heat_capacity: Scalar,
+    structure_conductivity: Scalar,
 ) -> tuple[Body, ...]:
     """Rotor plate without and within the ring, and above the housing's vanes; its upper face is in the air."""
     in_air = lumps.Surface(1.0, rotor_coefficient, surface_emissivity)
     above_walls = ring_width * wall_depth
     within = np.pi * pcl_inner_radius**2 * rotor_thickness
-    rim = plate_mass / structure_density - pcl_area * plate_depth - within
-    rim = rim - (faced_area + above_walls) * rotor_thickness
+    rim = np.pi * rotor_radius**2 * rotor_thickness - within - (faced_area + above_walls) * rotor_thickness
     areas = (
         np.pi * (rotor_radius**2 - pcl_outer_radius**2),
         np.pi * (pcl_inner_radius**2 - core_radius**2),
         above_walls,
     )
     volumes = (rim, within, above_walls * rotor_thickness)
+    behind = (None, None, rotor_thickness / 3.0 / structure_conductivity)
     return tuple(
-        Body(volume * structure_heat_capacity, in_air._replace(area=area))
-        for volume, area in zip(volumes, areas, strict=True)
+        Body(volume * structure_heat_capacity, in_air._replace(area=area, behind=way))
+        for volume, area, way in zip(volumes, areas, behind, strict=True)
     )
 
 
@@ -115,10 +135,10 @@ def plate_around(
 def floor_links(
     pcl_area: Scalar,
     cold_area: Scalar,
-    block_height: Scalar,
     plate_depth: Scalar,
     wall_depth: Scalar,
     heated_length: Scalar,
+    pads_share: Scalar,
     ways_along: tuple[Scalar, ...],
     ring_width: Scalar,
     floor_thickness: Scalar,
@@ -126,12 +146,11 @@ def floor_links(
     housing_inner_radius: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
-    """Within the floor, along the ring and out to the housing's wall, and from the housing's vanes into it."""
+    """Within the floor, along the ring and out to the housing's wall; and within the housing's vanes."""
     heated = heated_length * ring_width
-    found = []
-    for i in FLOOR[1:]:
-        way = 0.5 * (STRIP[i - 1] + STRIP[i]) * floor_thickness
-        found.append(_link(i - 1, i, structure_conductivity * heated / way))
+    first, second = (structure_conductivity * heated / (way * floor_thickness) for way in WAYS[1:])
+    found = [_link(FLOOR[0], FLOOR[1], (1.0 - pads_share) * first), _link(BELOW_PADS, FLOOR[1], pads_share * first)]
+    found.append(_link(FLOOR[1], FLOOR[2], second))
     out = 2.0 * np.pi * structure_conductivity * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
     out = out / (heated_length + plate_depth + wall_depth)
     to_vanes, to_walls = (structure_conductivity * floor_thickness * ring_width * way for way in ways_along)
@@ -141,9 +160,8 @@ def floor_links(
         found.append(_link(i, BELOW_WALLS, STRIP[i] * to_walls))
     found.append(_link(BELOW_VANES, HOUSING, out * plate_depth))
     found.append(_link(BELOW_WALLS, HOUSING, out * wall_depth))
-    foot = ring_width * wall_depth * (pcl_area - cold_area) / pcl_area
-    root = 3.0 * structure_conductivity * foot / (block_height + floor_thickness)
-    return (*found, _link(WALLS, BELOW_WALLS, root))
+    inwards = structure_conductivity * (pcl_area - cold_area) / wall_depth
+    return (*found, *(_link(i - 1, i, inwards / way) for i, way in zip(WALLS[1:], WAYS[1:], strict=True)))
 
 
 def _link(first: int, second: int, conductance: Scalar) -> Link:
@@ -155,8 +173,6 @@ def stack_links(
     ring_width: Scalar,
     block_depth: Scalar,
     peltier_thickness: Scalar,
-    plate_depth: Scalar,
-    wall_depth: Scalar,
     running_clearance: Scalar,
     block_height: Scalar,
     pcl_conductivity_melt: Scalar,
@@ -168,41 +184,34 @@ def stack_links(
     ambient_temperature: Scalar,
     pcl_melting: polymer.Melting,
     plate_links: tuple[Link, ...],
+    vane_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
-    """Through the running clearances below and above blocks, pads and vanes, with what lies on either side of them.
+    """Through the running clearances below and above blocks and pads, with what lies on either side of them.
 
-    Of what passes a clearance a tenth is radiation, which from blocks and vanes is taken as where the PCL is molten.
+    Of what passes a clearance a tenth is radiation, which from blocks is taken as where the PCL is molten.
 
     The pads lose heat from their legs, which are as thick as they are, by half from either side at the legs' mean
     temperature. Where legs fall evenly from T_h to T_c the hot side loses two thirds of what is at T_h and a third of
     what is at T_c: 1/12 of the difference more. A clearance between a wall of one temperature and one that changes
     along it conducts along as well, like a strip of a third of its width.
     """
-    floor, vanes, above = ("around", FLOOR[0]), ("around", BELOW_VANES), ("beside", ABOVE[0])
-    above_walls = ("around", ABOVE_WALLS)
-    faces = {floor: 0.5 * STRIP[0] * floor_thickness, vanes: floor_thickness / 3.0,
-             above: 0.5 * STRIP[0] * rotor_thickness, above_walls: rotor_thickness / 3.0}  # fmt: skip
+    blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS), ("around", ABOVE_PADS))
     to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
     found = []
-    for place, depth, faced in (
-        (("layer", 0), block_depth, (floor, above)),
-        (LEGS, peltier_thickness, (floor, above)),
-        (("plate", 0), plate_depth, (vanes,)),
-        (("around", WALLS), wall_depth, (above_walls,)),
-    ):
+    for place, depth, faced in ((("layer", 0), block_depth, blocks), (LEGS, peltier_thickness, pads)):
         area = ring_width * depth
-        for face in faced:
+        for face, deep in zip(faced, (floor_thickness, rotor_thickness), strict=True):
             gap = lumps.air_gap(area, running_clearance, air_conductivity, surface_emissivity, place, face)
-            walls = structure_conductivity * area / faces[face]
+            walls = structure_conductivity * area / (WAYS[0] * deep)
             if place == ("layer", 0):
                 walls = lumps.in_series(walls, pcl_conductivity_melt * area / (to_faces * 0.5 * block_height))
             through = lumps.behind(gap, walls, ambient_temperature)
-            if place[0] in ("layer", "plate"):
+            if place == ("layer", 0):
                 through = lumps.straightened(through, pcl_melting.end, ambient_temperature)
             found.append(through)
     lost = sum(lumps.link_conductance(one, pcl_melting.end, ambient_temperature) for one in found if one.first == LEGS)
     along = air_conductivity * 2.0 / 3.0 * running_clearance * ring_width / peltier_thickness
-    return (*plate_links, *found, Link(("hot", 0), ("cold", 0), lost / 12.0 + along))
+    return (*plate_links, *vane_links, *found, Link(("hot", 0), ("cold", 0), lost / 12.0 + along))
 
 
 @quantities.helper()
@@ -215,7 +224,7 @@ def open_sides(
 ) -> Scalar:
     """What the inner and outer sides of all blocks give to the chamber, by convection and radiation [W/m K].
 
-    For a metre of their depth, or of the pads'.
+    For a metre of their depth, or of the pads' or the rotor vanes'.
     """
     chamber = lumps.Surface(2.0 * vane_count * 2.0 * block_height, housing_coefficient, surface_emissivity)
     return chamber.area * lumps.surface_coefficient(chamber, ambient_temperature, ambient_temperature)
@@ -225,6 +234,7 @@ def open_sides(
 def side_links(
     open_sides: Scalar,
     block_depth: Scalar,
+    plate_depth: Scalar,
     peltier_thickness: Scalar,
     heated_area: Scalar,
     cold_area: Scalar,
@@ -234,12 +244,13 @@ def side_links(
 ) -> tuple[Link, ...]:
     """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes."""
     housing, pads = ("around", HOUSING), peltier_thickness * open_sides
-    into_walls = 3.0 * structure_conductivity * (heated_area - cold_area) / wall_depth
+    into_walls = structure_conductivity * (heated_area - cold_area) / (WAYS[0] * wall_depth)
     return (
         Link(("layer", 0), housing, open_sides * block_depth),
+        Link(("plate", 0), housing, open_sides * plate_depth),
         Link(LEGS, housing, pads),
         Link(("hot", 0), ("cold", 0), pads / 12.0),
-        Link(("cold", 0), ("around", WALLS), into_walls),
+        Link(("cold", 0), ("around", WALLS[0]), into_walls),
         *spreader_links,
     )
 
@@ -257,6 +268,8 @@ def plate_links(
     ring_width: Scalar,
     ways_along: tuple[Scalar, ...],
     shares_above: tuple[tuple[Place, Scalar], ...],
+    heated_length: Scalar,
+    pads_share: Scalar,
     core_and_link: lumps.Lump,
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
@@ -268,7 +281,8 @@ def plate_links(
     along = [Link(vanes, ("beside", i), share * to_heated) for i, share in zip(ABOVE[1:], STRIP[1:], strict=True)]
     inwards = [Link(place, core, share * core_and_link.conductance)
                for place, share in shares_above if place != ("beside", ABOVE[-1])]  # fmt: skip
-    return (*along, *inwards)
+    upwards = structure_conductivity * ring_width * pads_share * heated_length / (WAYS[1] * rotor_thickness)
+    return (*along, *inwards, Link(("around", ABOVE_PADS), ("beside", ABOVE[1]), upwards))
 
 
 @quantities.helper()

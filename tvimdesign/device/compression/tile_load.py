@@ -7,22 +7,29 @@ to be mounted.
 
 from __future__ import annotations
 
-from tvimdesign.device.compression.vane_layout import SHEET
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import block
+from tvimdesign.physics.layers import block, pressed_pad
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
+SHEET = 3.0
+"""Modulus of a rigid module pressed through its thickness over its shear modulus, as of a body of Poisson's ratio 1/4
+between stiff plates."""
 
 
 @quantities.helper()
 def pad_press_stiffness(
     heater_form: str,
     peltier_shear_modulus: Scalar,
+    peltier_bulk_modulus: Scalar,
     peltier_thickness: Scalar,
+    block_width: Scalar,
+    block_height: Scalar,
+    slot_width: Scalar,
+    slot_height: Scalar,
     block_area: Scalar,
     tiles_per_block: Scalar,
     peltier_area: Scalar,
@@ -30,10 +37,10 @@ def pad_press_stiffness(
     spreader_thickness: Scalar,
 ) -> Scalar:
     """Stiffness of what a block presses on before its vane [N/m]: the pad, or its tiles behind the spreader."""
-    modulus = SHEET * peltier_shear_modulus
     if heater_form == CUT:
-        return modulus * block_area / peltier_thickness
-    tiles = modulus * tiles_per_block * peltier_area / peltier_thickness
+        moduli, sides = (peltier_shear_modulus, peltier_bulk_modulus), (block_width, block_height)
+        return pressed_pad.stiffness(moduli, sides, peltier_thickness, (slot_width, slot_height))
+    tiles = SHEET * peltier_shear_modulus * tiles_per_block * peltier_area / peltier_thickness
     return structure.series(tiles, spreader_youngs_modulus * block_area / spreader_thickness)
 
 

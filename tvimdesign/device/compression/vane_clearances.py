@@ -7,6 +7,7 @@ import numpy as np
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.clearances import quantities as shared
 from tvimdesign.device.core.heat.heater_form import CUT
+from tvimdesign.device.fixtures.cutout import WITH_CUTOUT
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import between_planes
@@ -67,6 +68,12 @@ def vane_root(rotor_vane_angle: Scalar, pcl_inner_radius: Scalar) -> Scalar:
 def vane_root_margin(vane_root: Scalar, minimum_wall: Scalar) -> Scalar:
     """Rotor vanes at their inner end beyond the process's least wall."""
     return vane_root - minimum_wall
+
+
+@quantities.output("mm", requires=WITH_CUTOUT)
+def cutout_radius(slot_inner_radius: Scalar, slot_outer_radius: Scalar) -> Scalar:
+    """Distance of the thermal cut-out's middle from the axis: below the middle of the slots; zero without."""
+    return 0.5 * (slot_inner_radius + slot_outer_radius)
 
 
 @quantities.output("mm", hidden=True)

@@ -11,8 +11,6 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import between_planes
 
 quantities = QuantityGroup(shared.group)
-SHEET = 3.0
-"""Young's over shear modulus of a pad pressed through its thickness, as of rubber; its pellets' share not counted."""
 
 
 @quantities.output("mm", hidden=True)

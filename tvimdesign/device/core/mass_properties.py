@@ -255,6 +255,8 @@ def module_mass(
     peltier_mass: Scalar,
     spreader_mass: Scalar,
     thermistor_mass: Scalar,
+    liner_mass: Scalar,
+    cutout_mass: Scalar,
     screws_mass: Scalar,
     bearings_mass: Scalar,
     adjusters_mass: Scalar,
@@ -267,8 +269,8 @@ def module_mass(
     """Mass of the module with its motor, without wires and the screws that fix it."""
     made = housing_mass + rotor_mass + link_mass + retainer_mass + cover_mass + pcl_mass
     fasteners = screws_mass + inserts_mass + dowels_mass
-    heater = peltier_mass + spreader_mass + thermistor_mass
-    bought = springs_mass + heater + fasteners + bearings_mass + preload_spring_mass
+    heater = peltier_mass + spreader_mass + thermistor_mass + cutout_mass
+    bought = springs_mass + heater + liner_mass + fasteners + bearings_mass + preload_spring_mass
     return made + bought + adjusters_mass + drive_mass
 
 
@@ -295,8 +297,9 @@ def parts_inertia(
     inserts_inertia: Scalar,
     bearings_inertia: Scalar,
     dowels_inertia: Scalar,
+    liner_inertia: Scalar,
 ) -> Scalar:
-    """Moment of inertia of all that turns in the module: rotor, link, retainer, fasteners and inner rings."""
+    """Moment of inertia of all that turns in the module: rotor, liners, link, retainer, fasteners and inner rings."""
     retainer = retainer_section.polar * retainer_thickness * structure_density
     fasteners = screws_inertia + inserts_inertia + dowels_inertia
-    return rotor_inertia + link_inertia + retainer + fasteners + bearings_inertia
+    return rotor_inertia + liner_inertia + link_inertia + retainer + fasteners + bearings_inertia

@@ -34,6 +34,7 @@ def driven_inertia(
     peltier_mass: Scalar,
     spreader_mass: Scalar,
     thermistor_mass: Scalar,
+    cutout_mass: Scalar,
     pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
     cover_section: Section,
@@ -47,7 +48,7 @@ def driven_inertia(
     """
     at_springs = placement_radius**2 + 0.25 * coil_diameter**2
     at_pcl = 0.5 * (pcl_inner_radius**2 + pcl_outer_radius**2)
-    on_arcs = pcl_mass + peltier_mass + spreader_mass + thermistor_mass
+    on_arcs = pcl_mass + peltier_mass + spreader_mass + thermistor_mass + cutout_mass
     carried = (springs_mass + adjusters_mass) * at_springs + on_arcs * at_pcl
     cover = cover_section.polar * cover_height * structure_density
     return drive_inertia + housing_inertia + cover + carried

@@ -7,7 +7,9 @@ import numpy as np
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
 from tvimdesign.device.core.clearances import quantities as shared
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.fixtures.cutout import WITH_CUTOUT
+from tvimdesign.device.fixtures.liner import WITH_LINER
+from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
 quantities = QuantityGroup(shared.group)
@@ -86,6 +88,27 @@ def mount_pad_gap(
     return placement_radius - mount_boss_radius - pcl_outer_radius - radial_clearance
 
 
+@quantities.output("mm", requires=WITH_CUTOUT)
+def cutout_radius(heater_form: str, tile_radius: Scalar, pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+    """Distance of the thermal cut-out's middle from the axis: below the middle of the window; zero without."""
+    return 0.5 * (pcl_inner_radius + pcl_outer_radius) if heater_form == CUT else tile_radius
+
+
+@quantities.output("mm", requires=WITH_LINER)
+def liner_web(backing_depth: Scalar) -> Scalar:
+    """Rotor plate above a liner; zero without."""
+    return backing_depth
+
+
+_KEYED = "keys of the PCL would stand in the liner: key_count 0, or liner_material: none"
+
+
+@quantities.output("1", Rule(sense="<=", value=0.5, reason=_KEYED), requires=WITH_LINER)
+def keys_in_liner(key_count: Scalar) -> Scalar:
+    """Keys of an arc that would have to go through its liner; zero without."""
+    return key_count
+
+
 _CORNER = "the cutter cannot reach into its corners so deep: choose a larger corner_radius"
 
 
@@ -99,6 +122,12 @@ def pad_pocket_margin(corner_radius: Scalar, corner_depth_ratio: Scalar, pad_dep
 def window_corner_margin(corner_radius: Scalar, corner_depth_ratio: Scalar, floor_web: Scalar) -> Scalar:
     """Depth the corners of the windows may have beyond the one they have."""
     return corner_depth_ratio * corner_radius - floor_web
+
+
+@quantities.output("mm", at_least(0.0, f"a liner's recess is too deep, {_CORNER}"), requires=WITH_LINER)
+def liner_recess_margin(corner_radius: Scalar, corner_depth_ratio: Scalar, liner_depth: Scalar) -> Scalar:
+    """Depth the corners of the liners' recesses may have beyond the one they have; zero without."""
+    return corner_depth_ratio * corner_radius - liner_depth
 
 
 _NARROW = "a window must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"

@@ -11,6 +11,7 @@ import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.fixtures.liner import WITH_LINER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import annular_lap, shear_lag
@@ -25,6 +26,12 @@ def driven_share(arc_count: Scalar, arc_span: Scalar) -> Scalar:
     return arc_count * arc_span / (2.0 * np.pi)
 
 
+@quantities.helper(requires=WITH_LINER)
+def liner_give(liner_thickness: Scalar, liner_shear_modulus: Scalar) -> Scalar:
+    """How far a liner shears under a traction [m/Pa]; zero without."""
+    return liner_thickness / liner_shear_modulus
+
+
 @quantities.helper()
 def lap_of_arcs(
     frozen_shear_modulus: Scalar,
@@ -32,14 +39,16 @@ def lap_of_arcs(
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     structure_shear_modulus: Scalar,
-    rotor_thickness: Scalar,
+    backing_depth: Scalar,
     floor_web: Scalar,
     driven_share: Scalar,
+    liner_give: Scalar,
 ) -> tuple[Scalar, Scalar, Scalar]:
     """Frozen layer and pads per area [Pa/m], and the sheets on both sides, plate and floor [1/(Pa*m)]."""
-    per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / peltier_shear_modulus)
+    layer = pcl_thickness / frozen_shear_modulus + liner_give
+    per_area = 1.0 / (layer + peltier_thickness / peltier_shear_modulus)
     sheet = np.sqrt(driven_share) / structure_shear_modulus  # of the circle the arcs take up a share: as in the plate
-    return per_area, sheet / rotor_thickness, sheet / floor_web
+    return per_area, sheet / backing_depth, sheet / floor_web
 
 
 @quantities.helper(requires=WITH_TILES)
@@ -63,20 +72,21 @@ def lap_on_spreader(
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     structure_shear_modulus: Scalar,
-    rotor_thickness: Scalar,
+    backing_depth: Scalar,
     floor_web: Scalar,
     driven_share: Scalar,
     tiled_share: Scalar,
     windowed_share: Scalar,
     pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
+    liner_give: Scalar,
 ) -> annular_lap.AnnularLap:
     """Frozen layer between the plate and what a spreader, modules and the floor below are together."""
-    plate = np.sqrt(driven_share) * structure_shear_modulus * rotor_thickness
+    plate = np.sqrt(driven_share) * structure_shear_modulus * backing_depth
     metal = driven_share * spreader_shear_modulus * spreader_depth
     modules = tiled_share * peltier_shear_modulus * peltier_thickness
     floor = (1.0 - windowed_share) * structure_shear_modulus * floor_web
-    layer = driven_share * frozen_shear_modulus / pcl_thickness
+    layer = driven_share / (pcl_thickness / frozen_shear_modulus + liner_give)
     radii = pcl_inner_radius, pcl_outer_radius
     return annular_lap.annular_lap(layer, 1.0 / plate, 1.0 / (metal + modules + floor), radii)
 
@@ -85,14 +95,14 @@ def lap_on_spreader(
 def over_arcs_compliance(
     lap_on_spreader: annular_lap.AnnularLap | None,
     structure_shear_modulus: Scalar,
-    rotor_thickness: Scalar,
+    backing_depth: Scalar,
     pcl_inner_radius: Scalar,
     pcl_mean_radius: Scalar,
     pcl_outer_radius: Scalar,
     driven_share: Scalar,
 ) -> Scalar:
     """What the rotor plate gives above the arcs [rad/(N*m)]: to their middle, or as a spreader takes it over."""
-    sheet = structure_shear_modulus, rotor_thickness, pcl_inner_radius
+    sheet = structure_shear_modulus, backing_depth, pcl_inner_radius
     if lap_on_spreader is None:
         return 1.0 / structure.covered_ring_stiffness(*sheet, pcl_mean_radius, driven_share)
     whole = structure.covered_ring_stiffness(*sheet, pcl_outer_radius, driven_share)

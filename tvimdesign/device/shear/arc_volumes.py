@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.mass_properties import quantities as shared
+from tvimdesign.device.fixtures.liner import WITH_LINER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, corners, rectangle_at, sector, stacked
+from tvimdesign.physics.bodies.shapes import NOTHING, Section, corners, rectangle_at, sector, stacked
 
 quantities = QuantityGroup(shared.group)
 
@@ -105,7 +106,21 @@ def housing_volume(housing_moments: Section) -> Scalar:
     return housing_moments.area
 
 
+@quantities.helper(requires=WITH_LINER, default=NOTHING)
+def liner_moments(pad_section: Section, liner_thickness: Scalar) -> Section:
+    """Volume of all liners and its polar moment about the axis; a liner has the outline of a pad."""
+    return pad_section.times(liner_thickness)
+
+
+@quantities.helper(requires=WITH_LINER, default=NOTHING)
+def liner_recess(pad_section: Section, liner_depth: Scalar) -> Section:
+    """Volume of the recesses for the liners and its polar moment about the axis."""
+    return pad_section.times(liner_depth)
+
+
 @quantities.helper()
-def rotor_moments(bare_rotor_moments: Section, key_moments: Section, melt_lip_moments: Section) -> Section:
-    """Volume and its polar moment about the axis, of the rotor with its lips, less the pockets for the keys."""
-    return bare_rotor_moments.plus(melt_lip_moments) - key_moments
+def rotor_moments(
+    bare_rotor_moments: Section, key_moments: Section, melt_lip_moments: Section, liner_recess: Section
+) -> Section:
+    """Volume and its polar moment about the axis, of the rotor with its lips, less pockets for keys and for liners."""
+    return bare_rotor_moments.plus(melt_lip_moments) - key_moments - liner_recess

@@ -8,8 +8,6 @@ face (even heating, Incropera, Fundamentals of Heat and Mass Transfer, ch. 3); o
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
@@ -17,7 +15,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.heat_flow.lumps import STRIP, Body, Link
+from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
@@ -46,6 +44,7 @@ def around_pads(
     housing_outer_radius: Scalar,
     rotor_radius: Scalar,
     structure_heat_capacity: Scalar,
+    structure_conductivity: Scalar,
     floor_in_air: lumps.Surface,
     housing_rest: Body,
 ) -> tuple[Body, ...]:
@@ -54,9 +53,8 @@ def around_pads(
     areas = [share * beside_area for share in STRIP]
     corner = Body(0.5 * areas[0] * pad_depth * volumetric, lumps.NOWHERE)
     upper = [corner, *(Body(area * pad_depth * volumetric, lumps.NOWHERE) for area in areas[1:])]
-    lower = [
-        Body(area * floor_web * volumetric, floor_in_air._replace(area=area)) for area in (*areas, pcl_area - cold_area)
-    ]
+    face = floor_in_air._replace(behind=floor_web / 3.0 / structure_conductivity)
+    lower = [Body(area * floor_web * volumetric, face._replace(area=area)) for area in (*areas, pcl_area - cold_area)]
     floor = (*upper, *lower, corner)
     below = np.pi * (housing_outer_radius**2 - rotor_radius**2)
     return (*floor, lumps.less(housing_rest, floor, below))
@@ -74,15 +72,14 @@ def floor_links(
 ) -> tuple[Link, ...]:
     """What conducts within the floor, along the strips to the housing's wall and from the upper to the lower one."""
     per_depth = structure_conductivity * edge_length**2 / beside_area
-    ways = [0.5 * (before + after) for before, after in itertools.pairwise(STRIP)]
     found = []
     for row, depth in ((UPPER, pad_depth), (LOWER, floor_web)):
-        first, *others = (per_depth * depth / way for way in ways)
+        first, *others = (per_depth * depth / way for way in WAYS[1:])
         if row is UPPER:
             found.append(_link(CORNER, row[1], 0.5 * first))
             first = 0.5 * first
         found += [_link(row[i], row[i + 1], along) for i, along in enumerate((first, *others))]
-        to_wall = lumps.in_series(per_depth * depth / (0.5 * STRIP[-1]), housing_ring * depth / floor_thickness)
+        to_wall = lumps.in_series(per_depth * depth / BEYOND, housing_ring * depth / floor_thickness)
         found.append(_link(row[-1], HOUSING, to_wall))
     down = [structure_conductivity * share * beside_area for share in STRIP]
     found.append(_link(CORNER, UPPER[0], down[0] / (0.5 * pad_depth)))
@@ -118,7 +115,7 @@ def stack_links(
     of what it loses comes from that side, half from the legs' mean. So it is with its lower half. Tiles stand in air:
     of them the spreader's edge meets a wall, and its back beside them faces the ledge through air as thick as they are.
     """
-    first, ledge = 0.5 * STRIP[0] * beside_area / edge_length, (heated_area - cold_area) / edge_length
+    first, ledge = WAYS[0] * beside_area / edge_length, (heated_area - cold_area) / edge_length
     bare = (pcl_area - heated_area) / edge_length
     wall = lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / first)
     onto, to_root = (way / (structure_conductivity * edge_length) for way in lumps.ledge_ways(ledge / floor_web))

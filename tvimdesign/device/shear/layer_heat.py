@@ -1,7 +1,7 @@
 """What the heat passes in the shear module: arcs of the rotor plate behind the layer; plate and floor beside them.
 
 Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area.
-The plate beside it is a strip that this heats; the floor is in `floor_heat`. `lumps` has what is calibrated.
+The plate beside it is a strip that this heats; the floor is in `floor_heat`.
 """
 
 from __future__ import annotations
@@ -56,8 +56,27 @@ def edge_length(arc_count: Scalar, arc_span: Scalar, pcl_inner_radius: Scalar, p
 
 @quantities.helper()
 def to_edge(pcl_area: Scalar, edge_length: Scalar) -> Scalar:
-    """Length of the edges over the way there from where an arc has its mean temperature [1]."""
-    return edge_length / (pcl_area / edge_length * lumps.TO_EDGE)
+    """Length of the edges over the way there from where the pads, fed evenly, have their mean temperature [1]."""
+    return 3.0 * edge_length / (pcl_area / edge_length)
+
+
+@quantities.helper()
+def plate_to_edge(
+    pcl_area: Scalar,
+    edge_length: Scalar,
+    pcl_depth: Scalar,
+    pcl_conductivity_solid: Scalar,
+    pcl_conductivity_melt: Scalar,
+    backing_depth: Scalar,
+    structure_conductivity: Scalar,
+) -> Scalar:
+    """Conductance [W/K] from where the plate above the arcs has its mean temperature to their edges.
+
+    The layer heats the plate from below, more where that is colder.
+    """
+    width, sheet = pcl_area / edge_length, structure_conductivity * backing_depth
+    layer = 0.5 * (pcl_conductivity_solid + pcl_conductivity_melt) / pcl_depth
+    return sheet * edge_length / (width * lumps.way_in_fin(width * np.sqrt(layer / sheet)))
 
 
 @quantities.helper()
@@ -74,9 +93,9 @@ def core_share(
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
 ) -> Scalar:
-    """What of the conductance to the core is left from the mean of the plate's last body, two thirds of it behind."""
+    """What of the conductance to the core is left from the plate's last body on."""
     across = structure_conductivity * rotor_thickness * edge_length**2 / beside_area
-    onward = 2.0 / 3.0 * lumps.STRIP[-1] * core_and_link.conductance / across
+    onward = lumps.BEYOND * core_and_link.conductance / across
     return 1.0 / (1.0 + onward)
 
 
@@ -84,7 +103,7 @@ def core_share(
 def rotor_beside(
     beside_area: Scalar,
     edge_length: Scalar,
-    to_edge: Scalar,
+    plate_to_edge: Scalar,
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
     structure_density: Scalar,
@@ -98,22 +117,18 @@ def rotor_beside(
         beside_area,
         rotor_thickness * structure_density * structure_specific_heat,
         sheet * edge_length**2 / beside_area,
-        lumps.Surface(1.0, rotor_coefficient, surface_emissivity),
-        mean_of_last=1.0 / 3.0,
+        lumps.Surface(1.0, rotor_coefficient, surface_emissivity, rotor_thickness / 3.0 / structure_conductivity),
     )
-    return (first._replace(conductance=lumps.in_series(sheet * to_edge, first.conductance)), *others)
+    return (first._replace(conductance=lumps.in_series(plate_to_edge, first.conductance)), *others)
 
 
 @quantities.helper()
-def uneven_sideways(
-    to_edge: Scalar, edge_length: Scalar, rotor_thickness: Scalar, structure_conductivity: Scalar
-) -> Scalar:
+def uneven_sideways(plate_to_edge: Scalar, edge_length: Scalar, structure_conductivity: Scalar) -> Scalar:
     """Conductance sideways for what the plate's temperature differs over its depth from its mean [W/K].
 
     Its slowest mode, a cosine over the depth, dies down within that over pi beside the arc.
     """
-    sheet = structure_conductivity * rotor_thickness
-    return lumps.in_series(sheet * to_edge, sheet * edge_length * np.pi / rotor_thickness)
+    return lumps.in_series(plate_to_edge, structure_conductivity * edge_length * np.pi)
 
 
 @quantities.helper()

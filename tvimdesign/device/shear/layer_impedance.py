@@ -10,6 +10,7 @@ from tvimdesign.device.core.impedance.joint_impedance import quantities as share
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
+from tvimdesign.device.fixtures.liner import WITH_LINER, traction_with_liner
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
@@ -40,12 +41,6 @@ def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness:
 
 
 @quantities.helper()
-def frozen_shear_modulus(pcl_flexural_modulus: Scalar, pcl_poissons_ratio: Scalar) -> Scalar:
-    """Shear modulus of the frozen PCL at 23 degC [Pa]."""
-    return structure.shear_modulus(pcl_flexural_modulus, pcl_poissons_ratio)
-
-
-@quantities.helper()
 def held_polar_moment(
     heater_form: str,
     layer_polar_moment: Scalar,
@@ -69,17 +64,36 @@ def held_polar_moment(
     return layer_polar_moment - (1.0 - borne) * window_section.polar
 
 
+@quantities.helper(requires=WITH_LINER)
+def liner_shear_modulus(liner_youngs_modulus: Scalar, liner_poissons_ratio: Scalar) -> Scalar:
+    """Shear modulus of the liner [Pa]."""
+    return structure.shear_modulus(liner_youngs_modulus, liner_poissons_ratio)
+
+
+@quantities.helper(requires=WITH_LINER, default=np.inf)
+def liner_traction(liner_bond_strength: Scalar, liner_strength: Scalar) -> Scalar:
+    """Shear that a liner and its bond bear [Pa]: nothing gives way where there is none."""
+    return np.fmin(liner_bond_strength, structure.shear_yield(liner_strength))
+
+
+@quantities.helper(requires=WITH_LINER)
+def liner_compliance(liner_thickness: Scalar, liner_shear_modulus: Scalar, layer_polar_moment: Scalar) -> Scalar:
+    """Compliance of the liners in shear about the axis [rad/(N*m)]; zero without."""
+    return liner_thickness / (liner_shear_modulus * layer_polar_moment)
+
+
 @quantities.helper()
 def core_foot_rise(
     core_radius: Scalar,
     link_bottom_level: Scalar,
     rotor_top_level: Scalar,
+    rotor_thickness: Scalar,
     core_screw_bores: structure.Bores,
     core_dowel_bores: structure.Bores,
 ) -> Scalar:
     """Rise of the core's stress at its foot [1]: on a plate that the arcs drive, with the holes of the link."""
     length = link_bottom_level - rotor_top_level
-    return structure.foot_rise_on_plate(core_radius, length, core_screw_bores, core_dowel_bores)
+    return structure.foot_rise_on_plate(core_radius, length, rotor_thickness, core_screw_bores, core_dowel_bores)
 
 
 @quantities.helper()
@@ -89,10 +103,12 @@ def structure_compliances(
     floor_stiffness: Scalar,
     over_arcs_compliance: Scalar,
     pad_compliance: Scalar,
+    liner_compliance: Scalar,
 ) -> Compliances:
-    """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, and pads."""
+    """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, pads and liners."""
     above, below = over_arcs_compliance, 1.0 / floor_stiffness
-    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, below, pad_compliance)
+    sheets = pad_compliance + liner_compliance
+    return Compliances(1.0 / core_stiffness, 1.0 / plate_stiffness - above, above, 0.0, below, sheets)
 
 
 @quantities.output("N*m/rad")
@@ -148,10 +164,16 @@ def stroke_strains(
 
 @quantities.output("N*m")
 def layer_holding_torque(
-    pcl_bond_strength: Scalar, pcl_tensile_yield: Scalar, layer_polar_moment: Scalar, pcl_outer_radius: Scalar
+    pcl_bond_strength: Scalar,
+    pcl_tensile_yield: Scalar,
+    liner_material: Record | str,
+    liner_traction: Scalar,
+    layer_polar_moment: Scalar,
+    pcl_outer_radius: Scalar,
 ) -> Scalar:
-    """Torque at which the frozen layer's bond, or its shear yield, gives way at its outer rim."""
+    """Torque at which the frozen layer's bond, its shear yield, or a liner on it gives way at its outer rim."""
     traction = np.fmin(pcl_bond_strength, structure.shear_yield(pcl_tensile_yield))
+    traction = traction_with_liner(liner_material, traction, liner_traction)
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
 
 

@@ -70,6 +70,12 @@ def melt_lip_margin(melt_lip_height: Scalar) -> Scalar:
     return melt_lip_height - LEAST_LIP
 
 
+@rules.output("mm", at_least(0.0, "the lips are thinner than the process can make them: more rotor_rim"))
+def melt_lip_wall_margin(rotor_rim: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Width of the lips beyond the process's least wall."""
+    return rotor_rim - minimum_wall
+
+
 @rules.output("mm", at_least(0.0, "the inner lip must clear the hub: less rotor_rim, or a larger pcl_inner_radius"))
 def melt_lip_hub_gap(melt_lip_inner_radius: Scalar, hub_radius: Scalar, running_clearance: Scalar) -> Scalar:
     """Room between inner lip and hub beyond the running clearance."""

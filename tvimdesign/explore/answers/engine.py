@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from tvimdesign.explore.answers.shown import Shown, finite_data, shown_design
 from tvimdesign.explore.states.state import State, set_values, text_of, tree_of
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.solve.nlp.constraints import refuse_impossible
+from tvimdesign.solve.nlp.constraints import impossible, refuse_contradictory, refuse_impossible
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -24,7 +25,7 @@ from tvimdesign.solve.optimizer.parametric_optimizer import Moved, ParametricOpt
 from tvimdesign.solve.optimizer.statuses import OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import Keep, optimize
-from tvimdesign.study import Options, Study, read_tree
+from tvimdesign.study import Options, Study, given, read_tree
 from tvimdesign.study.tree import StudyTree
 
 Stage: TypeAlias = Literal["quick", "exact", "confirmed", "report"]
@@ -41,6 +42,8 @@ class Answer:
 
     shown: Shown
     answered: AnsweredStudy | None = None
+    module: Mapping[str, Any] | None = None
+    """What it is drafted from: `mode`, `choices`, and `values` in SI, none where one is not finite."""
 
 
 class Engine:
@@ -53,6 +56,9 @@ class Engine:
         self._models: list[QuickModel] = []
         self._problem: ParametricOptimizer | None = None
         self._last: Moved | None = None
+        self._free: tuple[Mapping[str, Any], Study] | None = None
+        self._reference_of: tuple[QuickModel, bytes, list[str]] | None = None
+        self._references: dict[str, float] = {}
         self._told: Answer | None = None
 
     def answer(self, state: State, stage: Stage, progress: Progress = lambda _: None) -> Answer:
@@ -69,13 +75,14 @@ class Engine:
     # --- while something is dragged ---
 
     def _quick(self, state: State) -> Answer:
-        free = self._read(tree_of(self._base, state, "optimize"))
+        free = self._freed(state)
         if state.way == "evaluate":
             study = self._read(tree_of(self._base, state))
             values = self._evaluated(study, {})
-            return Answer({"status": "", **shown_design(study, free, values.values),
-                           "curves": finite_data(values.curves)})  # fmt: skip
-        study = self._read(set_values(tree_of(self._base, state), _listed(free, state)))
+            shown = {**shown_design(study, free, values.values), "curves": finite_data(values.curves)}
+            return Answer({"status": "", **shown}, None, _module(study, values.values, values.words))
+        listed = _listed(free, state)
+        study = self._read(set_values(tree_of(self._base, state), listed)) if listed else free
         if study.profile.pieces():
             return Answer({"status": WAITS})
         study = study.model_copy(update={"robust": None}) if study.robust and study.robust.share else study
@@ -88,7 +95,7 @@ class Engine:
         shown = shown_design(study, free, evaluated.values, moved.binding, moved.ends)
         shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in found.items()}}
         shown["curves"], shown["iterations"] = finite_data(evaluated.curves), moved.run.start.iterations
-        return Answer({"status": "", **shown})
+        return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))
 
     def _problem_index(self, name: str) -> int:
         assert self._problem is not None
@@ -102,27 +109,35 @@ class Engine:
 
     def _reference(self, study: Study, problem: ParametricOptimizer) -> dict[str, float]:
         """What is minimised at the study's own start, where that is another than the one that was built."""
-        model, built = self._model(study), problem.optimizer
-        start = model.inputs(study)
+        known = given(study)
+        model, built = self._model(study, known), problem.optimizer
+        start = model.inputs(known)
         if np.array_equal(start, built.model.start):
             return {}
+        asked = model, start.tobytes(), list(study.minimize)
+        if self._reference_of == asked:
+            return self._references
         values = model.evaluate(start).values
         horizon = values["horizon"]
         found = {name: values[name] if np.isfinite(values[name]) else horizon for name in study.minimize}
-        return {name: value or 1.0 for name, value in found.items()}
+        self._reference_of, self._references = asked, {name: value or 1.0 for name, value in found.items()}
+        return self._references
 
     def _evaluated(self, study: Study, found: Mapping[str, float]) -> Evaluated:
         """Raises InputError in the study's words where there is no such module."""
-        model = self._model(study)
-        evaluated = model.evaluate(model.inputs(study, found))
-        if any(np.isnan(value) for value in evaluated.values.values()):
-            with np.errstate(invalid="ignore"):
+        known = given(study)
+        model = self._model(study, known)
+        evaluated = model.evaluate(model.inputs({**known, **found}))
+        with np.errstate(invalid="ignore"):
+            if impossible(evaluated.values, study.table):
                 refuse_impossible(study)
+            refuse_contradictory(study, known)
         return evaluated
 
-    def _model(self, study: Study) -> QuickModel:
+    def _model(self, study: Study, known: Mapping[str, Any]) -> QuickModel:
+        """The module compiled; `known` is what the study gives."""
         for model in self._models:
-            if model.fits(study):
+            if model.fits(study, known):
                 return model
         self._models = [QuickModel(study, compiled=self._compiled), *self._models[: _MODELS - 1]]
         return self._models[0]
@@ -136,7 +151,7 @@ class Engine:
 
     def _exact(self, state: State, stage: Stage, progress: Progress) -> Answer:
         tree = tree_of(self._base, state)
-        free = self._read(tree_of(self._base, state, "optimize"))
+        free = self._freed(state)
         if stage == "exact" and state.way == "optimize":
             tree = set_values(tree, _listed(free, state))
         tree = set_values(tree, {"front": None}) if tree.section("front") is not None else tree
@@ -146,10 +161,14 @@ class Engine:
         shown = shown_design(answered.study, free, design.values)
         shown["status"] = "" if found.found else complaint(found, table)
         shown["found"] = found.found
+        with suppress(TvimError):
+            at = {name: design.values[name] for name in free.vary if name in design.values}
+            evaluated = self._evaluated(answered.study, at)
+            shown["curves"] = finite_data(evaluated.curves)
         shown["at"] = {
             name: text_of(free, name, design.choices.get(name, design.values.get(name, 0.0))) for name in free.vary
         }
-        return Answer(shown, answered)
+        return Answer(shown, answered, _module(answered.study, design.values, design.choices))
 
     def _near(
         self,
@@ -176,8 +195,19 @@ class Engine:
 
     # --- what both need ---
 
+    def _freed(self, state: State) -> Study:
+        """The study of a state with what varies free, read again only where what was changed is another."""
+        if self._free is None or self._free[0] != state.changes:
+            self._free = dict(state.changes), self._read(tree_of(self._base, state, "optimize"))
+        return self._free[1]
+
     def _read(self, tree: StudyTree) -> Study:
         return read_tree(tree, lambda _: self._study.table, lambda _: self._study.catalog)
+
+
+def _module(study: Study, values: Mapping[str, float], words: Mapping[str, str]) -> dict[str, Any]:
+    """What a module is drafted from."""
+    return {"mode": study.mode, "choices": dict(words), "values": finite_data(dict(values))}
 
 
 def _listed(study: Study, state: State) -> dict[str, str]:

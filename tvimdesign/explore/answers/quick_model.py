@@ -40,6 +40,8 @@ class Evaluated:
 
     values: dict[str, float]
     curves: Curves
+    words: dict[str, str]
+    """Chosen records and options by name."""
 
 
 class QuickModel:
@@ -47,9 +49,11 @@ class QuickModel:
 
     def __init__(self, study: Study, *, compiled: bool = True) -> None:
         """Simulate the study's start, which sets the pace, and begin to compile."""
-        self.words = words_of(study)
+        known = given(study)
+        self.words = words_of(known)
+        self._said = {row.name: str(getattr(known[row.name], "name", known[row.name])) for row in study.table.choices}
         self.points, self.cells = tuple(study.operating_points), study.solver.cells
-        self.model = DeviceFunctions(study.table, given(study), self.points, self.cells)
+        self.model = DeviceFunctions(study.table, known, self.points, self.cells)
         self._simulator = Simulator(self.model, _LOOSE, _SAMPLES)
         self._kernel: CycleKernel | None = None
         self._pace: Pace | None = None
@@ -59,10 +63,10 @@ class QuickModel:
         if compiled:
             self._thread.start()
 
-    def fits(self, study: Study) -> bool:
-        """Whether a study's module differs in numbers alone."""
+    def fits(self, study: Study, known: Mapping[str, Any]) -> bool:
+        """Whether a study's module differs in numbers alone; `known` is what the study gives."""
         same = tuple(study.operating_points) == self.points and study.solver.cells == self.cells
-        return same and words_of(study) == self.words
+        return same and words_of(known) == self.words
 
     def wait(self) -> bool:
         """Wait until the kernels are compiled; whether they could be."""
@@ -76,10 +80,9 @@ class QuickModel:
         ends = {name: cycle.values[phase.phase.ends] for name, phase in self.model.phases.items()}
         self._pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
 
-    def inputs(self, study: Study, found: Mapping[str, float] | None = None) -> Array:
-        """The vector of a study's numbers, where it starts or where an optimum was found."""
-        numbers = {**given(study), **(found or {})}
-        return np.array([float(numbers[name]) for name in self.model.names])
+    def inputs(self, known: Mapping[str, Any]) -> Array:
+        """The vector of a module's numbers, out of all that is known of it."""
+        return np.array([float(known[name]) for name in self.model.names])
 
     def evaluate(self, inputs: Array) -> Evaluated:
         """Every output of a module, and its curves. Raises SimulationError."""
@@ -97,7 +100,7 @@ class QuickModel:
             for name, drawn in self._maps.items() if name in lines
         }  # fmt: skip
         return Evaluated({**dict(zip(self.model.names, inputs.tolist(), strict=True)),
-                          **self.model.values(inputs, switch)}, curves)  # fmt: skip
+                          **self.model.values(inputs, switch)}, curves, self._said)  # fmt: skip
 
     @property
     def _fixed(self) -> int:
@@ -148,9 +151,9 @@ def _line(course: list[tuple[float, Array]]) -> tuple[Array, Array]:
     return np.array([time for time, _ in course]), np.column_stack([states[:, 0] for _, states in course])
 
 
-def words_of(study: Study) -> dict[str, Any]:
+def words_of(known: Mapping[str, Any]) -> dict[str, Any]:
     """The records and options of a module, and its count of cells, which is a shape."""
     return {
-        name: value for name, value in given(study).items()
+        name: value for name, value in known.items()
         if not isinstance(value, int | float) or name == "rotor_cells"
     }  # fmt: skip

@@ -1,24 +1,16 @@
-"""The other end of the worker: the newest job wins, and what is slow gives way to it."""
+"""Jobs of the process that solves: a state, and how exactly it is to be answered."""
 
 from __future__ import annotations
 
-import asyncio
-import contextlib
 import json
-import signal
-import subprocess
-import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from tvimdesign.base.child_process import start_child
 from tvimdesign.explore.answers.engine import Stage
 from tvimdesign.explore.states.state import State
+from tvimdesign.explore.worker_process import Told, WorkerProcess
 
-Told = dict[str, Any]
-_STARTS = 2
-"""Times the same job may end the worker before it is given up."""
+WORKER = "tvimdesign.explore.answers.worker"
 
 
 @dataclass(frozen=True)
@@ -29,107 +21,24 @@ class Job:
     stage: Stage
     state: State
 
+    @property
+    def gives_way(self) -> bool:
+        """What is slow is interrupted when another job comes."""
+        return self.stage != "quick"
+
     def line(self) -> str:
         """As the worker reads it."""
         return json.dumps({"number": self.number, "stage": self.stage, "state": self.state.model_dump()}) + "\n"
 
+    def given_up(self) -> Told:
+        """What is told where the worker ended over it."""
+        words = "the solver ended without an answer; what you did is kept: undo, or go on from here"
+        return {"shown": {"status": words, "found": False, "stage": self.stage, "way": self.state.way}}
 
-class Solver:
-    """A worker process, and the one job that waits for it. To be used in an event loop."""
+
+class Solver(WorkerProcess[Job]):
+    """The process that solves."""
 
     def __init__(self, arguments: Sequence[str], told: Callable[[Job, Told], None]) -> None:
-        """Start the worker with the arguments of its module; `told` is called with all it says of a job."""
-        self._arguments, self._told = list(arguments), told
-        self._loop = asyncio.get_running_loop()
-        self._under_way: Job | None = None
-        self._waiting: Job | None = None
-        self._interrupted = False
-        self._ended = 0
-        self._closed = False
-        self._start()
-
-    def ask(self, job: Job) -> None:
-        """Answer a job as soon as may be; what waited before it is dropped, what is slow is interrupted."""
-        if self._under_way is None:
-            self._send(job)
-            return
-        self._waiting = job
-        if self._under_way.stage != "quick" and not self._interrupted:
-            self._interrupted = True
-            self._child.send_signal(signal.SIGINT)
-
-    @property
-    def under_way(self) -> Stage | None:
-        """What is being answered, if anything is."""
-        return self._under_way.stage if self._under_way else None
-
-    @property
-    def process(self) -> int:
-        """The worker's number."""
-        return self._child.pid
-
-    def close(self) -> None:
-        """End the worker."""
-        self._closed = True
-        self._child.kill()
-        self._child.wait()
-        self._thread.join()
-
-    def _start(self) -> None:
-        self._child = start_child(
-            "tvimdesign.explore.answers.worker", self._arguments,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8", bufsize=1,
-            start_new_session=True,
-        )  # fmt: skip
-        self._thread = threading.Thread(target=self._read, args=(self._child,), daemon=True)
-        self._thread.start()
-
-    def _read(self, child: subprocess.Popen[str]) -> None:
-        """In a thread: hand every line to the loop."""
-        assert child.stdout is not None
-        with child.stdout:
-            for line in child.stdout:
-                self._call(self._heard, json.loads(line))
-        if child.stdin:
-            with contextlib.suppress(OSError):
-                child.stdin.close()
-        self._call(self._lost)
-
-    def _call(self, function: Callable[..., None], *arguments: Any) -> None:
-        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody listens any more
-            self._loop.call_soon_threadsafe(function, *arguments)
-
-    def _send(self, job: Job) -> None:
-        self._under_way, self._interrupted = job, False
-        assert self._child.stdin is not None
-        with contextlib.suppress(OSError, ValueError):  # a worker that has died is started again when that is heard
-            self._child.stdin.write(job.line())
-            self._child.stdin.flush()
-
-    def _heard(self, told: Told) -> None:
-        job = self._under_way
-        if job is None or told.get("number") != job.number:
-            return
-        if "progress" in told:
-            self._told(job, told)
-            return
-        self._under_way, self._ended = None, 0
-        waiting, self._waiting = self._waiting, None
-        if waiting is not None:
-            self._send(waiting)
-        self._told(job, told)
-
-    def _lost(self) -> None:
-        """The worker has ended by itself: start it again, with the job that is newest."""
-        if self._closed:
-            return
-        self._child.wait()
-        self._ended += 1
-        job, self._under_way = self._waiting or self._under_way, None
-        self._waiting = None
-        self._start()
-        if job is not None and self._ended < _STARTS:
-            self._send(job)
-        elif job is not None:
-            words = "the solver ended without an answer; what you did is kept: undo, or go on from here"
-            self._told(job, {"shown": {"status": words, "found": False, "stage": job.stage, "way": job.state.way}})
+        """Start it; `told` is called with all it says of a job."""
+        super().__init__(WORKER, arguments, told)

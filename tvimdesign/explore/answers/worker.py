@@ -6,6 +6,7 @@ under way, as a newer one stands in its place; the process goes on.
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import signal
@@ -35,12 +36,24 @@ class _Interrupts:
             raise KeyboardInterrupt
 
 
+class _Quiet(io.TextIOBase):
+    """Standard error, but for what a library says of an interrupt that was meant."""
+
+    def __init__(self, through: TextIO, interrupts: _Interrupts) -> None:
+        self._through, self._interrupts = through, interrupts
+
+    def write(self, text: str) -> int:
+        """Write it, or not."""
+        return len(text) if self._interrupts.came else self._through.write(text)
+
+
 def main() -> None:
     """Answer jobs until there are no more."""
     follow_parent()
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a library prints must not stand among the answers
     interrupts = _Interrupts()
+    sys.stderr = _Quiet(sys.stderr, interrupts)
     source, folder, settings = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
     engine = Engine(open_source(source, settings).tree)
     _say(answers, {"ready": True})
@@ -76,7 +89,7 @@ def _done(
 
 
 def _told(found: Answer, folder: Path) -> dict[str, Any]:
-    told: dict[str, Any] = {"shown": found.shown}
+    told: dict[str, Any] = {"shown": found.shown, "module": found.module}
     if found.answered is not None:
         design = found.answered.result.design
         told["report"] = report_fragment(folder, found.answered)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
@@ -17,13 +18,14 @@ Shown = dict[str, Any]
 
 def controls_shown(free: Study, fixed: Study, state: State) -> Shown:
     """Every control; `free` is the study with what varies free, `fixed` the one of the module under the hand."""
+    values = given(fixed)
     return {
         "variables": [_variable(name, free, state) for name in free.vary],
         "requirements": _requirements(free),
         "weights": [{"name": name, "value": weight, "means": _means(free, name)}
                     for name, weight in free.minimize.items()],
-        "choices": [_choice(row, fixed) for row in free.table.choices if row.name not in free.vary],
-        "inputs": _inputs(free, fixed),
+        "choices": [_choice(row, fixed, values[row.name]) for row in free.table.choices if row.name not in free.vary],
+        "inputs": _inputs(free, fixed, values),
     }  # fmt: skip
 
 
@@ -52,20 +54,14 @@ def _requirements(free: Study) -> list[Shown]:
     return found
 
 
-def _choice(row: Choice, fixed: Study) -> Shown:
+def _choice(row: Choice, fixed: Study, value: Any) -> Shown:
     options = list(dict.fromkeys([*words_of(row), *(fixed.catalog.names(row.category) if row.category else [])]))
-    return {"name": row.name, "means": row.description, "text": _word(fixed, row.name), "options": options,
+    return {"name": row.name, "means": row.description, "text": str(getattr(value, "name", value)), "options": options,
             "said": row.name in fixed.module}  # fmt: skip
 
 
-def _word(study: Study, name: str) -> str:
-    value = given(study)[name]
-    return str(getattr(value, "name", value))
-
-
-def _inputs(free: Study, fixed: Study) -> list[Shown]:
+def _inputs(free: Study, fixed: Study, values: Mapping[str, Any]) -> list[Shown]:
     """Numbers that are not varied; those the study sets first. A temperature of a point is `temperature@hot`."""
-    values = given(fixed)
     found = []
     for row in free.table.inputs:
         if row.name in free.vary:

@@ -5,7 +5,8 @@ const LONGEST = 5000;
 
 /** Connect; `told` is called with every message, `changed` with whether there is a connection. */
 export function connect(told, changed) {
-  let socket = null;
+  /** @type {WebSocket} */
+  let socket;
   let wait = FIRST;
   const open = () => {
     const address = new URL("socket", document.baseURI);

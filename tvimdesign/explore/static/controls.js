@@ -8,6 +8,7 @@ const WORDS = { binds: "binds", broken: "broken", kept: "" };
 export function controlPanel(place, send) {
   const knobs = new Map();
   let shape = "";
+  /** What the server has told last. @type {any} */
   let state = null;
 
   const fieldset = (title, rows, open = true) => {
@@ -63,7 +64,7 @@ export function controlPanel(place, send) {
     knobs.clear();
     const { variables, requirements, weights, choices } = state.controls;
     const weight = (one) => keep(`weight ${one.name}`, numberKnob(
-      { label: one.name, means: one.means, unit: "", text: String(one.value), low: 0, high: Math.max(5, 2 * one.value) },
+      { label: one.name, means: one.means, unit: "", text: String(one.value), value: one.value, low: 0, high: Math.max(5, 2 * one.value) },
       (text, final) => send({ kind: "weight", name: one.name, text, final })));
     const choice = (one) => keep(one.name, choiceKnob({ ...one, label: one.name }, (text) => send({ kind: "set", name: one.name, text, final: true })));
     place.replaceChildren(

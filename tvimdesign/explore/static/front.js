@@ -18,7 +18,7 @@ export function frontOf(place, section, send) {
         series: [{ type: "scatter", symbolSize: 12, color: look.colours[0],
           data: front.points.map(({ number, values }) => ({ value: [values[x], values[y]], number })) }],
       }));
-      one.made.on("click", ({ data }) => see(data.number));
+      one.made.on("click", (/** @type {any} */ { data }) => see(data.number));
       place.append(make("details", {}, make("summary", {}, "Points, as buttons"), ...front.points.map(({ number, values }) => {
         const made = button(`Point ${number}: ${front.of.map((name, i) => `${front.labels[[y, x][i] ?? front.names.indexOf(name)]} ${short(values[front.names.indexOf(name)])}`).join(", ")}`, () => see(number));
         made.className = "plain";

@@ -10,7 +10,7 @@ let count = 0;
  * `low` and `high` are the slider's ends in `unit`; without them there is no slider.
  */
 export function numberKnob({ label, means, unit, text, value, low, high, before = "" }, asked) {
-  const field = make("input", { type: "text", value: text, spellcheck: false, autocomplete: "off", id: `knob-${count += 1}` });
+  const field = make("input", { type: "text", value: fitting(text), spellcheck: false, autocomplete: "off", id: `knob-${count += 1}` });
   const name = make("label", { for: field.id, title: means }, label);
   const refusal = make("p", { className: "refusal", role: "alert" });
   const stands = make("span", { className: "stands" });
@@ -18,7 +18,7 @@ export function numberKnob({ label, means, unit, text, value, low, high, before 
   const one = { row, field, refusal, stands, held: false };
   const typed = () => { if (field.value !== one.sent) ask(field.value, true); };
   const ask = (words, final) => { one.sent = words; refusal.textContent = ""; asked(words, final); };
-  one.sent = text;
+  one.sent = field.value;
   field.addEventListener("change", typed);
   field.addEventListener("keydown", (event) => { if (event.key === "Enter") typed(); });
   if (low !== undefined && high > low) {
@@ -38,8 +38,7 @@ export function numberKnob({ label, means, unit, text, value, low, high, before 
   /** Show a value that came from elsewhere, unless a hand is on the control. */
   one.show = (words, number) => {
     if (one.held || (document.activeElement === field && field.value !== one.sent)) return;
-    field.value = words;
-    one.sent = words;
+    field.value = one.sent = fitting(words);
     if (one.slider) {
       one.slider.value = number;
       one.slider.setAttribute("aria-valuetext", words);
@@ -53,6 +52,9 @@ export function numberKnob({ label, means, unit, text, value, low, high, before 
   };
   return one;
 }
+
+/** A text with its number in as many digits as a field shows; what stands is exact, and goes nowhere unless it is changed. */
+const fitting = (text) => text.replace(/^-?\d+\.\d{5,}/, (number) => String(Number(Number(number).toPrecision(6))));
 
 /** A control of a word out of some. */
 export function choiceKnob({ label, means, text, options }, asked) {

@@ -1,5 +1,5 @@
 // What follows the hand: limits, outputs and the curves of the cycle.
-import { axis, chart, frame, lineOf } from "page/charts.js";
+import { axis, chart, frame, legendRows, lineOf } from "page/charts.js";
 import { make } from "page/dom.js";
 import { withUnit } from "explore/knob.js";
 
@@ -53,8 +53,8 @@ export function liveCurves(place) {
       return found;
     });
   };
-  const charts = CHARTS.map(({ says, label, columns, log }) => chart(place, { says, height: 220 }, (look) => ({
-    ...frame(look), grid: { left: 62, right: 20, top: 30, bottom: 42 },
+  const charts = CHARTS.map(({ says, label, columns, log }) => chart(place, { says, height: 230 }, (look, width) => ({
+    ...frame(look), grid: { left: 62, right: 20, top: 12 + 20 * legendRows(Object.values(columns), width), bottom: 42 },
     xAxis: axis("Time (s)", look, { scale: false }), yAxis: axis(label, look, { type: log ? "log" : "value", nameGap: 44 }),
     series: Object.entries(columns).map(([column, name], i) => lineOf(name, pairs(column), i, look)),
   })));

@@ -2,12 +2,14 @@
 import { button, make } from "page/dom.js";
 import { controlPanel } from "explore/controls.js";
 import { connect } from "explore/connection.js";
+import { draftOf } from "explore/draft.js";
 import { frontOf } from "explore/front.js";
 import { limitsTable, liveCurves, outputsTable } from "explore/live.js";
 import { pinsTable } from "explore/pins.js";
 import { reportPanel } from "explore/report.js";
 
-const at = (id) => document.getElementById(id);
+/** An element that the template has. @returns {HTMLElement} */
+const at = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
 const status = at("status");
 const send = (message) => {
   if (connection.send(message)) document.documentElement.dataset.sent = String(Number(document.documentElement.dataset.sent ?? 0) + 1);
@@ -17,10 +19,13 @@ const controls = controlPanel(at("controls"), send);
 const limits = limitsTable(at("limits"));
 const outputs = outputsTable(at("outputs"));
 const curves = liveCurves(at("curves"));
+const draft = draftOf(at("draft"));
 const pins = pinsTable(at("pins"), at("pins-section"), send);
 const front = frontOf(at("front"), at("front-section"), send);
 const report = reportPanel(at("report"));
+/** What the server has told last: its state, and the last design with values. @type {any} */
 let state = null;
+/** @type {any} */
 let last = null;
 
 const ways = Object.fromEntries([["evaluate", "Evaluate"], ["optimize", "Optimise"]].map(([way, label]) =>
@@ -35,7 +40,7 @@ const save = button("Save as study", () => send({ kind: "save", file: file.value
 const told = make("span", { role: "status", "aria-live": "polite", id: "told" });
 at("toolbar").append(...Object.values(ways), undo, redo, button("Start again", () => send({ kind: "reset" })), pin, confirm, parts, file, save, told);
 addEventListener("keydown", (event) => {
-  if (!(event.ctrlKey || event.metaKey) || event.target.matches("input[type=text], input[type=search]")) return;
+  if (!(event.ctrlKey || event.metaKey) || /** @type {Element} */ (event.target).matches("input[type=text], input[type=search]")) return;
   if (event.key === "z") { event.preventDefault(); send({ kind: event.shiftKey ? "redo" : "undo" }); }
 });
 
@@ -64,6 +69,7 @@ const HEARD = {
     if (state) show(message.shown);
     if (message.report) report.show(message.report);
   },
+  draft(message) { draft.show(message); },
   refused({ name, words }) {
     if (!controls.refuse(name, words)) told.textContent = words;
   },

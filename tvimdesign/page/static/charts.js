@@ -19,7 +19,7 @@ export function chart(place, { says, height = 260 }, build) {
   box.style.height = `${height}px`;
   place.append(box);
   const made = init(box, null, { renderer: "svg" });
-  const one = { box, made, show: () => made.setOption({ animation: false, ...build(look(), onPaper ? PAPER : box.clientWidth) }, true) };
+  const one = { box, made, show: () => made.setOption({ animation: false, ...build(lookNow(), onPaper ? PAPER : box.clientWidth) }, true) };
   one.show();
   every.add(one);
   let wide = box.clientWidth;
@@ -55,7 +55,7 @@ function toPaper(yes) {
 }
 
 /** Colours and line styles of now. */
-export function look() {
+export function lookNow() {
   const isDark = dark.matches && !onPaper;
   return {
     colours: isDark ? DARK : LIGHT,
@@ -90,7 +90,7 @@ export function frame(look, more = {}) {
   };
 }
 
-/** One line. */
+/** One line. @returns {any} */
 export function lineOf(name, pairs, number, look, more = {}) {
   const colour = look.colours[number % look.colours.length];
   return {

@@ -24,7 +24,7 @@ export function draw(place, data) {
   controls.append(time.row, play);
   const panels = make("div", { className: "panels" });
   place.append(controls, told, panels);
-  const over = (says, height, axes, lines) => charts.push(overTime(panels, { says, height }, data, line, axes, lines));
+  const over = (says, height, axes, lines) => charts.push(overTime(panels, { says, height }, line, axes, lines));
 
   const [start, end] = data.melting;
   over("Temperatures over time", 300, [{ name: "Temperature (°C)", band: [start, end] }],
@@ -69,7 +69,7 @@ export function draw(place, data) {
 }
 
 /** One chart over the whole cycle, with the cursor; a click moves it. */
-function overTime(place, { says, height }, data, line, axes, lines) {
+function overTime(place, { says, height }, line, axes, lines) {
   const build = (look, width) => ({
     ...frame(look),
     grid: { ...frame(look).grid, top: 14 + 20 * legendRows(lines.map(({ name }) => name), width) },

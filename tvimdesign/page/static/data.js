@@ -4,7 +4,7 @@ let all;
 
 /** Data of the figure of that name. */
 export function dataOf(name) {
-  all ??= JSON.parse(document.getElementById("page-data").textContent);
+  all ??= JSON.parse(document.getElementById("page-data")?.textContent ?? "{}");
   return all[name];
 }
 

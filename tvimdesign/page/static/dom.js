@@ -41,6 +41,7 @@ export function tick(label, checked, told) {
 
 /** Calls `step` with the seconds since the last frame, while it plays. */
 export function player(step) {
+  /** @type {number | null} */
   let last = null;
   const frame = (now) => {
     if (last === null) return;

@@ -32,7 +32,7 @@ async function attempt(figure) {
     figure.dataset.state = "failed";
     const words = document.createElement("p");
     words.className = "waits";
-    words.textContent = `This figure cannot be drawn here: ${error.message}`;
+    words.textContent = `This figure cannot be drawn here: ${error instanceof Error ? error.message : error}`;
     place.replaceChildren(words);
     console.info(error);
     return null;

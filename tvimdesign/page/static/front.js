@@ -54,8 +54,9 @@ export function draw(place, data) {
     }],
   }));
   parallel.box.dataset.brush = "";
-  parallel.made.on("axisareaselected", ({ parallelAxisId, intervals }) => {
-    const at = parallel.made.getModel().queryComponents({ mainType: "parallelAxis", id: parallelAxisId })[0].componentIndex;
+  parallel.made.on("axisareaselected", (/** @type {any} */ { parallelAxisId, intervals }) => {
+    const model = /** @type {any} */ (parallel.made).getModel(); // the library has no other way to ask which axis it is
+    const at = model.queryComponents({ mainType: "parallelAxis", id: parallelAxisId })[0].componentIndex;
     ends[varying[at]] = intervals.length ? [Math.min(...intervals.flat()), Math.max(...intervals.flat())] : [null, null];
     renew();
   });

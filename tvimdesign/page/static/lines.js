@@ -26,7 +26,7 @@ function series(line, number, look) {
   const made = [lineOf(line.label, pairs, number, look, line.points ? { showSymbol: true, symbolSize: 6 } : {})];
   if (line.dashed) made[0].lineStyle.type = [3, 3];
   for (const edge of line.band ?? []) {
-    made.push({ ...lineOf(line.label, line.x.map((x, i) => [x, edge[i]]), number, look), lineStyle: { width: 1, opacity: 0.5, type: "dotted" }, silent: true });
+    made.push({ ...lineOf(line.label, line.x.map((x, i) => [x, edge[i]]), number, look), lineStyle: { width: 1, opacity: 0.5, type: "dotted", color: look.colours[number % look.colours.length] }, silent: true });
   }
   return made;
 }

@@ -54,7 +54,7 @@ function addFilter(table, rows) {
     let shown = 0;
     for (const row of rows) {
       row.hidden = !row.textContent.toLowerCase().includes(word);
-      shown += !row.hidden;
+      if (!row.hidden) shown += 1;
     }
     count.textContent = word ? ` ${shown} of ${rows.length} rows` : "";
   });

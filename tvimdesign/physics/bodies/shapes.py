@@ -148,6 +148,11 @@ def slot(half_width: Any, length: Any) -> Section:
     return Section(strip_area + 2.0 * half_disc, strip_polar + near_polar + far_polar)
 
 
+def mean_square(inner_radius: Any, outer_radius: Any) -> Any:
+    """Mean of r^2 along a radial line [m^2]."""
+    return (inner_radius**2 + inner_radius * outer_radius + outer_radius**2) / 3.0
+
+
 def radial_strip(thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
     """Area [m^2] between two circles about the axis, a radial line and its parallel at the given distance.
 

@@ -11,9 +11,9 @@ What is frozen follows the equilibrium melting curve, which is right for melting
 carries its own history instead, and freezes late and supercooled.
 
 A state is a one-dimensional array: cold side, hot side, polymer cells from the hot side on, plate cells, the lumps
-beside the plate, the sink if there is one, the lumps around the pads, and with kinetics one extended fraction for each
-polymer cell. Temperatures stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the
-order of one.
+beside the plate, the sink if there is one, the lumps around the pads, the middle of the pads' legs where these have a
+heat capacity, the liner if there is one, and with kinetics one extended fraction for each polymer cell. Temperatures
+stand in it as (T - 273.15 K)/100 K and enthalpies as H/(1e5 J/kg), so that all are of the order of one.
 """
 
 from __future__ import annotations
@@ -24,87 +24,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow import conduction, lumps, peltier
-from tvimdesign.physics.heat_flow.lumps import Body, Link, Lump, Surface
+from tvimdesign.physics.heat_flow import conduction, liner, lumps, peltier
+from tvimdesign.physics.heat_flow.stack import Profile, Stack
 from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 
+__all__ = [
+    "Profile", "Stack", "electrical_power", "initial_state", "profile", "rates", "stored_energy", "voltage",
+    "with_history",
+]  # fmt: skip
+
 TEMPERATURE_SCALE = 100.0  # K
 ENTHALPY_SCALE = 1e5  # J/kg
-
-
-class Stack(NamedTuple):
-    """Everything the heat equation needs to know of the stack."""
-
-    area: Any
-    """Area the heat passes [m^2], the same for all layers."""
-    thickness: Any
-    """Thickness of the polymer [m]."""
-    density: Any
-    conductivity_solid: Any
-    conductivity_melt: Any
-    melting: polymer.Melting
-    peltier: peltier.PeltierModule
-    cold_capacity: Any
-    """Heat capacity of the cold side [J/K]."""
-    hot_capacity: Any
-    cold_surface: Surface
-    """What the cold side has towards the air; not used where there is a sink."""
-    hot_contact: Any
-    """Contact conductance of hot side and polymer [W/m^2 K]."""
-    plate_contact: Any
-    plate_thickness: Any
-    plate_conductivity: Any
-    plate_heat_capacity: Any
-    """Per volume [J/m^3 K]."""
-    plate_surface: Surface
-    """The plate's outer face; its area is the stack's."""
-    ambient: Any
-    """[K]"""
-    plate_cells: int
-    beside: tuple[Lump, ...] = ()
-    """What the plate belongs to: the first takes heat from all the plate's cells, each next from the one before."""
-    uneven_conductance: Any = None
-    """Conductance [W/K] sideways for what the plate's temperature differs over its depth from its mean; as for the mean
-    where not given."""
-    sink: Lump | None = None
-    """A body between the cold side and the air."""
-    around: tuple[Body, ...] = ()
-    """What the pads are set in."""
-    links: tuple[Link, ...] = ()
-    """What else passes heat between the column and the bodies beside and around it."""
-    motion_heat: Any = 0.0
-    """Heat that the joint's motion makes in each polymer cell [W]."""
-    layer_resistance: Any = 0.0
-    """Of the polymer, where the heater's current passes it [ohm]; its heat is the same in each cell."""
-    freezing: crystallization.Kinetics | None = None
-    """Kinetics of freezing; without them the equilibrium melting curve holds."""
-
-
-class Profile(NamedTuple):
-    """Temperatures [K] through the stack at one instant, and the solid fraction of each polymer cell."""
-
-    cold: Any
-    hot: Any
-    near: Any
-    """Polymer's face towards the Peltier element."""
-    cells: Any
-    far: Any
-    """Polymer's face towards the plate."""
-    plate_face: Any
-    """Plate's face towards the polymer."""
-    plate: Any
-    beside: Any
-    """Lumps beside the plate."""
-    sink: Any
-    """The sink, if there is one."""
-    around: Any
-    """Lumps around the pads."""
-    fractions: Any
-    through_layer: Any
-    """Heat [W] into the first polymer cell, between the cells, and out of the last."""
-    through_plate: Any
-    """Heat [W] into the first plate cell, between the cells, and out to the air."""
 
 
 class _Parts(NamedTuple):
@@ -117,20 +48,24 @@ class _Parts(NamedTuple):
     beside: Any
     sink: Any
     around: Any
+    legs: Any
+    liner: Any
     extended: Any
 
 
 def _lengths(stack: Stack) -> tuple[int, ...]:
-    """Counts of entries after the polymer's: plate, beside it, sink, around the pads."""
-    return stack.plate_cells, len(stack.beside), int(stack.sink is not None), len(stack.around)
+    """Counts of entries after the polymer's: plate, beside it, sink, around the pads, their legs, liner."""
+    bodies = (len(stack.beside), int(stack.sink is not None), len(stack.around))
+    legs, sheet = int(stack.legs_capacity is not None), liner.CELLS * int(stack.liner is not None)
+    return stack.plate_cells, *bodies, legs, sheet
 
 
 def _parts(state: Any, stack: Stack) -> _Parts:
     cells = len(state) - 2 - sum(_lengths(stack))
     cells = cells // 2 if stack.freezing else cells
     ends = list(itertools.accumulate((2, cells, *_lengths(stack))))
-    layer, plate, beside, sink, around = (state[a:b] for a, b in itertools.pairwise(ends))
-    return _Parts(state[0], state[1], layer, plate, beside, sink, around, state[ends[-1] :])
+    bodies = (state[a:b] for a, b in itertools.pairwise(ends))
+    return _Parts._make((state[0], state[1], *bodies, state[ends[-1] :]))
 
 
 def initial_state(stack: Stack, cells: int, temperature: Any) -> Any:
@@ -169,30 +104,40 @@ def profile(state: Any, stack: Stack) -> Profile:
     cells, fractions = _layer(parts, stack)
     plate = _kelvin(parts.plate)
     hot = _kelvin(parts.hot)
-    near_half, far_half = _wall_halves(stack, cells, fractions, hot, plate[0])
+    sheet = _kelvin(parts.liner)
+    near_half, far_half = _wall_halves(stack, cells, fractions, hot, plate[0] if stack.liner is None else sheet[0])
     plate_half = 0.5 * stack.plate_thickness / stack.plate_cells / (stack.plate_conductivity * stack.area)
 
     inflow = (hot - cells[0]) / (1.0 / (stack.hot_contact * stack.area) + near_half)
     inside = _between_cells(stack, cells, fractions)
-    across = (cells[-1] - plate[0]) / (far_half + 1.0 / (stack.plate_contact * stack.area) + plate_half)
+    to_face = far_half + 1.0 / (stack.plate_contact * stack.area)
+    if stack.liner is None:
+        across = onward = (cells[-1] - plate[0]) / (to_face + plate_half)
+        through = sheet
+    else:
+        through = liner.flows(stack.liner, (cells[-1], plate[0]), (to_face, plate_half), sheet)
+        across, onward = through[0], through[-1]
     within = -np.diff(plate) / (2.0 * plate_half)
     # Radiation at the temperature of the outermost cell: in a thin plate that is nearly the surface's.
     outside = lumps.surface_coefficient(stack.plate_surface, plate[-1], stack.ambient) * stack.area
-    outflow = (plate[-1] - stack.ambient) / (plate_half + 1.0 / outside)
+    outflow = outside * (plate[-1] - stack.ambient) / (1.0 + outside * plate_half)
     return Profile(
         cold=_kelvin(parts.cold),
         hot=hot,
         near=cells[0] + inflow * near_half,
         cells=cells,
         far=cells[-1] - across * far_half,
-        plate_face=plate[0] + across * plate_half,
+        plate_face=plate[0] + onward * plate_half,
         plate=plate,
         beside=_kelvin(parts.beside),
         sink=_kelvin(parts.sink),
         around=_kelvin(parts.around),
+        legs=_kelvin(parts.legs),
+        liner=sheet,
+        through_liner=through,
         fractions=fractions,
         through_layer=np.append(np.append(inflow, inside), across),
-        through_plate=np.append(np.append(across, within), outflow),
+        through_plate=np.append(np.append(onward, within), outflow),
     )
 
 
@@ -227,26 +172,44 @@ def _wall_halves(stack: Stack, cells: Any, fractions: Any, hot: Any, plate: Any)
 def rates(state: Any, stack: Stack, current: Any) -> Any:
     """Time derivative of the state [1/s] at a current [A], positive where it heats the polymer."""
     now = profile(state, stack)
-    hot_heat = peltier.hot_side_heat(stack.peltier, current, now.hot, now.cold)
-    cold_heat = peltier.cold_side_heat(stack.peltier, current, now.hot, now.cold)
     from_cold, sink = _cold_end(now, stack)
     linked = _linked(now, stack, current)
-    sides = np.append(
-        (linked["cold"][0] - cold_heat - from_cold) / stack.cold_capacity,
-        (linked["hot"][0] + hot_heat - now.through_layer[0]) / stack.hot_capacity,
-    )
+    cold, hot, legs = _pads(now, stack, current, linked)
+    of_legs = 0.0 if stack.legs_capacity is None else peltier.OF_SIDE * stack.legs_capacity
+    cold_side, hot_side = stack.cold_capacity + of_legs, stack.hot_capacity + of_legs
+    sides = np.append((cold - from_cold) / cold_side, (hot - now.through_layer[0]) / hot_side)
     made = stack.motion_heat + current**2 * stack.layer_resistance / len(now.cells)
     layer = made - np.diff(now.through_layer) + linked["layer"][0]
     sideways = _sideways(now, stack)
     plate = (linked["plate"][0] - np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
     beside, around = _bodies(now, stack, np.sum(sideways), linked)
-    bodies = np.append(np.append(np.append(plate, beside), sink), around) / TEMPERATURE_SCALE
+    sheet = now.liner if stack.liner is None else liner.heating(stack.liner, now.through_liner)
+    bodies = np.append(np.append(np.append(np.append(plate, beside), sink), around), np.append(legs, sheet))
+    bodies = bodies / TEMPERATURE_SCALE
     heated = np.append(sides / TEMPERATURE_SCALE, layer / _cell_mass(stack, len(now.cells)) / ENTHALPY_SCALE)
     heated = np.append(heated, bodies)
     if stack.freezing is None:
         return heated
     extended = _parts(state, stack).extended
     return np.append(heated, crystallization.rate(now.cells, extended, stack.freezing, stack.melting))
+
+
+def _pads(now: Profile, stack: Stack, current: Any, linked: Mapping[str, Sequence[Any]]) -> tuple[Any, Any, Any]:
+    """Heat [W] that comes to the pads' cold and hot side, what they give onwards aside, and heating [K/s] of the legs'
+    middle, where they have one.
+
+    What comes to the legs by links is even over their length.
+    """
+    pads, along = stack.peltier, linked.get("legs", [0.0])[0]
+    if stack.legs_capacity is None:
+        cold = linked["cold"][0] - peltier.cold_side_heat(pads, current, now.hot, now.cold)
+        hot = linked["hot"][0] + peltier.hot_side_heat(pads, current, now.hot, now.cold)
+        return cold + 0.5 * along, hot + 0.5 * along, now.legs
+    legs = peltier.legs_heat(pads, current, now.hot, now.legs[0], now.cold)
+    carried, of_side = pads.seebeck * current, peltier.OF_SIDE * along
+    cold = linked["cold"][0] + legs.cold - carried * now.cold + of_side
+    hot = linked["hot"][0] + legs.hot + carried * now.hot + of_side
+    return cold, hot, (legs.middle / peltier.OF_MIDDLE + along) / stack.legs_capacity
 
 
 def _cell_mass(stack: Stack, count: int) -> Any:
@@ -269,34 +232,13 @@ def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
 
 
 def _linked(now: Profile, stack: Stack, current: Any) -> dict[str, list[Any]]:
-    """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate.
-
-    A link of layer or plate takes from each cell in turn as much as that is warmer than the link's other end, and
-    radiates as from their mean temperature. What comes to the pads' legs comes to either side by half.
-    """
-    divided = {"layer": now.cells, "plate": now.plate}
-    places = {
-        "cold": [now.cold], "hot": [now.hot], "layer": [np.mean(now.cells)], "plate": [np.mean(now.plate)],
-        "beside": now.beside, "around": now.around,
-    }  # fmt: skip
+    """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate."""
+    places = {"cold": [now.cold], "hot": [now.hot], "beside": now.beside, "around": now.around}
     if any("legs" in (link.first[0], link.second[0]) for link in stack.links):
-        places["legs"] = [peltier.legs_temperature(stack.peltier, current, now.hot, now.cold)]
-    found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in places.items()}
-    taking: dict[str, Any] = dict.fromkeys(divided, 0.0)
-    for link in stack.links:
-        ends = [places[group][i] for group, i in (link.first, link.second)]
-        conductance = lumps.link_conductance(link, *ends)
-        for (group, i), own, other in ((link.first, *ends), (link.second, *reversed(ends))):
-            if group in divided:
-                found[group][0] = found[group][0] + conductance * other
-                taking[group] = taking[group] + conductance
-            else:
-                found[group][i] = found[group][i] + conductance * (other - own)
-    for group, cells in divided.items():
-        found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
-    for side in ("hot", "cold"):
-        found[side][0] = found[side][0] + 0.5 * found.get("legs", [0.0])[0]
-    return found
+        settled = stack.legs_capacity is None
+        middle = peltier.settled_middle(stack.peltier, current, now.hot, now.cold) if settled else now.legs[0]
+        places["legs"] = [peltier.legs_temperature(now.hot, middle, now.cold)]
+    return lumps.linked(stack.links, places, {"layer": now.cells, "plate": now.plate})
 
 
 def _sideways(now: Profile, stack: Stack) -> Any:
@@ -340,6 +282,10 @@ def stored_energy(state: Any, stack: Stack) -> Any:
     temperatures = [*parts.beside, *parts.sink, *parts.around]
     heated = sum(lump.capacity * scaled for lump, scaled in zip(bodies, temperatures, strict=True))
     heated += stack.cold_capacity * parts.cold + stack.hot_capacity * parts.hot
+    if stack.legs_capacity is not None:
+        heated += stack.legs_capacity * peltier.legs_temperature(parts.hot, parts.legs[0], parts.cold)
     heated += _plate_cell_capacity(stack) * np.sum(parts.plate)
+    if stack.liner is not None:
+        heated += stack.liner.capacity * np.mean(parts.liner)
     layer = _cell_mass(stack, len(parts.layer)) * np.sum(parts.layer)
     return TEMPERATURE_SCALE * heated + ENTHALPY_SCALE * layer

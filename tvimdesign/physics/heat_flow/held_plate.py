@@ -2,7 +2,7 @@
 
 The steady state of `heat` behind the polymer: a fin that gives heat off sideways to the lumps beside it, and from its
 outer face to the air (Incropera, Fundamentals of Heat and Mass Transfer, ch. 3, fins). Contact resistance between
-polymer and plate is left out.
+polymer and plate is left out; a liner between the two stands in series.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Lump, Surface, surface_coefficient
 
 SLICES = (0.125, 0.375, 0.625, 0.875)
@@ -34,6 +35,8 @@ class BehindPolymer(NamedTuple):
     """What the plate belongs to: the first takes heat from all of its depth, each next from the one before."""
     uneven_conductance: Any = None
     """Conductance [W/K] sideways for what the plate differs from its mean; as for the mean where not given."""
+    liner: Liner | None = None
+    """A sheet between polymer and plate."""
 
 
 class HeldPlate(NamedTuple):
@@ -52,14 +55,18 @@ def held_plate(behind: BehindPolymer, temperature: Any) -> HeldPlate:
     -k theta'(d) = h (T(d) - T_a) at the outer face. The mean gives heat to the lump beside by G_b and what differs from
     it by G_u, which is a fin in surroundings of T_f = T_mean - (G_b/G_u)(T_mean - T_beside).
     """
-    outer, beside = temperature, tuple(temperature for _ in behind.beside)
+    face = outer = temperature
+    beside = tuple(temperature for _ in behind.beside)
     plate: tuple[Any, ...] = ()
     for _ in range(PASSES):
         fin = _Fin(behind, surface_coefficient(behind.plate_surface, outer, behind.ambient))
-        beside = _beside(behind, fin, temperature, beside)
+        if behind.liner is not None:
+            lost = behind.liner.whole * _conductance(behind, fin, beside)
+            face = behind.ambient + (temperature - behind.ambient) / (1.0 + lost)
+        beside = _beside(behind, fin, face, beside)
         foot = beside[0] if beside else behind.ambient
-        plate = tuple(fin.at(depth, temperature, foot, behind.ambient) for depth in SLICES)
-        outer = fin.at(1.0, temperature, foot, behind.ambient)
+        plate = tuple(fin.at(depth, face, foot, behind.ambient) for depth in SLICES)
+        outer = fin.at(1.0, face, foot, behind.ambient)
     return HeldPlate(plate, beside)
 
 
@@ -67,7 +74,7 @@ class _Fin:
     """The plate's steady profile, linear in the temperatures of polymer, lump beside and air."""
 
     def __init__(self, behind: BehindPolymer, coefficient: Any) -> None:
-        across = behind.plate_conductivity * behind.area / behind.plate_thickness
+        self.across = across = behind.plate_conductivity * behind.area / behind.plate_thickness
         sideways = behind.beside[0].conductance if behind.beside else 0.0 * across
         uneven = sideways if behind.uneven_conductance is None else behind.uneven_conductance
         self.even_share = 1.0 if behind.uneven_conductance is None else sideways / uneven
@@ -94,6 +101,19 @@ class _Fin:
         # These are above T_f, which is above the lump by (1 - G_b/G_u) of what the mean is.
         over = self.even_share + (1.0 - self.even_share) * (of_polymer + of_air)
         return of_polymer / over, of_air / over
+
+
+def _conductance(behind: BehindPolymer, fin: _Fin, last: tuple[Any, ...]) -> Any:
+    """Heat [W] that the plate takes through its face for each kelvin of that above the air."""
+    warm = behind.ambient + 1.0
+    beside = _beside(behind, fin, warm, last)
+    foot = beside[0] if beside else behind.ambient
+    outside = fin.biot * fin.across * (fin.at(1.0, warm, foot, behind.ambient) - behind.ambient)
+    if not beside:
+        return outside
+    of_polymer, of_air = fin.mean_shares
+    mean = of_polymer * (warm - foot) + of_air * (behind.ambient - foot)
+    return outside + behind.beside[0].conductance * mean
 
 
 def _beside(behind: BehindPolymer, fin: _Fin, polymer: Any, last: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -16,6 +16,16 @@ class PeltierModule(NamedTuple):
     conductance: Any
 
 
+SIDE_SHARE = 1.0 / 12.0
+"""What of a pad's thickness either side is, which has one temperature; assumed, 0 to 0.2. The legs between them have
+the rest of its heat capacity."""
+
+
+def shared_capacity(whole: Any) -> tuple[Any, Any]:
+    """Heat capacities of one side and of the legs of pads that have `whole` [J/K]."""
+    return SIDE_SHARE * whole, (1.0 - 2.0 * SIDE_SHARE) * whole
+
+
 def wired(one: PeltierModule, count: Any, strings: Any) -> PeltierModule:
     """`count` alike modules in `strings` parallel strings, as one module that takes the whole current.
 
@@ -34,24 +44,55 @@ def max_cooling_power(module: PeltierModule, cold_temperature: Any) -> Any:
 
 
 def hot_side_heat(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
-    """Heat given off by the hot side, Q_h = S I T_h + I^2 R/2 - K (T_h - T_c) [W]."""
+    """Heat given off by the hot side, Q_h = S I T_h + I^2 R/2 - K (T_h - T_c) [W]; the legs between have settled."""
     joule = 0.5 * current**2 * module.resistance
     return module.seebeck * current * hot + joule - module.conductance * (hot - cold)
 
 
 def cold_side_heat(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
-    """Heat taken up by the cold side, Q_c = S I T_c - I^2 R/2 - K (T_h - T_c) [W]."""
+    """Heat taken up by the cold side, Q_c = S I T_c - I^2 R/2 - K (T_h - T_c) [W]; the legs have settled."""
     joule = 0.5 * current**2 * module.resistance
     return module.seebeck * current * cold - joule - module.conductance * (hot - cold)
 
 
-def legs_temperature(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
-    """Mean temperature of the legs between the sides, (T_h + T_c)/2 + I^2 R/(12 K) [K].
+def legs_temperature(hot: Any, middle: Any, cold: Any) -> Any:
+    """Mean temperature of legs with a parabola through both sides and the middle, (T_h + 4 T_m + T_c)/6 [K]."""
+    return (hot + 4.0 * middle + cold) / 6.0
 
-    The current heats them evenly: between their ends they have a parabola above the straight line, two thirds as high
-    in the mean as in the middle, where it is I^2 R/(8 K).
+
+def settled_middle(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
+    """Middle of legs that the current heats evenly, once they have settled, (T_h + T_c)/2 + I^2 R/(8 K) [K].
+
+    Between their ends they have a parabola above the straight line; in the mean it is I^2 R/(12 K).
     """
-    return 0.5 * (hot + cold) + current**2 * module.resistance / (12.0 * module.conductance)
+    return 0.5 * (hot + cold) + current**2 * module.resistance / (8.0 * module.conductance)
+
+
+class LegsHeat(NamedTuple):
+    """Heat [W] by which legs warm both sides and their own middle."""
+
+    hot: Any
+    middle: Any
+    cold: Any
+
+
+OF_SIDE, OF_MIDDLE = 1.0 / 6.0, 2.0 / 3.0
+"""What of what is even over a length belongs to either end and to the middle, by Simpson's rule."""
+
+
+def legs_heat(module: PeltierModule, current: Any, hot: Any, middle: Any, cold: Any) -> LegsHeat:
+    """Heat that legs of their own heat capacity give to both sides and keep in the middle, Peltier's heat aside.
+
+    Three places, T_h, T_m, T_c, on a parabola (the quadratic finite element with what is even lumped by Simpson's
+    rule): of I^2 R and of the legs' heat capacity C a sixth belongs to either
+    side and two thirds to the middle. With v = T_m - (T_h + T_c)/2 conduction brings 8 K v/3 -+ K (T_h - T_c) to the
+    sides. Exact of a slab: its steady state, the heat C I^2 R/(12 K) that it keeps in it, and how far its inside is
+    behind sides that warm up evenly.
+    """
+    joule, above = current**2 * module.resistance, 8.0 / 3.0 * module.conductance * (middle - 0.5 * (hot + cold))
+    through = module.conductance * (hot - cold)
+    to_side = OF_SIDE * joule + above
+    return LegsHeat(to_side - through, OF_MIDDLE * joule - 2.0 * above, to_side + through)
 
 
 def voltage(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:

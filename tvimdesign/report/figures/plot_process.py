@@ -90,7 +90,7 @@ def main() -> None:
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
     drawings = [Drawing(**asked) for asked in request["drawings"]]
-    if not hasattr(os, "fork"):
+    if sys.platform != "linux":  # a fork is not safe elsewhere
         _draw(folder, drawings, request)
         return
     # Matplotlib is slow and single-threaded: two processes with it loaded share the plots. Taking the interpreter down

@@ -68,6 +68,8 @@ def _of_record(
     """As the chosen record has it; as the row says where there is no such record any more."""
     chosen = table.quantity(choice)
     assert isinstance(chosen, Choice)
+    if design.choices[choice] in chosen.options:
+        return Provenance("chosen", f"{choice} is {design.choices[choice]}; such a module needs none")
     try:
         record = find_record(chosen.category or "", design.choices[choice])
     except CatalogError:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import yaml
 
-from tvimdesign.base.record import Entry
+from tvimdesign.base.record import Entry, Record
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.device import Input, table_for
 from tvimdesign.report.paper.paper_claims import from_paper
@@ -72,7 +72,8 @@ def ranges() -> dict[str, Entry]:
         needed = model.table.ancestors(case()["event"])
         for row in model.table.inputs:
             if row.record and row.name in needed:
-                entry = model.words[row.record[0]].entries.get(row.record[1])  # a pad cut to its arc has no sides
+                record = model.words[row.record[0]]  # a word where there is none; a pad cut to its arc has no sides
+                entry = record.entries.get(row.record[1]) if isinstance(record, Record) else None
                 if entry is not None and entry.low is not None:
                     entries[row.name] = entry
     return entries

@@ -1,1 +1,1 @@
-"""The joint for robot simulators: MJCF and URDF with masses, meshes, stiffness and relaxation, and tables of them."""
+"""The joint for robot simulators: MJCF and URDF with masses, meshes, stiffness and relaxation, an FMU, and tables."""

@@ -90,7 +90,7 @@ def _left_out(resolved: ResolvedModule) -> tuple[str, ...]:
         f"{100.0 * (end / middle - 1.0):+.1f} % to the end of the stroke.",
         f"The PCL neither yields nor slips: the joint bears {holds:.3g} N·m frozen, and the model bears any torque.",
         "Temperatures do not change in a model: each state is one temperature, reached on heating. Going from one to "
-        "another takes the time that results.csv has as softening_time and stiffening_time.",
+        "another takes the time that results.csv has as softening_time and stiffening_time; joint.fmu has the heat.",
         "The housing is rigid; what it gives is in the elements of the joint.",
         *(("The motor stands still: it is part of the base.",) if resolved.values["motor"] != WITHOUT else ()),
     )

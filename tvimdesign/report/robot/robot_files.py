@@ -15,6 +15,7 @@ from tvimdesign.report.output.progress import Progress, progress_output, wide_co
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.report.robot import state_tables
+from tvimdesign.report.robot.fmu.fmu_file import WrittenFmu, write_fmu
 from tvimdesign.report.robot.joint_model import JointModel, joint_model, refuse_step
 from tvimdesign.report.robot.mjcf import mjcf
 from tvimdesign.report.robot.rigid_bodies import make_bodies
@@ -29,17 +30,19 @@ def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, a
     source = path / "design.json" if path.is_dir() else path
     design = read_design(source)
     with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
-        model = write_models(design, folder, step, progress)
+        model, fmu = write_models(design, folder, step, progress)
         progress("")
         folder.finish("written", {"design": source}, design.study)
         if as_json:
-            print(json.dumps({**plain_model(model), "folder": str(out)}, indent=2, allow_nan=False))
+            print(json.dumps({**plain_model(model, fmu), "folder": str(out)}, indent=2, allow_nan=False))
         else:
-            _print_model(model, out, wide_console())
+            _print_model(model, fmu, out, wide_console())
 
 
-def write_models(design: Design, folder: ResultsFolder, step: float | None, progress: Progress) -> JointModel:
-    """Write bodies, models and tables into a folder. Raises InputError, GeometryError."""
+def write_models(
+    design: Design, folder: ResultsFolder, step: float | None, progress: Progress
+) -> tuple[JointModel, WrittenFmu]:  # fmt: skip
+    """Write bodies, models, tables and FMU into a folder. Raises InputError, GeometryError."""
     refuse_step(step)
     resolved = resolve_design(design)
     kept = write_design(design, folder.path / "design.json")
@@ -58,11 +61,13 @@ def write_models(design: Design, folder: ResultsFolder, step: float | None, prog
     for name, columns in tables.items():
         units = {column: state_tables.unit_of(column) for column in columns}
         folder.write(f"{name}.csv", curves_csv(columns, units, "1"))
-    folder.write_json("joint.json", plain_model(model))
-    return model
+    progress("FMU")
+    fmu = write_fmu(resolved, folder.path / "joint.fmu")
+    folder.write_json("joint.json", plain_model(model, fmu))
+    return model, fmu
 
 
-def plain_model(model: JointModel) -> dict[str, Any]:
+def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
     """What the models say, as plain data in SI."""
     return {
         **head(),
@@ -84,11 +89,12 @@ def plain_model(model: JointModel) -> dict[str, Any]:
             }
             for state in model.states
         },
+        "fmu": {"file": fmu.path.name, "platform": fmu.platform},
         "left_out": list(model.left_out),
     }
 
 
-def _print_model(model: JointModel, out: Path, console: Console) -> None:
+def _print_model(model: JointModel, fmu: WrittenFmu, out: Path, console: Console) -> None:
     console.print(f"[bold]{escape(model.name)}[/bold]: joint for simulators, time step {number(1e3 * model.step)} ms")
     grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
     for column in ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz"):
@@ -99,4 +105,5 @@ def _print_model(model: JointModel, out: Path, console: Console) -> None:
     console.print(grid)
     for sentence in model.left_out:
         console.print(f"[dim]{escape(sentence)}[/dim]")
-    console.print(f"\nMJCF, URDF, meshes and tables are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
+    console.print(escape(fmu.told), soft_wrap=True)
+    console.print(f"\nMJCF, URDF, FMU, meshes and tables are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)

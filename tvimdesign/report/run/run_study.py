@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from rich.markup import escape
 
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, TvimError
+from tvimdesign.base.extras import how_to_install
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.study import read_tree
@@ -19,6 +20,7 @@ from tvimdesign.study.tree import tree_of_file
 
 if TYPE_CHECKING:
     from tvimdesign.report.output.results_format import Parts
+    from tvimdesign.report.run.answered_study import AnsweredStudy
 
 
 def run_study(
@@ -34,7 +36,7 @@ def run_study(
         note_uncertainty,
         noting,
     )
-    from tvimdesign.report.run.first_screen.run_screen import RunScreen, look_first, show
+    from tvimdesign.report.run.first_screen.run_screen import RunScreen
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.refusal import leaving_the_reason
     from tvimdesign.report.run.run_page.run_page import write_run_page
@@ -54,6 +56,8 @@ def run_study(
             )
         found, failures = answered.result, answered.failures
         parts = cad and study.write.cad and found.found
+        without = how_to_install("cad") if parts else ""
+        parts = parts and not without
         if drawing and found.found:
             vector = parts or study.write.vector
             drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
@@ -71,11 +75,7 @@ def run_study(
                 drawing.finish()
         write_run_page(folder, answered, screen.told(answered, timed=False))
         finish(folder, answered)
-    if as_json:
-        more = {"folder": str(folder.path), "not_done": [str(failure) for failure in failures]}
-        print(json.dumps({**answered.reported, **more}, indent=2, allow_nan=False))
-    else:
-        show(look_first(str(folder.path), wide_console().width), wide_console())
+    _say_last(answered, folder.path, failures, without, as_json=as_json)
     if not found.found:
         raise InfeasibleError(complaint(found, answered.study.table))
     if refused := above_rating(found, answered.study.table):
@@ -84,6 +84,23 @@ def run_study(
         raise BelowYieldError(missed)
     if failures:
         raise done_in_part(failures)
+
+
+def _say_last(
+    answered: AnsweredStudy, folder: Path, failures: Sequence[TvimError], without: str, *, as_json: bool
+) -> None:  # fmt: skip
+    """What was told as JSON, or where to look first; `without` says what is not installed, if anything is not."""
+    from tvimdesign.report.run.first_screen.run_screen import look_first, show
+
+    if as_json:
+        not_done = [*([f"parts: {without}"] if without else []), *(str(failure) for failure in failures)]
+        more = {"folder": str(folder), "not_done": not_done}
+        print(json.dumps({**answered.reported, **more}, indent=2, allow_nan=False))
+        return
+    console = wide_console()
+    if without:
+        console.print(f"No parts: {without}", markup=False, soft_wrap=True)
+    show(look_first(str(folder), console.width), console)
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
@@ -31,8 +32,18 @@ def reached_in_words(reached: YieldReached) -> str:
 
 def cost_of_margins(answer: StudyResult, reached: YieldReached, table: Table) -> list[str]:
     """What each minimised output is without the margins, and with them."""
-    return [_change(name, reached.nominal[name], answer.design.values[name], table)
-            for name in answer.design.study["minimize"]]  # fmt: skip
+    return _changes(answer, reached.nominal, answer.design.values, table)
+
+
+def gain_without_margins(
+    answer: StudyResult, constant: Mapping[str, float], reached: YieldReached, table: Table
+) -> list[str]:
+    """What each minimised output is with the best constant currents, and with those that follow a profile."""
+    return _changes(answer, constant, reached.nominal, table)
+
+
+def _changes(answer: StudyResult, before: Mapping[str, float], after: Mapping[str, float], table: Table) -> list[str]:
+    return [_change(name, before[name], after[name], table) for name in answer.design.study["minimize"]]
 
 
 def below_yield(answer: StudyResult) -> str:

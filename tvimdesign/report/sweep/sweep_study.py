@@ -13,12 +13,11 @@ from typing import Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.whole_files import make_folder, write_whole
-from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
 from tvimdesign.report.sweep.cell_table import CellTable
-from tvimdesign.report.sweep.sweep_plot_data import figure_data
+from tvimdesign.report.sweep.sweep_drawing import DRAWN_FROM, KeptFigure, SweepDrawing, kept_figure
 from tvimdesign.report.sweep.sweep_screen import print_part, print_sweep
 from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
@@ -54,11 +53,14 @@ def sweep_folder(
 ) -> dict[str, Any]:  # fmt: skip
     """Answer every cell into a folder with its tables and figure; returns what is told. Raises as `sweep_study`."""
     with ExitStack() as stack:
+        kept = kept_figure(out) if resume else KeptFigure()
+        figure = SweepDrawing(stack, kept) if plots and plan.study.write.plots else None
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume, SHARDS))
-        drawing = stack.enter_context(PlotProcess()) if plots and plan.study.write.plots else None
+        if figure:
+            figure.expect()
         began = time.perf_counter()
         done = run_sweep(plan, folder.path, where, progress)
-        return _gathered(plan, folder, done, progress, drawing, parquet=parquet, began=began)
+        return _gathered(plan, folder, done, progress, figure, parquet=parquet, began=began)
 
 
 def _part(
@@ -80,8 +82,8 @@ def _part(
         except InputError:  # another part, which ended at the same time, gathers them
             _say_part(done, where, out, as_json=as_json)
             return
-        drawing = stack.enter_context(PlotProcess()) if plots and plan.study.write.plots else None
-        told = _gathered(plan, folder, done, progress, drawing, parquet=parquet, began=began)
+        figure = SweepDrawing(stack, KeptFigure()) if plots and plan.study.write.plots else None
+        told = _gathered(plan, folder, done, progress, figure, parquet=parquet, began=began)
     _say(told, plan, out, as_json=as_json)
 
 
@@ -98,7 +100,7 @@ def _join(out: Path) -> None:
 
 
 def _gathered(
-    plan: SweepPlan, folder: ResultsFolder, done: SweepDone, progress: Progress, drawing: PlotProcess | None, *,
+    plan: SweepPlan, folder: ResultsFolder, done: SweepDone, progress: Progress, figure: SweepDrawing | None, *,
     parquet: bool, began: float,
 ) -> dict[str, Any]:  # fmt: skip
     """Write the tables, the figure and the manifest; returns what is told."""
@@ -113,13 +115,10 @@ def _gathered(
         "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
         "columns": [column._asdict() for column in columns(plan)],
     }  # fmt: skip
-    folder.write_json("sweep.json", found)
     folder.write("study.yaml", study_file(plan.written))
-    if drawing:
-        drawing.begin(folder.path, [Drawing("sweep", "sweep_figure.sweep", figure_data(plan, seen))], plan.study.name,
-                      vector=plan.study.write.vector)  # fmt: skip
-        folder.look_up_versions()
-        drawing.finish()
+    if figure:
+        found[DRAWN_FROM] = figure.draw(plan, seen, folder)
+    folder.write_json("sweep.json", found)
     spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
     seconds = time.perf_counter() - began
     timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}

@@ -13,7 +13,10 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}
 """Idealizations that the drawn parts do not have."""
-SOLVERS = ("joint", "spring", "link")
+SOLVERS = ("joint", "spring", "screws", "link")
+HEAT = "heat"
+"""The solver of designs whose pads heat the polymer."""
+TIMES = ("softening_time", "mean_time", "far_face_time")
 
 
 @dataclass(frozen=True)
@@ -39,12 +42,14 @@ class Compared:
         return self.fe / self.coarse - 1.0
 
 
-def compared(module: ResolvedModule, solved: Mapping[str, Solved]) -> list[Compared]:
-    """All rows, the largest difference first."""
-    model = at_loads(module, model_values(module))
+def compared(module: ResolvedModule, solved: Mapping[str, Solved], times: Mapping[str, float]) -> list[Compared]:
+    """All rows, the largest difference first; `times` are the design's [s]. A time that one of the two has not is left
+    out."""
+    model = at_loads(module, model_values(module)) | {name: times[name] for name in TIMES if name in times}
     fine = at_loads(module, fe_values(module, {name: one.found for name, one in solved.items()}))
     coarse = at_loads(module, fe_values(module, {name: one.coarse for name, one in solved.items()}))
-    rows = [Compared(name, *WORDS[name], model[name], fine[name], coarse[name]) for name in fine]
+    both = [name for name in fine if all(math.isfinite(one.get(name, math.inf)) for one in (model, fine, coarse))]
+    rows = [Compared(name, *WORDS[name], model[name], fine[name], coarse[name]) for name in both]
     return sorted(rows, key=lambda row: -abs(math.log(row.ratio)))
 
 
@@ -52,7 +57,8 @@ def at_loads(module: ResolvedModule, rows: Mapping[str, float]) -> dict[str, flo
     """Rows with stresses at full winding of the springs and at the torque the joint holds, not at one newton metre."""
     names = ("held_spring_rate", "spring_winding", "holding_torque")
     rate, winding, held = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
-    torques = {"coil_stress": rate * winding, "tang_stress": rate * winding, "core_stress": held, "edge_traction": held}
+    torques = {"coil_stress": rate * winding, "tang_stress": rate * winding}
+    torques |= dict.fromkeys(("core_stress", "edge_traction", "foot_force"), held)
     return {name: value * torques.get(name, 1.0) for name, value in rows.items()}
 
 
@@ -65,8 +71,13 @@ WORDS = {
     "coil_stress": ("MPa", "at the coil's inner fibre at full winding"),
     "tang_stress": ("MPa", "von Mises in the bend of the tang at full winding"),
     "hub": ("N*m/rad", "frozen joint without its springs, from the core's top to the feet"),
-    "natural_frequency": ("Hz", "frozen joint with its load, free; by Rayleigh's quotient of the static shape"),
+    "natural_frequency": ("Hz", "frozen joint with its load, free: its lowest mode that turns the core"),
     "link": ("N*m/rad", "link from the core to its tool hole"),
+    "link_friction_torque": ("N*m", "torque that friction under the tightened link screws holds, by where they press"),
+    "foot_force": ("N", "across the screw of a foot at the holding torque, the foot that takes most"),
+    "softening_time": ("s", "until the joint is soft; of the drawn parts, half an arc or half a vane"),
+    "mean_time": ("s", "until the polymer's mean is as warm as asked"),
+    "far_face_time": ("s", "until its face away from the pads is"),
     "core": ("N*m/rad", "core of the rotor"),
     "plate": ("N*m/rad", "rotor plate"),
     "floor": ("N*m/rad", "floor on its feet"),
@@ -84,7 +95,8 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
     names = [
         "spring_rate", "held_spring_rate", "coil_stress_per_angle", "tang_stress_per_angle", "structure_stiffness",
         "pcl_stiffness@cold", "core_stiffness", "plate_stiffness", "floor_stiffness", "link_stiffness",
-        "core_holding_torque", "cold_layer_strength", "holding_torque", "spring_stiffness",
+        "core_holding_torque", "cold_layer_strength", "holding_torque", "spring_stiffness", "link_friction_torque",
+        "spring_count", "placement_radius",
         *(("layer_edge_traction",) if shear else ("rotor_vane_stiffness", "housing_vane_stiffness")),
     ]  # fmt: skip
     inputs = _drawn(module)
@@ -98,6 +110,8 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         "hub": hub, "core": found["core_stiffness"], "link": found["link_stiffness"],
         "natural_frequency": _frequency(found["spring_stiffness"] + hub, float(inputs["moving_inertia"])),
         "core_stress": found["cold_layer_strength"] / yields * 1e-6,
+        "link_friction_torque": found["link_friction_torque"],
+        "foot_force": 1.0 / (found["spring_count"] * found["placement_radius"]),
     }  # fmt: skip
     plate, floor = found["plate_stiffness"], found["floor_stiffness"]
     if shear:
@@ -108,12 +122,15 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
 
 def fe_values(module: ResolvedModule, found: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
     """What FE finds, by the same rows."""
-    model = module.table.evaluate(_drawn(module), ("spring_stiffness", "rotor_inertia"))
-    joint = found["joint"]
-    turning = float(module.values["moving_inertia"]) - float(model["rotor_inertia"]) + joint["swung"] * 1e-6
-    frequency = _frequency(float(model["spring_stiffness"]) + joint["hub"], turning)
-    return {**joint_rows(joint), **spring_rows(found["spring"]), "natural_frequency": frequency,
-            "link": found["link"]["link"]}  # fmt: skip
+    names = ("link_friction_torque", "link_bolt_circle_radius")
+    friction, circle = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
+    joint, heat = found["joint"], found.get(HEAT, {})
+    return {
+        **joint_rows(joint), **spring_rows(found["spring"]), "natural_frequency": joint["frequency"],
+        "link": found["link"]["link"], **({"foot_force": joint["foot_across"]} if "foot_across" in joint else {}),
+        "link_friction_torque": friction * found["screws"]["friction_radius"] * 1e-3 / circle,
+        **{name: heat[name] for name in TIMES if name in heat},
+    }  # fmt: skip
 
 
 def spring_rows(spring: Mapping[str, float]) -> dict[str, float]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at
-from tvimdesign.simulation.working_cycle.phase_functions import SHOWN
+from tvimdesign.simulation.working_cycle.phase_functions import SHOWN, PhaseFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 
@@ -36,13 +36,7 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
     temperatures = np.asarray(compiled.temperatures.map(len(times))(states, currents, columns)) - ZERO_CELSIUS
     impedance = np.asarray(compiled.impedance_now.map(len(times))(states, currents, columns)).ravel()
     frozen = np.mean(np.asarray(compiled.fractions.map(len(times))(states, currents, columns)), axis=0)
-    depth = [f"cell_{i + 1}" for i in range(model.cells)]
-    plate = [f"rotor_{i + 1}" for i in range(int(inputs[model.index["rotor_cells"]]))]
-    names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate]
-    beside, around = compiled.bodies
-    names += [*(f"rotor_beside_{i + 1}" for i in range(beside - 1)), "core_and_link"]
-    names += ["sink"] * (len(temperatures) - len(names) - around)
-    names += [*(f"beside_pads_{i + 1}" for i in range(around - 1)), "housing"]
+    names = temperature_names(model, inputs, compiled)
     history = dict(zip(names, temperatures.tolist(), strict=True))
     shown = np.asarray(compiled.watch(list(SHOWN.values())).map(len(times))(states, currents, columns))
     drawn = dict(zip(SHOWN, shown, strict=True))
@@ -51,6 +45,17 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
     more = {"current": trajectory.currents, "frozen": frozen, "joint_impedance": impedance, **drawn,
             "electrical_energy": energy}  # fmt: skip
     return {"time": times.tolist(), **history, **{name: column.tolist() for name, column in more.items()}}
+
+
+def temperature_names(model: DeviceFunctions, inputs: Array, compiled: PhaseFunctions) -> list[str]:
+    """What each of a phase's temperatures is of, in their order."""
+    depth = [f"cell_{i + 1}" for i in range(model.cells)]
+    plate = [f"rotor_{i + 1}" for i in range(int(inputs[model.index["rotor_cells"]]))]
+    names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate]
+    beside, around = compiled.bodies
+    names += [*(f"rotor_beside_{i + 1}" for i in range(beside - 1)), "core_and_link"]
+    names += ["sink"] * (compiled.temperatures.numel_out(0) - len(names) - around)
+    return [*names, *(f"beside_pads_{i + 1}" for i in range(around - 1)), "housing"]
 
 
 def torque_loop(stiffness: float, damping: float, frequency: float, amplitude: float) -> tuple[Array, Array]:

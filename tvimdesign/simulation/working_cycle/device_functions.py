@@ -7,6 +7,7 @@ values of the quantities that a simulation or the optimiser supplies, in the ord
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -63,6 +64,15 @@ class DeviceFunctions:
         """Every phase of the working cycle by name, in the order they are gone through."""
         inputs, known = self._symbols[0], self._settled
         return {phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells) for phase in self.table.phases}
+
+    @cached_property
+    def either_way(self) -> PhaseFunctions:
+        """The first phase with a layer that has its history from the start: it melts and freezes at any current.
+
+        It melts `melting_time` behind the equilibrium curve, which the first phase follows.
+        """
+        phase = replace(self.table.phases[0], history=True)
+        return PhaseFunctions(self.table, phase, self._symbols[0], self._settled, self.cells)
 
     @cached_property
     def output_names(self) -> list[str]:

@@ -101,6 +101,15 @@ class PhaseFunctions:
         instant."""
         return self._function("watch", [self._instant[name] for name in wanted])
 
+    def evaluated(self, wanted: Sequence[str], value: Callable[..., Any]) -> Any:
+        """Return the function (state, current, inputs) -> `value` of quantities at an instant, hidden ones too.
+
+        `value` takes the wanted quantities in their order and returns an iterable of columns.
+        """
+        known = {**self._known, "stack_now": self._stack, STATE: symbols(self._instant["state"])}
+        found = self.table.evaluate_instant(known, wanted)
+        return self._function("evaluated", value(*(found[name] for name in wanted)))
+
     @cached_property
     def temperatures(self) -> Any:
         """The function -> temperatures [K]: cold, hot, near face, cells, far face, plate, beside, sink, around."""

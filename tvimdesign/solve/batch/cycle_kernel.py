@@ -17,6 +17,7 @@ from tvimdesign.device import Event, Path, Steady
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.solve.batch.phase_kernel import Course, Passage, PhaseKernel, Steps
+from tvimdesign.solve.batch.vector_code import LANES
 
 Array = NDArray[np.float64]
 
@@ -104,7 +105,8 @@ class CycleKernel:
     def course(self, column: Array, pace: Pace) -> tuple[dict[str, float], dict[str, Course]]:
         """Values of `names` for one design, and its states step by step through each phase to what ends it."""
         kept: dict[str, Course] = {name: [] for name in self.phases}
-        values = self._block(np.ascontiguousarray(column[:, None]), pace, None, kept)
+        # As many columns as a register holds: a kernel would fill it up at every call.
+        values = self._block(np.repeat(column[:, None], LANES, axis=1), pace, None, kept)
         return {name: float(found[0]) for name, found in values.items()}, kept
 
     def _block(

@@ -120,9 +120,14 @@ def refuse_impossible(study: Study) -> None:
     found = impossible(table.evaluate(start, rows), table)
     if found:
         raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
-    _refuse_idle(study, table, start)
+    refuse_contradictory(study, start)
+
+
+def refuse_contradictory(study: Study, start: Mapping[str, Any]) -> None:
+    """Raise InputError for what a study sets to no effect, and for targets beyond what the joint can have."""
+    _refuse_idle(study, study.table, start)
     if not study.vary:
-        _refuse_unreachable(start, table)
+        _refuse_unreachable(start, study.table)
 
 
 def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:

@@ -3,7 +3,25 @@
 from __future__ import annotations
 
 import math
+import os
 import time
+
+CLOCK = "TVIMDESIGN_CLOCK"
+"""The environment's word for what time limits count: `processor`, or the time of day where nothing is said."""
+
+
+def counts_processor_time() -> bool:
+    """Whether the environment asks for that: such a limit means the same on a machine with other work."""
+    return os.environ.get(CLOCK) == "processor"
+
+
+def ipopt_limit() -> str:
+    """IPOPT's name of a limit of the time that is counted."""
+    return "max_cpu_time" if counts_processor_time() else "max_wall_time"
+
+
+def _now() -> float:
+    return time.process_time() if counts_processor_time() else time.monotonic()
 
 
 class Deadline:
@@ -12,14 +30,14 @@ class Deadline:
     def __init__(self, seconds: float = math.inf) -> None:
         """Begin to count."""
         self.seconds = seconds
-        self._end = time.monotonic() + seconds
+        self._end = _now() + seconds
         self.met = False
         """Whether anything was left undone because of it."""
 
     @property
     def remaining(self) -> float:
         """Seconds that are left, never less than nothing."""
-        return max(self._end - time.monotonic(), 0.0)
+        return max(self._end - _now(), 0.0)
 
     @property
     def passed(self) -> bool:

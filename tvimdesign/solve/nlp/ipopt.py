@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import Any, Literal, TypeAlias
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.solve.nlp.deadline import ipopt_limit
 from tvimdesign.solve.nlp.derivatives import derivatives_of
 from tvimdesign.study import SolverOptions
 
@@ -72,7 +73,7 @@ def solver_of(
         **_USUAL,
         **(_WARM if beginning in ("warm", "sharp") else _FEASIBLE if beginning == "feasible" else {}),
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
-        "max_wall_time": max(asked.time_limit if most_seconds is None else most_seconds, _SHORTEST),
+        ipopt_limit(): max(asked.time_limit if most_seconds is None else most_seconds, _SHORTEST),
         "tol": min(asked.tolerance, _SHARP) if beginning == "sharp" else asked.tolerance,
     }
     lent = {option: other.get_function(name) for other in known for option, name in _DERIVATIVES.items()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 
@@ -28,14 +29,38 @@ class Multistart:
         self, problem: Problem, model: DeviceFunctions, simulator: Simulator, options: SolverOptions,
         progress: Progress, deadline: Deadline | None = None,
     ) -> None:  # fmt: skip
-        """Simulate the study's own start, which is in `model`, as far as the problem needs it."""
+        """Simulate the study's own start, which is in `model`, as far as the problem needs it.
+
+        Where that is no module that can be simulated, a point that can takes its place in the model. Raises
+        SimulationError where none is found.
+        """
         self.deadline = deadline or Deadline()
         self.problem, self.model, self.simulator = problem, model, simulator
         self.options, self.progress = options, progress
-        self.cycle = problem.simulated(simulator, model.start)
-        """The switch of the study's own start."""
         self.passed_over = {"switch never ends": 0, "no such module": 0}
         """Points at which no search began, by the reason."""
+        self.cycle = Cycle(dict.fromkeys(model.switch_names, np.inf), {}, {})
+        """The switch of the study's own start."""
+        try:
+            self.cycle = problem.simulated(simulator, model.start)
+        except SimulationError as error:
+            self._move_start(error)
+
+    def _move_start(self, error: SimulationError) -> None:
+        """Put a point whose switch ends in the place of a start that cannot be simulated. Raises SimulationError."""
+        self.progress("the study's own start cannot be simulated: starting elsewhere")
+        points = unit_points(1, len(self.problem.free), self.options.seed + 1) if self.problem.free else iter(())
+        for point in islice(points, MAX_DRAWS):
+            inputs = self._inputs_at(point)
+            cycle = self.trial(inputs) if self._exists(inputs) else None
+            if cycle is not None:
+                self.model.start, self.cycle = inputs, cycle
+                return
+            if self.deadline.passed:
+                break
+        raise SimulationError(
+            f"{error}; neither can {MAX_DRAWS} points between the bounds: set `module` to a design that can"
+        ) from error
 
     def points(self) -> Iterator[Array]:
         """Inputs to start from: the study's own, then others spread between the bounds, seeded.
@@ -70,18 +95,24 @@ class Multistart:
         layer's inner edge, are passed over.
         """
         for _ in range(MAX_DRAWS):
-            point = self.model.start.copy()
-            for free, share in zip(self.problem.free, next(points), strict=True):
-                low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
-                point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
-            if isinstance(self.model, MixedDevice):
-                point = self.model.mixed(point)
-            values = self.model.values(point, self.cycle.values)
-            numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
-            if not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self.heats(point):
+            point = self._inputs_at(next(points))
+            if self._exists(point):
                 return point
             self.passed_over["no such module"] += 1
         return self.model.start
+
+    def _inputs_at(self, shares: Array) -> Array:
+        point = self.model.start.copy()
+        for free, share in zip(self.problem.free, shares, strict=True):
+            low, high = free.to_unknown(free.lower), free.to_unknown(free.upper)
+            point[self.model.index[free.name]] = free.to_value(low + share * (high - low))
+        return self.model.mixed(point) if isinstance(self.model, MixedDevice) else point
+
+    def _exists(self, point: Array) -> bool:
+        """Whether there is such a module."""
+        values = self.model.values(point, self.cycle.values)
+        numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
+        return not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self.heats(point)
 
     def heats(self, inputs: Array) -> bool:
         """Whether every body that takes heat in the problem's phases is one; others cost seconds to simulate."""

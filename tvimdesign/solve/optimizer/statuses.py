@@ -23,6 +23,7 @@ class Meaning(NamedTuple):
 
 
 _BETTER_START = "set `module` to a design that nearly works, or try more `solver.starts`"
+_MORE_TIME = f"raise `solver.time_limit` (or --time-limit), or {_BETTER_START}"
 _REPORT = "this is a fault of the program or its libraries: report it with the study file"
 
 MEANINGS = {
@@ -47,10 +48,8 @@ MEANINGS = {
     "Maximum_Iterations_Exceeded": Meaning(
         "ran out of iterations", "raise `solver.max_iterations`, or try more `solver.starts`"
     ),
-    "Maximum_CpuTime_Exceeded": Meaning("ran out of processor time", _BETTER_START),
-    "Maximum_WallTime_Exceeded": Meaning(
-        "ran out of time", f"raise `solver.time_limit` (or --time-limit), or {_BETTER_START}"
-    ),
+    "Maximum_CpuTime_Exceeded": Meaning("ran out of processor time", _MORE_TIME),
+    "Maximum_WallTime_Exceeded": Meaning("ran out of time", _MORE_TIME),
     "Restoration_Failed": Meaning("lost its way back to the equations of the switch", _BETTER_START),
     "Error_In_Step_Computation": Meaning(
         "could not compute a step: the equations are close to singular there",

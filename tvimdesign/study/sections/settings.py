@@ -17,7 +17,6 @@ _POINT = re.compile(r"[a-z][a-z0-9_]{0,31}")
 def read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
     """Return the inputs (SI) and choices the study sets; every problem is noted."""
     found: dict[str, float | str] = {}
-    names = [row.name for row in reading.table.quantities if isinstance(row, Choice) or _fixed(row)]
     for name, (key, value) in entries(
         reading.problems, node, "module", "names of the module's inputs, each with a value"
     ).items():
@@ -34,6 +33,7 @@ def read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
         elif row is not None:
             reading.problems.add(key, path, "is a result and cannot be set", "an input", "limit it under `require`")
         else:
+            names = [row.name for row in reading.table.quantities if isinstance(row, Choice) or _fixed(row)]
             reading.unknown_quantity(key, path, "input or choice", name, names)
         if read is not None:
             found[name] = read

@@ -2,49 +2,60 @@
 
 from __future__ import annotations
 
+import json
 import re
-from typing import Any
-
-import yaml
 
 from tvimdesign.study.text.mistakes import At
 
-_MOST_BYTES = 1_000_000
-"""Of a file in which lines are looked for; in a larger one it would take seconds."""
-_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_DECODER = json.JSONDecoder()
+_SPACE = re.compile(r"[ \t\n\r]*")
 
 
 class JsonPlaces:
-    """The lines of a JSON file; none are known of one that is too large or broken."""
+    """The lines of a JSON file; none are known of one that is broken."""
 
     def __init__(self, data: bytes) -> None:
-        """Parse the file as YAML, of which JSON is a part and whose nodes know their places."""
-        self._root: Any = None
-        if len(data) <= _MOST_BYTES:
-            try:
-                self._root = yaml.compose(data, Loader=_LOADER)
-            except (yaml.YAMLError, RecursionError, ValueError):
-                return
+        """Keep the text of a file that holds whole JSON."""
+        try:
+            self._text = data.decode(json.detect_encoding(data), "surrogatepass")
+            json.loads(self._text)
+        except (ValueError, RecursionError):
+            self._text = ""
 
     def at(self, path: str) -> At:
         """Where the value at a path such as `study.module.current` stands, or the last of its steps that is there."""
-        node = self._root
-        if node is None:
+        if not self._text:
             return At(0, 0)
-        place = node.start_mark
+        place = value = self._past_space(0)
         for name in re.findall(r"[^.\[\]]+", path):
-            found = _child(node, name)
+            found = self._member(value, name)
             if found is None:
                 break
-            key, node = found
-            place = key.start_mark
-        return At(place.line + 1, place.column + 1)
+            place, value = found
+        return At(self._text.count("\n", 0, place) + 1, place - self._text.rfind("\n", 0, place))
 
+    def _past_space(self, at: int) -> int:
+        found = _SPACE.match(self._text, at)
+        assert found is not None
+        return found.end()
 
-def _child(node: Any, name: str) -> tuple[Any, Any] | None:
-    """The key and the value of that name, or the item of that number twice."""
-    if isinstance(node, yaml.MappingNode):
-        return next(((key, value) for key, value in node.value if key.value == name), None)
-    if isinstance(node, yaml.SequenceNode) and name.isdecimal() and int(name) < len(node.value):
-        return node.value[int(name)], node.value[int(name)]
-    return None
+    def _member(self, at: int, name: str) -> tuple[int, int] | None:
+        """Where the key and the value of that name begin, or the item of that number twice; what is between is read
+        past.
+        """
+        opening = self._text[at]
+        if opening not in "{[":
+            return None
+        number, at = 0, self._past_space(at + 1)
+        while self._text[at] not in "}]":
+            key, said = at, str(number)
+            if opening == "{":
+                said, at = _DECODER.raw_decode(self._text, at)
+                at = self._past_space(self._past_space(at) + 1)  # the colon
+            if said == name:
+                return (key, at)
+            at = self._past_space(_DECODER.raw_decode(self._text, at)[1])
+            if self._text[at] == ",":
+                at = self._past_space(at + 1)
+            number += 1
+        return None

@@ -14,6 +14,14 @@ def printable(path: Path) -> str:
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(path))
 
 
+def is_folder(path: Path) -> bool:
+    """Whether a path is a folder that can be asked for: one that is too long to be a path is none."""
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):  # no permission, a name too long
+        return False
+
+
 def ordinary_bytes(path: Path, most: int, wanted: str, too_big: Callable[[int], Exception]) -> bytes:
     """Return at most `most` + 1 bytes of an ordinary file; `wanted` says what should have been given.
 

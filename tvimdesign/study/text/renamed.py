@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from tvimdesign.base.errors import RenamedWarning
@@ -18,6 +19,7 @@ _PLAIN = {"drives": "current_profiles"}
 """Fields of a design that are called otherwise now."""
 
 
+@lru_cache(maxsize=10_000)
 def new_name(name: str) -> str:
     """What a quantity is called now, with its `@point`; the name itself where it is not an old one."""
     base, at, point = name.partition("@")
@@ -41,16 +43,19 @@ def renamed(root: yaml_text.Mapping, file: str) -> yaml_text.Mapping:
 
 
 def _renamed(node: Node, found: dict[str, str]) -> Node:
-    """The same of one node. An old name beside its new one stays, and is told as a mistake."""
+    """The same of one node, itself where nothing is old. An old name beside its new one stays, and is a mistake."""
     if isinstance(node, yaml_text.Mapping):
         entries: dict[str, tuple[Text, Node]] = {}
         for name, (key, value) in node.entries.items():
-            new = new_name(name) if new_name(name) not in node.entries else name
+            new = name if (now := new_name(name)) in node.entries else now
             found |= {name: new} if new != name else {}
-            entries[new] = (replace(key, value=new), _renamed(value, found))
-        return replace(node, entries=entries)
+            entries[new] = (replace(key, value=new) if new != name else key, _renamed(value, found))
+        same = all(value is node.entries.get(name, (None, None))[1] for name, (_, value) in entries.items())
+        return node if same else replace(node, entries=entries)
     if isinstance(node, yaml_text.Sequence):
-        return replace(node, items=[_renamed(item, found) for item in node.items])
+        items = [_renamed(item, found) for item in node.items]
+        same = all(now is item for now, item in zip(items, node.items, strict=True))
+        return node if same else replace(node, items=items)
     if isinstance(node, Text) and (new := new_name(node.value)) != node.value:
         found[node.value] = new
         return replace(node, value=new)

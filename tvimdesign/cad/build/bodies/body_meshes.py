@@ -9,11 +9,11 @@ import numpy as np
 import trimesh
 
 from tvimdesign.cad.assembly.assembly import installed_coils
-from tvimdesign.cad.assembly.product_data import placement
 from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh, spring_mesh
 from tvimdesign.cad.export.print_files import stl_bytes
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.geometry.placement import placement
 
 CHORD = 0.2
 """Largest distance of a mesh from its part [mm]."""

@@ -1,8 +1,8 @@
 """FE of the frozen joint as drawn: housing on its feet, pads, PCL, rotor, all tied; the core's top turns as one.
 
 Finds the joint's stiffness and each part's share of the compliance as 1/C_i with C_i = 2 U_i/T^2 [N*m/rad], U_i its
-strain energy: the C_i add up to the whole. Stresses [MPa] are at one newton metre. `swung` is the inertia about the
-axis [kg*mm^2] that swings with the core's top as the joint is deformed: of the plate less than all of its own.
+strain energy: the C_i add up to the whole. Stresses [MPa] are at one newton metre. `frequency` [Hz] is that of the
+lowest mode in which the core's top turns, with link and load on it (`turning_mode`).
 """
 
 import json
@@ -12,17 +12,22 @@ from typing import Any
 import elastic
 import joint_samples
 import joint_solids
+import turning_mode
 from netgen.occ import Glue, OCCGeometry
 from ngsolve import (
     CF,
+    L2,
+    TET,
     BilinearForm,
     CGSolver,
     GridFunction,
     IfPos,
     InnerProduct,
     Integrate,
+    IntegrationRule,
     Preconditioner,
     TaskManager,
+    Trace,
     VectorH1,
     dx,
     sqrt,
@@ -31,7 +36,10 @@ from ngsolve import (
     z,
 )  # fmt: skip
 
-RUBBERLIKE = 0.45  # Poisson's ratio of pads
+BETWEEN_PLATES = 0.25
+"""Poisson's ratio of rigid modules: pressed between stiff plates they are as stiff as three times the shear modulus."""
+METAL = 0.33
+"""Poisson's ratio of a spreader where its shear modulus is not told."""
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
@@ -45,13 +53,18 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     mesh = elastic.meshed(OCCGeometry(whole), 2, **sizes)
     shear, lame = _moduli(mesh, values)
     with TaskManager():
-        found = _turned(mesh, shear, lame)
+        held = Held(mesh, shear, lame)
+        found = held.turned()
         strain = elastic.strain_of(found)
-        tensor = elastic.stress(strain, shear, lame)
+        even = GridFunction(L2(mesh, order=0))
+        even.Set(Trace(strain))
+        dilation = mesh.MaterialCF({"pad": even}, default=Trace(strain))
+        tensor = elastic.stress(strain, shear, lame, dilation)
         shares, torque = _energies(mesh, InnerProduct(tensor, strain), mm)
-        density = mesh.MaterialCF({"rotor": values["structure_density"] * 1e-9}, default=0.0)  # kg/mm^3
-        swung = Integrate(density * InnerProduct(found, found), mesh)
-    result = {"elements": mesh.ne, "unknowns": found.space.ndof, "hub": torque * 1e-3, "swung": swung}
+        frequency = turning_mode.frequency(mesh, values, held.solved, found, torque)
+        on_feet = not mm["flange_outer_radius"]
+        feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"])) if on_feet else {}
+    result = {"elements": mesh.ne, "unknowns": found.space.ndof, "hub": torque * 1e-3, "frequency": frequency, **feet}
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
     result |= joint_samples.in_bodies(mesh, tensor, mm, torque) | joint_samples.at_foot(mesh, tensor, mm, torque)
     if not mm.get("vane_count"):
@@ -66,34 +79,53 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
     own = values["structure_poissons_ratio"]
     structure = values["structure_youngs_modulus"] * 1e-6 / 2 / (1 + own)
     shear = {"pcl": values["storage_modulus@cold"] * 1e-6, "pad": values["peltier_shear_modulus"] * 1e-6}
-    poisson = {"pcl": values["pcl_poissons_ratio"], "pad": RUBBERLIKE, "rotor": own, "housing": own}
-    if "spreader_shear_modulus" in values:
-        shear["spreader"] = values["spreader_shear_modulus"] * 1e-6
-        poisson["spreader"] = values["spreader_youngs_modulus"] * 0.5e-6 / shear["spreader"] - 1.0
+    poisson = {"pcl": values["pcl_poissons_ratio"], "pad": BETWEEN_PLATES, "rotor": own, "housing": own}
+    bulk = values.get("peltier_bulk_modulus", 0.0) * 1e-6
+    if bulk:
+        poisson["pad"] = (3 * bulk - 2 * shear["pad"]) / (6 * bulk + 2 * shear["pad"])
+    if "spreader_youngs_modulus" in values:
+        youngs = values["spreader_youngs_modulus"] * 1e-6
+        shear["spreader"] = values.get("spreader_shear_modulus", youngs / 2e-6 / (1 + METAL)) * 1e-6
+        poisson["spreader"] = youngs / 2 / shear["spreader"] - 1
     mu = mesh.MaterialCF({**shear, "rotor": structure, "housing": structure})
     return mu, elastic.lame_of(mu, mesh.MaterialCF(poisson))
 
 
-def _turned(mesh: Any, shear: Any, lame: Any) -> Any:
-    """Displacement where the core's top is turned by one radian."""
-    space = VectorH1(mesh, order=2, dirichlet="turned|fixed")
-    u, v = space.TnT()
-    worked = InnerProduct(elastic.stress(elastic.strain_of(u), shear, lame), elastic.strain_of(v))
-    form = BilinearForm(worked * dx, symmetric=True, condense=True)
-    pre = Preconditioner(form, "bddc")
-    form.Assemble()
-    found = GridFunction(space)
-    found.Set(CF((-y, x, 0)), definedon=mesh.Boundaries("turned"))
-    right = found.vec.CreateVector()
-    right.data = -form.mat * found.vec
-    inverse = CGSolver(form.mat, pre.mat, tol=1e-7, maxiter=600)
-    change = found.vec.CreateVector()
-    right.data += form.harmonic_extension_trans * right
-    change.data = inverse * right
-    found.vec.data += change
-    found.vec.data += form.harmonic_extension * found.vec
-    found.vec.data += form.inner_solve * right
-    return found
+class Held:
+    """The joint with its feet and the core's top held, and what bends it."""
+
+    def __init__(self, mesh: Any, shear: Any, lame: Any) -> None:
+        """Assemble the stiffness and its preconditioner."""
+        self.space = VectorH1(mesh, order=2, dirichlet="turned|fixed")
+        u, v = self.space.TnT()
+        sheared = InnerProduct(2 * shear * elastic.strain_of(u), elastic.strain_of(v))
+        dilated = lame * Trace(elastic.strain_of(u)) * Trace(elastic.strain_of(v))
+        # Pads hardly change their volume, and whole tetrahedra of theirs would lock: one point of each is asked.
+        others, once = mesh.Materials("pcl|rotor|housing|spreader"), {TET: IntegrationRule(TET, 1)}
+        worked = sheared * dx + dilated * dx(definedon=others) + dilated * dx("pad", intrules=once)
+        self.form = BilinearForm(worked, symmetric=True, condense=True)
+        pre = Preconditioner(self.form, "bddc")
+        self.form.Assemble()
+        self.inverse = CGSolver(self.form.mat, pre.mat, tol=1e-7, maxiter=600)
+
+    def solved(self, force: Any) -> Any:
+        """Displacement under a vector of forces, which is changed; what is held does not move."""
+        force.data += self.form.harmonic_extension_trans * force
+        moved = force.CreateVector()
+        moved.data = self.inverse * force
+        moved.data += self.form.harmonic_extension * moved
+        moved.data += self.form.inner_solve * force
+        return moved
+
+    def turned(self) -> Any:
+        """Displacement where the core's top is turned by one radian."""
+        found = GridFunction(self.space)
+        found.Set(CF((-y, x, 0)), definedon=self.space.mesh.Boundaries("turned"))
+        right = found.vec.CreateVector()
+        right.data = -self.form.mat * found.vec
+        found.vec.data += self.form.harmonic_extension * found.vec
+        found.vec.data += self.solved(right)
+        return found
 
 
 def _energies(mesh: Any, density: Any, mm: elastic.Found) -> tuple[elastic.Found, float]:

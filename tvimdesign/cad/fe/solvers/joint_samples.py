@@ -1,11 +1,28 @@
-"""Stresses read off the solved joint: at the core's foot, along the arcs' edges, and the largest in layer and core."""
+"""What is read off the solved joint: stresses at the core's foot, along the arcs' edges, the largest in layer and core,
+and the forces on its feet."""
 
 from typing import Any
 
 import elastic
 import numpy as np
 from elastic import Found
-from ngsolve import TET, VOL, IntegrationRule, sqrt, z
+from ngsolve import (
+    BND,
+    CF,
+    TET,
+    VOL,
+    GridFunction,
+    IfPos,
+    InnerProduct,
+    IntegrationRule,
+    LinearForm,
+    atan2,
+    dx,
+    sqrt,
+    x,
+    y,
+    z,
+)
 
 
 def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
@@ -71,3 +88,29 @@ def in_bodies(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     return {"layer_peak": layer.max(), "layer_99": np.quantile(layer, 0.99), "layer_mean": layer.mean(),
             "core_mises": mises[shaft].max(), "core_mises_below_holes": mises[plain].max() if plain.any() else 0.0,
             "core_mises_99": np.quantile(mises[shaft], 0.99)}  # fmt: skip
+
+
+def at_feet(space: Any, tensor: Any, torque: float, count: int) -> Found:
+    """Largest force on a foot [N] at one newton metre, across its screw and along it, from the feet's reactions.
+
+    Feet stand evenly around the axis. The work of the stress on a field that moves one foot alone is its reaction.
+    """
+    mesh = space.mesh
+    ground = [mesh[corner].point for one in mesh.Elements(BND) if one.mat == "fixed" for corner in one.vertices]
+    angles = np.array([np.arctan2(point[1], point[0]) for point in ground])
+    pitch = 2.0 * np.pi / count
+    first = np.angle(np.mean(np.exp(1j * count * angles))) / count
+    v = space.TestFunction()
+    work = LinearForm(InnerProduct(tensor, elastic.strain_of(v)) * dx).Assemble()
+    one, across, along = GridFunction(space), [], []
+    for foot in range(count):
+        turned = atan2(y * np.cos(first + foot * pitch) - x * np.sin(first + foot * pitch),
+                       x * np.cos(first + foot * pitch) + y * np.sin(first + foot * pitch))  # fmt: skip
+        near = IfPos(0.5 * pitch - turned, 1, 0) * IfPos(turned + 0.5 * pitch, 1, 0)
+        force = []
+        for way in np.eye(3):
+            one.Set(CF(tuple(near * part for part in way)), definedon=mesh.Boundaries("fixed"))
+            force.append(InnerProduct(work.vec, one.vec) * 1e3 / torque)
+        across.append(np.hypot(*force[:2]))
+        along.append(abs(force[2]))
+    return {"foot_across": max(across), "foot_along": max(along)}

@@ -12,6 +12,8 @@ from netgen.occ import Axis, Box, Cylinder, Dir, HalfSpace, OCCGeometry, Pnt, Ve
 FOOT, EDGE = 0.5, 2.0
 """Elements at the core's foot and along the arcs' edges [mm]."""
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
+PRESSED = 0.4
+"""Size of elements in a pad that is pressed, over its thickness."""
 PAD_GAP = 0.2
 """How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it."""
 
@@ -50,19 +52,15 @@ def parts(folder: Path, mm: dict[str, float], coarser: float) -> list[Any]:
     rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
     rigid = not blocks and mm["spreader_depth"] > 0.0
     if blocks:
-        housing = _ring_housing(read("housing"), mm)
+        heaters = [*folder.glob("peltier_pad_*.step"), *folder.glob("spreader_*.step")]
+        housing = _ring_housing(read("housing"), mm, [read(path.stem) for path in sorted(heaters)])
     else:
         housing = _arc_housing(read("housing"), mm, _tile_pockets(mm) if rigid else _pad_pockets(mm))
     found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
-    for path in sorted(folder.glob("*.step")):
-        number = int(path.stem.split("_")[-1]) if path.stem[-1].isdigit() else 0
-        for kind, label, parity in (("pcl", "pcl", 1), ("peltier_pad", "pad", 0)):
-            if path.stem.startswith(kind) and (not blocks or number % 2 == parity):  # blocks of one sense are pressed
-                found.append((read(path.stem), label, SIZES["layer"]))
+    found += [(read(name), label, size) for name, label, size in (_pressed if blocks else _sheared)(folder, mm)]
     if rigid:
         found += [(one, "spreader", SIZES["layer"]) for one in sectors(mm, -mm["spreader_depth"], 0.0)]
     elif not blocks:
-        found = [part for part in found if part[1] != "pad"]
         found += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
     for shape, label, size in found:
         for solid in shape.solids:
@@ -70,10 +68,53 @@ def parts(folder: Path, mm: dict[str, float], coarser: float) -> list[Any]:
     return [shape for shape, _, _ in found]
 
 
-def _ring_housing(whole: Any, mm: dict[str, float]) -> Any:
-    """Housing of the compression module without its hub above the floor and its wall."""
+def _pressed(folder: Path, mm: dict[str, float]) -> list[tuple[str, str, float]]:
+    """Files of the blocks of one sense, which are pressed, and of what they press on, with name and size of elements.
+
+    Blocks are counted around the axis from a rotor's vane, heaters from a housing's: each has two of them.
+    """
+    row = round(mm["tiles_per_block"]) if mm["spreader_depth"] else 1
+    thin = PRESSED * mm["peltier_thickness"]
+    kinds = {"pcl_block": ("pcl", SIZES["layer"], 1, 1), "peltier_pad": ("pad", thin, 0, row)}
+    if mm["spreader_depth"]:
+        kinds |= {"spreader": ("spreader", SIZES["layer"], 0, 1)}
+    found = []
+    for path in sorted(folder.glob("*_*.step")):
+        kind, _, number = path.stem.rpartition("_")
+        if kind in kinds:
+            label, size, parity, count = kinds[kind]
+            if ((int(number) - 1) // count + 1) % 2 == parity:
+                found.append((path.stem, label, size))
+    return found
+
+
+def _sheared(folder: Path, mm: dict[str, float]) -> list[tuple[str, str, float]]:
+    """Files of the arcs of PCL, and of the rigid modules below them, with name and size of elements."""
+    kinds = {"pcl": "pcl", "peltier_pad": "pad"} if mm["spreader_depth"] else {"pcl": "pcl"}
+    named = {path.stem: label for kind, label in kinds.items() for path in sorted(folder.glob(f"{kind}*.step"))}
+    return [(name, label, SIZES["layer"]) for name, label in named.items()]
+
+
+def _ring_housing(whole: Any, mm: dict[str, float], pads: list[Any]) -> Any:
+    """Housing of the compression module without its hub above the floor and its wall.
+
+    Pads stand off the floors of their pockets, beyond their ends too: without the gap the lower edge of a block, or the
+    end of that edge, would belong to the vane as well, and a line or a point that is tied bears more than a soft pad.
+    """
     far, inside = 500.0, 0.5 * (mm["hub_radius"] + mm["pcl_inner_radius"])
-    return whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    housing = whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    for pad in pads:
+        for sense in (-1, 0, 1):
+            housing -= pad.Move(_along(pad, sense * PAD_GAP) - Vec(0, 0, PAD_GAP))
+    return housing
+
+
+def _along(pad: Any, length: float) -> Any:
+    """A length [mm] along the longest level edge of a plate that stands upright."""
+    level = [edge for edge in pad.edges if abs(edge.end.z - edge.start.z) < 1e-6]
+    longest = max(level, key=lambda edge: float(edge.mass))
+    way = longest.end - longest.start
+    return length / way.Norm() * way
 
 
 def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:

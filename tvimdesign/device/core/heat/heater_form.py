@@ -37,6 +37,7 @@ kinds.record(
     requires=WITH_TILES,
 )  # fmt: skip
 for name, unit, field, description in (
+    ("peltier_bulk_modulus", "GPa", "bulk_modulus", "Bulk modulus of a module that is cut to the PCL"),
     ("peltier_length", "mm", "length", "Length of one rectangular Peltier module, along its row"),
     ("peltier_width", "mm", "width", "Width of one rectangular Peltier module, across its row"),
 ):

@@ -16,7 +16,9 @@ import numpy as np
 from tvimdesign.device.core.impedance.joint_impedance import joint_damping, joint_impedance, joint_stiffness
 from tvimdesign.device.table.quantity import Phase, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
+from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import crystallization, polymer
 
@@ -65,13 +67,16 @@ def core_and_link(
     rotor_mass: Scalar,
     link_mass: Scalar,
     retainer_mass: Scalar,
+    liner_recess: Section,
+    structure_density: Scalar,
     structure_specific_heat: Scalar,
     structure_conductivity: Scalar,
 ) -> lumps.Lump:
     """Core, link and retainer, which the plate heats through its inner ring: 2 pi k h/ln(r_i/r_c)."""
+    plate = plate_mass - liner_recess.area * structure_density
     return lumps.Lump(
         conductance=2.0 * np.pi * structure_conductivity * rotor_thickness / np.log(pcl_inner_radius / core_radius),
-        capacity=(rotor_mass - plate_mass + link_mass + retainer_mass) * structure_specific_heat,
+        capacity=(rotor_mass - plate + link_mass + retainer_mass) * structure_specific_heat,
         surface=lumps.NOWHERE,
     )
 
@@ -149,7 +154,8 @@ def stack(
     pad_contact: Scalar,
     spreader_capacity: Scalar,
     rotor_contact: Scalar,
-    plate_depth: Scalar,
+    liner_sheet: Liner | None,
+    backing_depth: Scalar,
     plate_outside: lumps.Surface,
     structure_conductivity: Scalar,
     structure_density: Scalar,
@@ -165,7 +171,7 @@ def stack(
     heat_links: tuple[lumps.Link, ...],
 ) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
-    half = 0.5 * peltier_mass * peltier_specific_heat
+    side, legs = peltier.shared_capacity(peltier_mass * peltier_specific_heat)
     return heat.Stack(
         area=pcl_area,
         thickness=pcl_depth,
@@ -174,13 +180,15 @@ def stack(
         conductivity_melt=pcl_conductivity_melt,
         melting=pcl_melting,
         peltier=pads,
-        cold_capacity=half,
-        hot_capacity=half + spreader_capacity,
+        cold_capacity=side,
+        hot_capacity=side + spreader_capacity,
+        legs_capacity=legs,
         # The pads' cold sides meet the air in the windows; the ledges are plastic.
         cold_surface=lumps.Surface(cold_area, cold_side_coefficient, surface_emissivity),
         hot_contact=pad_contact,
         plate_contact=rotor_contact,
-        plate_thickness=plate_depth,
+        liner=liner_sheet,
+        plate_thickness=backing_depth,
         plate_conductivity=structure_conductivity,
         plate_heat_capacity=structure_density * structure_specific_heat,
         plate_surface=plate_outside,

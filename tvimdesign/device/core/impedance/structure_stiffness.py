@@ -19,6 +19,12 @@ quantities = QuantityGroup(shared.group)
 
 
 @quantities.helper()
+def frozen_shear_modulus(pcl_flexural_modulus: Scalar, pcl_poissons_ratio: Scalar) -> Scalar:
+    """Shear modulus of the frozen PCL at 23 degC [Pa]."""
+    return structure.shear_modulus(pcl_flexural_modulus, pcl_poissons_ratio)
+
+
+@quantities.helper()
 def core_screw_bores(
     link_screw_hole: Scalar, link_bolt_circle_radius: Scalar, core_radius: Scalar, link_screw_depth: Scalar
 ) -> structure.Bores:
@@ -87,11 +93,14 @@ def floor_stiffness(
     mount_boss_radius: Scalar,
     mount_hole: Scalar,
     foot_height: Scalar,
+    adjuster_radius: Scalar,
+    adjuster_thickness: Scalar,
+    slip_clearance: Scalar,
 ) -> Scalar:
     """Stiffness of the floor from the PCL out to the ground under its feet, or in to its flange.
 
     Feet are screwed down between the springs; the skirt only stands on the ground. Beyond the PCL's outer rim the floor
-    is whole.
+    is whole but for the adjusters' pockets.
     """
     if floor_flange is not None:
         bore, outer = floor_flange
@@ -100,11 +109,13 @@ def floor_stiffness(
         )
         whole = structure.ring_stiffness(structure_shear_modulus, floor_thickness, outer, pcl_inner_radius)
         return structure.flanged_floor_stiffness(structure_shear_modulus, whole, web, (bore, outer), foot_height)
-    ring = structure.ring_stiffness(structure_shear_modulus, floor_thickness, pcl_outer_radius, placement_radius)
+    left = structure.pocketed_thickness(floor_thickness, spring_count, adjuster_radius + slip_clearance,
+                                        adjuster_thickness, placement_radius)  # fmt: skip
+    ring = structure.ring_stiffness(structure_shear_modulus, left, pcl_outer_radius, placement_radius)
     foot = structure.foot_stiffness(structure_youngs_modulus, structure_shear_modulus, mount_boss_radius,
                                     0.5 * mount_hole, foot_height)  # fmt: skip
     between = np.pi * placement_radius / spring_count
-    spot = structure.spot_stiffness(structure_shear_modulus, structure_poissons_ratio, floor_thickness,
+    spot = structure.spot_stiffness(structure_shear_modulus, structure_poissons_ratio, left,
                                     mount_boss_radius, between)  # fmt: skip
     footed = structure.footed_floor_stiffness(ring, spot, foot, spring_count, placement_radius)
     return 1.0 / (under_arcs_compliance + 1.0 / footed)

@@ -19,6 +19,7 @@ from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import heat, lumps
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
+from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.solids import warm
 from tvimdesign.physics.solids.warm import Softening
 
@@ -90,7 +91,8 @@ def in_series(
 @quantities.helper()
 def behind_pcl(
     pcl_area: Scalar,
-    plate_depth: Scalar,
+    backing_depth: Scalar,
+    liner_sheet: Liner | None,
     plate_outside: lumps.Surface,
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
@@ -114,8 +116,8 @@ def behind_pcl(
         if group != "beside":
             continue
         cooled[above] = lumps.cooled_through(loss, cooled[above], ambient_temperature)
-    return BehindPolymer(pcl_area, plate_depth, structure_conductivity, plate_outside, ambient_temperature,
-                         (*cooled, core_and_link._replace(surface=faces)), uneven_sideways)  # fmt: skip
+    return BehindPolymer(pcl_area, backing_depth, structure_conductivity, plate_outside, ambient_temperature,
+                         (*cooled, core_and_link._replace(surface=faces)), uneven_sideways, liner_sheet)  # fmt: skip
 
 
 @quantities.helper(per_point=True)

@@ -1,6 +1,6 @@
 // The stage that the parts stand on: camera, lights, orbit controls, pictures. Draws only when something has changed.
 import {
-  Box3, DirectionalLight, HemisphereLight, OrbitControls, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+  Box3, DirectionalLight, HemisphereLight, Mesh, OrbitControls, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from "page/vendor/three.js";
 
 /** Directions from which the module is looked at. */
@@ -90,7 +90,7 @@ export class Stage {
   bounds() {
     const box = new Box3();
     this.scene.updateMatrixWorld(true);
-    this.scene.traverseVisible((node) => { if (node.isMesh) box.expandByObject(node); });
+    this.scene.traverseVisible((node) => { if (node instanceof Mesh) box.expandByObject(node); });
     return box;
   }
 
@@ -116,6 +116,7 @@ export class Stage {
 
   /** Be told which part was clicked; null beside all parts. */
   onPick(told) {
+    /** @type {number[] | null} */
     let from = null;
     this.canvas.addEventListener("pointerdown", ({ clientX, clientY }) => { from = [clientX, clientY]; });
     this.canvas.addEventListener("pointerup", ({ clientX, clientY }) => {
@@ -128,7 +129,7 @@ export class Stage {
     const { left, top, width, height } = this.canvas.getBoundingClientRect();
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2(2 * (clientX - left) / width - 1, 1 - 2 * (clientY - top) / height), this.camera);
-    const seen = ray.intersectObjects(this.scene.children, true).filter(({ object, point }) =>
+    const seen = ray.intersectObjects(this.scene.children, true).filter((/** @type {any} */ { object, point }) =>
       object.userData.part?.object.visible && (object.material.clippingPlanes ?? []).every((plane) => plane.distanceToPoint(point) >= 0));
     return seen[0]?.object.userData.part ?? null;
   }

@@ -1,8 +1,11 @@
 // The parts as a tree of boxes to tick, and what is told of the one that is picked.
 import { button, make, tick } from "page/dom.js";
 
-/** The tree: kinds, and within a kind its parts. `changed` is called when one is hidden or shown. */
-export function partsTree(parts, changed, picked) {
+/**
+ * The tree: kinds, and within a kind its parts. `changed` is called when one is hidden or shown, `picked` (where there
+ * is more to tell) with the part to tell about.
+ */
+export function partsTree(parts, changed, /** @type {((part: any) => void) | null} */ picked = null) {
   const kinds = Map.groupBy ? Map.groupBy(parts.values(), ({ kind }) => kind) : grouped([...parts.values()]);
   const list = make("ul", {});
   for (const [kind, members] of kinds) list.append(branch(kind, members, changed, picked));
@@ -29,9 +32,13 @@ function branch(kind, members, changed, picked) {
     for (const { input } of boxes) input.checked = yes;
     changed();
   });
-  const about = button("about", () => picked(members[0]));
-  about.setAttribute("aria-label", `about ${words}`);
-  const item = make("li", {}, make("div", { className: "branch" }, whole.row, about));
+  const line = make("div", { className: "branch" }, whole.row);
+  if (picked) {
+    const about = button("about", () => picked(members[0]));
+    about.setAttribute("aria-label", `about ${words}`);
+    line.append(about);
+  }
+  const item = make("li", {}, line);
   if (members.length < 2) return item;
   for (const part of members) {
     boxes.push(tick(part.name.replaceAll("_", " "), true, (yes) => {

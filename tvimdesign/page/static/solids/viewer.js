@@ -1,8 +1,8 @@
 // The assembly in 3-D: turned, hidden by the tree, taken apart, put together step by step, cut, moved, coloured.
-import { Plane, Vector3 } from "page/vendor/three.js";
 import { dataOf } from "page/data.js";
 import { button, choice, make, player, slider, tick } from "page/dom.js";
 import { moment, onMoment, sampleAt, timeline } from "page/time.js";
+import { cut, explode } from "page/solids/apart.js";
 import { layerColours } from "page/solids/layer.js";
 import { turner } from "page/solids/motion.js";
 import { readParts } from "page/solids/parts.js";
@@ -18,6 +18,7 @@ export async function draw(place, data, { binary, says }) {
   const about = make("div", { className: "about", "aria-live": "polite" }, ...aboutPart(null));
   const stage = new Stage(scene, says);
   for (const part of parts.values()) stage.scene.add(part.object);
+  /** @type {import("page/solids/parts.js").Part | null} */
   let last = null;
   const pick = (part) => {
     last?.mark(false);
@@ -44,37 +45,6 @@ export async function draw(place, data, { binary, says }) {
   stage.drawNow();
   place.closest("figure").viewer = { parts, stage };
   return { parts, stage, showStep: steps.show };
-}
-
-function explode(parts, changed, stage) {
-  return slider("Apart", {}, (share) => {
-    const lowest = Math.min(...[...parts.values()].map(({ lift }) => lift));
-    for (const part of parts.values()) part.lifted = share * (part.lift - lowest);
-    changed();
-    stage.look();
-  }).row;
-}
-
-/** A plane that cuts everything across an axis. */
-function cut(parts, stage) {
-  const box = stage.bounds();
-  const plane = new Plane(new Vector3(0, 1, 0), 0);
-  const place = () => {
-    const axis = which.select.value;
-    where.input.disabled = axis === "none";
-    if (axis !== "none") {
-      const [low, high] = [box.min[axis], box.max[axis]];
-      plane.normal.set(0, 0, 0)[axis] = axis === "z" ? -1 : 1;
-      const at = low + Number(where.input.value) * (high - low);
-      plane.constant = axis === "z" ? at : -at;
-    }
-    for (const part of parts.values()) part.cut(axis === "none" ? [] : [plane]);
-    stage.renew();
-  };
-  const which = choice("Cut", { none: "not cut", y: "upright, front", x: "upright, side", z: "level" }, place);
-  const where = slider("Cut at", { value: 0.5 }, place);
-  where.input.disabled = true;
-  return [which.row, where.row];
 }
 
 /** The rotor turned by hand, or to and fro. */

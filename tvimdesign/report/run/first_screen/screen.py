@@ -44,7 +44,7 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
     if answer.found:
         top += qualification_lines(answer, table, width)
         top += module_lines(answer, table, intervals, width)
-        top += chosen_lines(answer, table, width) + current_lines(answer, width)
+        top += chosen_lines(answer, table, width) + current_lines(answer, table, width)
         top += trade_lines(told.front, table, width)
         top += measured_lines(told.uncertainty, width)
         top += margin_lines(answer, table, width) + held_back_lines(answer, width)

@@ -13,7 +13,7 @@ from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.first_screen.layout import block, joined
 from tvimdesign.report.run.first_screen.requirements import may_be
 from tvimdesign.report.run.first_screen.stalling import stalling_in_words
-from tvimdesign.report.run.yield_words import percent, yield_of
+from tvimdesign.report.run.yield_words import gain_without_margins, percent, yield_of
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
 from tvimdesign.solve.result import StudyResult
 
@@ -181,13 +181,15 @@ def _choice(name: str, word: str | float, table: Table) -> str:
     return word if isinstance(word, str) else format_quantity(word, table.unit(name))
 
 
-def current_lines(answer: StudyResult, width: int) -> list[str]:
-    """What currents that follow a profile buy against the best constant ones."""
+def current_lines(answer: StudyResult, table: Table, width: int) -> list[str]:
+    """What currents that follow a profile buy against the best constant ones, which have no margins for a yield."""
     best = answer.solution.constant if answer.solution else None
     if best is None or not answer.found or answer.solution is None:
         return []
-    worse = 100.0 * (best.objective / answer.solution.objective - 1.0)
-    phases = " and ".join(answer.design.current_profiles)
-    return block(
-        "Current", f"follows a profile while {phases}; the best constant current is {worse:.2g} % worse", width
-    )
+    said = f"follows a profile while {' and '.join(answer.design.current_profiles)}"
+    reached = yield_of(answer)
+    if reached is None:
+        worse = 100.0 * (best.objective / answer.solution.objective - 1.0)
+        return block("Current", f"{said}; the best constant current is {worse:.2g} % worse", width)
+    gain = ", ".join(gain_without_margins(answer, best.values, reached, table))
+    return block("Current", f"{said}; without margins, from the best constant current to it: {gain}", width)

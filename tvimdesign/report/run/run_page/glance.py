@@ -39,7 +39,7 @@ def glance(answered: AnsweredStudy, told: Told) -> list[Block]:
         *module_lines(answer, table, intervals, _WIDE),
         *qualification_lines(answer, table, _WIDE),
         *chosen_lines(answer, table, _WIDE),
-        *current_lines(answer, _WIDE),
+        *current_lines(answer, table, _WIDE),
         *trade_lines(told.front, table, _WIDE),
         *measured_lines(told_of, _WIDE),
         *margin_lines(answer, table, _WIDE),

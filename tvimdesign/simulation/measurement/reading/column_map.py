@@ -63,7 +63,7 @@ def column_map(tree: Any, file: str) -> ColumnMap:
     columns = {}
     for key, entry in tree.items():
         if key in _WORDS:
-            if entry not in _WORDS[key]:
+            if not isinstance(entry, str) or entry not in _WORDS[key]:
                 raise InputError(f"{file}: {key}: expected {', '.join(_WORDS[key])}")
             continue
         if key not in quantities:

@@ -169,7 +169,11 @@ def _column(at: int, one: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Co
     if found is None:
         raise InputError(f"{where}: {one.unit!r} is no unit of {one.quantity}, such as {wanted}")
     numbers = [_number(cell, row.line, at, sheet, file) for cell, row in zip(cells, raw.rows, strict=True)]
-    return Column(one.quantity, one.text, one.unit, found[0] + found[1] * np.array(numbers, dtype=float))
+    with np.errstate(over="ignore"):
+        values = found[0] + found[1] * np.array(numbers, dtype=float)
+    if np.any(np.isinf(values)) or np.all(np.isnan(values)):
+        raise InputError(f"{where}: a value is too large, or none is a number")
+    return Column(one.quantity, one.text, one.unit, values)
 
 
 def _number(cell: str, line: int, at: int, sheet: Sheet, file: str) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,8 +14,8 @@ from tvimdesign.base.errors import InputError
 SEPARATORS = {"tab": "\t", "semicolon": ";", "bar": "|", "comma": ",", "blanks": ""}
 """By the names a column map uses; in the order in which they are preferred where several would do."""
 DECIMALS = {"point": ".", "comma": ","}
-_POINT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
-_COMMA = re.compile(r"[+-]?(?:[0-9]+,?[0-9]*|,[0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
+_POINT = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
+_COMMA = re.compile(r"[+-]?(?:[0-9]+(?:,[0-9]*)?|,[0-9]+)(?:[eE][+-]?[0-9]{1,4})?")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+")
 _BAD = re.compile(r"(?=.*[0-9])[0-9.,;|+\-eE\s]+")
 _LOOKED_AT = 3000
@@ -60,10 +61,12 @@ class Sheet:
 
 
 def number(cell: str, decimal: str) -> float | None:
-    """The number in a cell, with a decimal `point` or `comma`; None where the cell is not a number."""
-    if decimal == "comma":
-        return float(cell.replace(",", ".")) if _COMMA.fullmatch(cell) else None
-    return float(cell) if _POINT.fullmatch(cell) else None
+    """The number in a cell, with a decimal `point` or `comma`; None where the cell is not a number, or a greater one
+    than a computer has.
+    """
+    form, text = (_COMMA, cell.replace(",", ".")) if decimal == "comma" else (_POINT, cell)
+    value = float(text) if form.fullmatch(cell) else math.inf
+    return value if math.isfinite(value) else None
 
 
 def separated(text: str, file: str, separator: str = "", decimal: str = "") -> Sheet:

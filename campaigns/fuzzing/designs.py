@@ -1,0 +1,45 @@
+"""Designs: resolved for tests, turned into dimensions for parts and into a study."""
+
+from __future__ import annotations
+
+import json
+import random
+from functools import cache
+from pathlib import Path
+
+from fuzzing.kind import ROOT, Drawn, Kind
+from fuzzing.mutations import encoded, mutated_data, mutated_text, paths
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.study.design import read_design
+from tvimdesign.study.result_study import result_text
+
+
+@cache
+def _designs() -> list[tuple[str, list[tuple[object, ...]], list[tuple[object, ...]]]]:
+    """Text of each released design, its places, and those that are not one of its thousand values."""
+    found = []
+    for path in sorted((ROOT / "cad").glob("*/design.json")):
+        text = path.read_text()
+        every = [place for place in paths(json.loads(text)) if place[0] != "solution"]
+        found.append((text, every, [place for place in every if place[0] != "values"]))
+    return found
+
+
+def _design(draw: random.Random) -> Drawn:
+    text, every, few = draw.choice(_designs())
+    if draw.random() < 0.2:
+        return Drawn("input.json", mutated_text(text, draw))
+    changed = mutated_data(text, every if draw.random() < 0.3 else few, draw)
+    return Drawn("input.json", encoded(json.dumps(changed, indent=2 if draw.random() < 0.05 else None)))
+
+
+def _use(path: Path) -> None:
+    """What `simulate`, `cad` and `new --from` do first with a design."""
+    design = read_design(path)
+    resolve_design(design)
+    dimensions(design)
+    result_text(design, path.name, path.parent)
+
+
+DESIGNS = Kind(_design, _use)

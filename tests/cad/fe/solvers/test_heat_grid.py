@@ -1,0 +1,76 @@
+"""Cells of the heat's solver: sheets, flat backs of pads, and of which part a cell is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import heat_grid
+import numpy as np
+import pytest
+
+VANE = {
+    "pcl_inner_radius": 13.0, "pcl_outer_radius": 24.0, "core_radius": 8.0, "seat_radius": 8.4, "hub_radius": 11.4,
+    "slot_inner_radius": 15.75, "slot_outer_radius": 21.25, "rotor_radius": 32.3, "housing_outer_radius": 70.0,
+    "pad_depth": 1.5, "rotor_vane_angle": 0.216, "block_angle": 0.216, "vane_count": 6.0, "rotor_bottom_level": 12.8,
+    "vane_height": 12.4, "floor_thickness": 4.0, "slot_top_level": 10.4, "rotor_top_level": 16.8,
+    "link_bottom_level": 28.6, "spreader_depth": 0.0,
+}  # fmt: skip
+
+
+def box(low: Any, high: Any) -> tuple[Any, Any]:
+    """Triangles of a box."""
+    points = np.array([[(low, high)[k][a] for a, k in enumerate(ends)] for ends in np.ndindex(2, 2, 2)], dtype=float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return points, np.array([three for a, b, c, d in quads for three in ((a, b, c), (a, c, d))])
+
+
+def test_a_line_through_a_box_passes_its_lower_and_upper_face() -> None:
+    points, triangles = box((0, 0, 1), (2, 3, 5))
+    assert heat_grid._crossed(points, triangles, 1.1, 0.7) == pytest.approx([1.0, 5.0])
+    assert len(heat_grid._crossed(points, triangles, 2.1, 0.7)) == 0
+
+
+def test_parts_have_their_ends_and_sheets_stand_between_them() -> None:
+    found = heat_grid.lines(0.0, 1.0, (1.0, 4, 0.5), (1.0, 0, 1.0), (1.0, 3, 1.0), (4.0, 3, 1.0))
+    assert found.ends[[0, 4, 5, -1]] == pytest.approx([0.0, 1.0, 1.0, 4.0])
+    assert list(found.sheets) == [False] * 4 + [True] + [False] * 3
+    widths = np.diff(found.ends)
+    assert widths[1:4] / widths[:3] == pytest.approx(0.5)
+    assert found.thickened[-1] == pytest.approx(heat_grid.THIN)
+
+
+def test_a_pad_in_a_vane_has_a_flat_back() -> None:
+    grid = heat_grid.grid_of(VANE, 1.0)
+    face = 0.5 * VANE["rotor_vane_angle"] + VANE["block_angle"]
+    behind = face + np.arcsin(VANE["pad_depth"] / VANE["pcl_inner_radius"])
+    radius = np.linspace(VANE["pcl_inner_radius"], VANE["pcl_outer_radius"], 7)
+    turned = grid.turned(np.full(7, behind), radius)
+    # As far from the plane of the face everywhere.
+    assert radius * np.sin(turned - face) == pytest.approx(VANE["pad_depth"])
+    end = np.pi / VANE["vane_count"]
+    assert grid.turned(np.full(7, end), radius) == pytest.approx(end)
+    assert np.all(np.diff(grid.turned(grid.around.ends, np.full(len(grid.around.ends), 20.0))) >= 0.0)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "between"),
+    [("hot", "layer", "near"), ("rotor", "layer", "far"), ("housing", "legs", "edge"), ("layer", "air", "air"),
+     ("layer", "", ""), ("rotor", "rotor", "rotor"), ("layer", "key", "key"), ("hot", "spreader", "spread"),
+     ("housing", "near", "edge"), ("edge", "rotor", "edge")],
+)  # fmt: skip
+def test_what_a_sheet_is_of(before: str, after: str, between: str) -> None:
+    assert heat_grid._sheet(before, after) == between
+
+
+def test_a_cell_is_of_the_part_its_middle_is_in() -> None:
+    # Half a vane that is one box of housing below the floor's face and one of rotor above the blocks.
+    far = 200.0
+    surfaces = {}
+    for name, low, high in (("housing", -4.0, 0.0), ("rotor", 12.8, 16.8)):
+        surfaces[f"{name}.points"], surfaces[f"{name}.triangles"] = box((-far, -far, low), (far, far, high))
+    grid = heat_grid.grid_of(VANE, 1.6)
+    found = heat_grid.materials_of(grid, surfaces)
+    levels = grid.up.middles
+    assert set(found[:, :, levels < 0.0].ravel()) == {"housing"}
+    assert set(found[:, :, (levels > 12.8) & (levels < 16.8)].ravel()) == {"rotor"}
+    assert set(found[:, :, (levels > 0.0) & (levels < 12.8)].ravel()) == {"", "air"}

@@ -1,0 +1,87 @@
+"""Liners and the thermal cut-out as solids: in their recesses, of the model's volume and moment, in no one's way."""
+
+from __future__ import annotations
+
+from math import atan2
+
+import cadquery as cq
+import pytest
+from cad_designs import CASES, TILES, design_of
+
+from tvimdesign.cad.assembly.assembly import drawn_parts, place
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.study.design import Design
+
+LINER = {"liner_material": "peek", "liner_thickness": 0.8e-3}
+LINED = [
+    pytest.param("shear", {**LINER, "key_count": 0.0}, id="arcs"),
+    pytest.param("compression", {**LINER, "vane_thickness": 9e-3}, id="vanes", marks=pytest.mark.slow),
+]
+
+
+def placed_of(design: Design, angle: float = 0.0) -> dict[str, cq.Solid]:
+    dims = dimensions(design)
+    return place(dims, drawn_parts(dims), angle)
+
+
+def between(first: cq.Solid, second: cq.Solid) -> float:
+    """Volume that two solids share [mm^3]."""
+    return sum(solid.Volume() for solid in first.intersect(second).Solids())
+
+
+@pytest.mark.parametrize(("mode", "changes"), LINED)
+def test_liners_lie_in_the_rotor_a_film_from_its_recess_and_turn_with_it(
+    mode: str, changes: dict[str, float | str]
+) -> None:
+    design = design_of("lined", changes, mode)
+    for angle in (0.0, 0.5 * design.values["stroke"]):
+        placed = placed_of(design, angle)
+        liners = [solid for name, solid in placed.items() if kind_of(name) == "liner"]
+        polymer = "pcl_arc" if mode == "shear" else "pcl_block"
+        assert len(liners) == sum(kind_of(name) == polymer for name in placed)
+        volume = 1e9 * design.values["liner_volume"]
+        assert sum(one.Volume() for one in liners) == pytest.approx(volume, rel=1e-6)
+        polar = sum(_polar(one) for one in liners)
+        assert polar * design.values["liner_density"] * 1e-15 == pytest.approx(design.values["liner_inertia"], rel=1e-5)
+        assert placed["rotor"].Volume() == pytest.approx(1e9 * design.values["rotor_volume"], rel=1e-5)
+        for one in liners:
+            assert between(one, placed["rotor"]) == 0.0
+            assert between(one, placed["housing"]) == 0.0
+    bare = design_of("bare", {name: value for name, value in changes.items() if "liner" not in name}, mode)
+    recess = 1e9 * (bare.values["rotor_volume"] - design.values["rotor_volume"])
+    assert recess == pytest.approx(volume * (0.8 + 0.1) / 0.8, rel=2e-3)
+
+
+def _polar(solid: cq.Solid) -> float:
+    """Moment of the volume about the module's axis [mm^5]."""
+    middle = solid.Center()
+    return cq.Shape.matrixOfInertia(solid)[2][2] + solid.Volume() * (middle.x**2 + middle.y**2)
+
+
+@pytest.mark.parametrize(
+    ("mode", "changes", "level"),
+    [
+        pytest.param("shear", {}, "pad_depth", id="in the window"),
+        pytest.param("shear", CASES["paper"][1] | {"arc_count": 8, "arc_span": 0.3}, "floor_thickness", id="below"),
+        pytest.param("shear", TILES, "floor_thickness", id="between two tiles", marks=pytest.mark.slow),
+        pytest.param("compression", {}, "floor_thickness", id="below a slot", marks=pytest.mark.slow),
+    ],
+)
+def test_the_cut_out_lies_across_the_first_heater_in_no_part_s_way(
+    mode: str, changes: dict[str, float | str], level: str
+) -> None:
+    design = design_of("guarded", changes, mode)
+    placed = placed_of(design)
+    body = placed["thermal_cutout"]
+    box = body.BoundingBox()
+    assert box.zmax == pytest.approx(-1e3 * design.values[level], abs=1e-6)
+    assert box.zmax - box.zmin == pytest.approx(4.2, abs=1e-6)
+    assert body.Volume() == pytest.approx(1e9 * design.values["cutout_volume"], rel=1e-9)
+    middle = body.Center()
+    first = placed["peltier_pad_1"].Center()
+    apart = abs(atan2(middle.y, middle.x) - atan2(first.y, first.x))
+    assert apart < design.values.get("arc_span", 1.0)
+    for name, other in placed.items():
+        if name != "thermal_cutout":
+            assert between(body, other) == pytest.approx(0.0, abs=1e-6), name

@@ -1,0 +1,139 @@
+"""A small campaign of inputs; and that it sees what it looks for."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import fuzz
+import pytest
+from fuzzing import watched
+from fuzzing.kind import Drawn, Kind
+from fuzzing.mutations import mutated_data, mutated_table, mutated_text, paths
+from support import ROOT
+
+USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "column_maps"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "inputs"),
+    [
+        *((kind, 15) for kind in USUAL),
+        *(pytest.param(kind, 4, marks=pytest.mark.slow) for kind in ("fits", "messages", "answers")),
+        *(pytest.param(kind, 500, marks=pytest.mark.slow) for kind in USUAL),
+    ],
+)
+def test_mutated_inputs_are_read_or_refused_in_words(kind: str, inputs: int) -> None:
+    found = fuzz.done(fuzz.Chunk(kind, 5, 0, inputs))
+    assert found.failures == []
+    assert found.inputs >= inputs
+
+
+def test_what_failed_once_fails_no_more() -> None:
+    assert fuzz.known_failures() == []
+
+
+def raises(path: Path) -> None:
+    raise KeyError(path.name)
+
+
+def leaves_a_file(path: Path) -> None:
+    path.with_name("left").write_text("")
+
+
+def removes_a_file(path: Path) -> None:
+    path.unlink()
+
+
+def starts_a_process(_: Path) -> None:
+    subprocess.run([sys.executable, "-V"], capture_output=True, check=True)
+
+
+def spins(_: Path) -> None:
+    while True:
+        pass
+
+
+def spins_briefly(_: Path) -> None:
+    ends = time.process_time() + 0.1
+    while time.process_time() < ends:
+        pass
+
+
+def panics(_: Path) -> None:
+    raise BaseException("as a library of another language does")
+
+
+@pytest.mark.parametrize(
+    ("use", "fault"),
+    [
+        (raises, "KeyError in "), (leaves_a_file, "touches open of "), (removes_a_file, "touches os.remove of "),
+        (starts_a_process, "touches subprocess.Popen"), (spins, "Hang in "), (panics, "BaseException in "),
+    ],
+)  # fmt: skip
+def test_the_campaign_sees_a_fault(
+    use: Callable[[Path], None], fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(watched, "HANG", 0.1)
+    kind = Kind(lambda _: Drawn("input.txt", b""), use)
+    assert watched.ending(kind, Drawn("input.txt", b"x").written(tmp_path))[0].startswith(fault)
+
+
+def test_a_slow_input_is_a_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(watched, "SLOW", 0.05)
+    kind = Kind(lambda _: Drawn("input.txt", b""), spins_briefly)
+    assert watched.ending(kind, tmp_path / "input.txt")[0].startswith("takes ")
+
+
+@pytest.mark.parametrize(("writes", "inside"), [(True, True), (False, False)])
+def test_what_writes_may_write_beside_its_input_alone(writes: bool, inside: bool, tmp_path: Path) -> None:
+    kind = Kind(lambda _: Drawn("input.txt", b""), leaves_a_file, writes=writes)
+    assert (watched.ending(kind, tmp_path / "input.txt")[0] == "") == inside
+    kind = Kind(lambda _: Drawn("input.txt", b""), lambda _: leaves_a_file(tmp_path / "x"), writes=True)
+    (tmp_path / "own").mkdir()
+    assert watched.ending(kind, tmp_path / "own/input.txt")[0] == f"touches open of {tmp_path / 'left'}"
+
+
+@pytest.mark.slow
+def test_a_campaign_goes_on_where_it_was_ended(tmp_path: Path) -> None:
+    command = [sys.executable, str(ROOT / "campaigns/fuzz.py"), "--kinds", "column_maps", "--out", tmp_path / "found"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    for inputs, chunks in ((1000, 1), (2000, 2), (2000, 2)):
+        subprocess.run([*command, "--inputs", str(inputs)], check=True, env=environment, timeout=600)
+        found = [json.loads(line) for line in (tmp_path / "found").read_text().splitlines()]
+        assert [(one["first"], one["end"], one["inputs"]) for one in found] == [
+            (1000 * i, 1000 * (i + 1), 1000) for i in range(chunks)
+        ]
+
+
+def dies(path: Path) -> None:
+    if path.read_bytes() == b"3":
+        os._exit(7)
+
+
+@pytest.mark.slow
+def test_what_ends_the_process_is_its_input_s_fault_and_the_others_are_tried(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(fuzz, "CORPUS", tmp_path)
+    monkeypatch.setitem(fuzz.KINDS, "deadly", Kind(lambda _: Drawn("input.txt", b"0"), dies))
+    monkeypatch.setattr(fuzz, "drawn", lambda *told: Drawn("input.txt", str(told[-1]).encode()))
+    found = list(fuzz.in_processes([fuzz.Chunk("deadly", 1, 0, 6)], 1))
+    assert [(chunk.first, chunk.end) for chunk in found] == [(0, 4), (4, 6)]
+    assert found[0].failures[0].startswith("3: ends the process (7)")
+    assert found[1].failures == []
+
+
+def test_mutations_change_a_text_a_table_and_data() -> None:
+    draw = random.Random(1)
+    assert len({mutated_text("mode: shear\n", draw) for _ in range(50)}) > 25
+    assert len({mutated_table("time [s];angle [deg]\n0;1\n1;2\n", draw) for _ in range(50)}) > 25
+    plain = {"a": [1, {"b": 2}]}
+    assert list(paths(plain)) == [("a",), ("a", 0), ("a", 1), ("a", 1, "b")]
+    assert any(mutated_data(json.dumps(plain), list(paths(plain)), draw) != plain for _ in range(5))

@@ -1,0 +1,52 @@
+"""A process that answers jobs: one that cannot even start is given up, and not started for ever."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import dataclass
+from typing import Any
+
+from explored import awaited
+
+from tvimdesign.explore.worker_process import WorkerProcess
+
+
+@dataclass(frozen=True)
+class _Asked:
+    number: int
+    gives_way: bool = False
+
+    def line(self) -> str:
+        return "{}\n"
+
+    def given_up(self) -> dict[str, Any]:
+        return {"words": "given up"}
+
+
+class _Counted(WorkerProcess[_Asked]):
+    """Counts how often it starts its process."""
+
+    starts = 0
+
+    def _start(self) -> None:
+        self.starts += 1
+        super()._start()
+
+
+def test_a_worker_that_cannot_start_is_given_up_and_asked_anew_with_the_next_job() -> None:
+    async def asked() -> tuple[list[tuple[int, str]], int]:
+        told: list[tuple[int, str]] = []
+        worker = _Counted("tvimdesign.no_such_module", [], lambda job, said: told.append((job.number, said["words"])))
+        begun = worker.starts
+        for number in (1, 2):
+            worker.ask(_Asked(number))
+            async with asyncio.timeout(60.0):
+                while (number, "given up") not in told:
+                    await asyncio.sleep(0.02)
+        await asyncio.sleep(0.3)
+        worker.close()
+        return told, worker.starts - begun
+
+    told, starts = awaited(asked())
+    assert told == [(1, "given up"), (2, "given up")]
+    assert starts <= 2

@@ -1,0 +1,94 @@
+"""A liner between polymer and plate, against resistances in series and a wall of three sheets integrated once more."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.linalg import solve_banded
+
+from tvimdesign.physics.heat_flow import heat, lumps
+from tvimdesign.physics.heat_flow.liner import Liner
+
+COLD = 295.15
+AREA = 1e-3
+Make = Callable[..., heat.Stack]
+Run = Callable[..., Any]
+POLYMER = (1e-3, 0.2, 1145.0 * 1900.0)
+"""Thickness [m], conductivity [W/m K], heat capacity per volume [J/m^3 K], as of the bare stack."""
+
+
+def lined(make: Make, sheet: tuple[float, float, float], **kwargs: Any) -> heat.Stack:
+    """The bare stack with a sheet of so much thickness, conductivity and capacity, and a bond of 0.1 mm of epoxy."""
+    thickness, conductivity, capacity = sheet
+    liner = Liner(thickness / conductivity / AREA, 1e-4 / 0.2 / AREA, thickness * capacity * AREA)
+    return make(liner=liner, **kwargs)
+
+
+def test_steady_heat_passes_the_liner_and_its_bond_in_series(bare_stack: Make, integrate: Run) -> None:
+    stack = lined(
+        bare_stack, (1e-3, 0.29, 1.56e6), hot_contact=4000.0, plate_contact=500.0, plate_conductivity=0.8,
+        plate_thickness=3e-3, plate_cells=3, plate_surface=lumps.Surface(AREA, 40.0),
+    )  # fmt: skip
+    seen = integrate(stack, heat.initial_state(stack, 5, COLD), [9000.0], current=2.0).profiles()[-1]
+    found = [seen.hot, seen.near, seen.far, seen.liner[1], seen.plate_face, COLD]
+    flux = 2000.0  # half of I^2 R over the area
+    half = 0.5e-3 / 0.29
+    resistances = [1 / 4000, 1e-3 / 0.2, 1 / 500 + half, half + 1e-4 / 0.2, 3e-3 / 0.8 + 1 / 40]
+    assert -np.diff(found) == pytest.approx([flux * one for one in resistances], rel=1e-5)
+
+
+@pytest.mark.parametrize("thickness", [0.5e-3, 1e-3, 2e-3])
+def test_heating_through_a_liner_follows_a_wall_of_three_sheets(
+    bare_stack: Make, integrate: Run, thickness: float
+) -> None:
+    sheet, plate = (thickness, 0.29, 1300.0 * 1200.0), (3e-3, 167.0, 2700.0 * 896.0)
+    stack = lined(
+        bare_stack, sheet, hot_contact=1e7, plate_contact=1e7, plate_conductivity=plate[1],
+        plate_heat_capacity=plate[2], plate_thickness=plate[0], plate_cells=6,
+    )  # fmt: skip
+    times = [10.0, 20.0, 40.0, 80.0]
+    history = integrate(stack, heat.initial_state(stack, 28, COLD), times, current=2.0).profiles()
+    far, behind = wall(times, [POLYMER, sheet, plate], bond=1e-4 / 0.2, flux=2000.0)
+    rise = far[-1]
+    assert [seen.far - COLD for seen in history] == pytest.approx(far, abs=0.02 * rise)
+    assert [seen.plate_face - COLD for seen in history] == pytest.approx(behind, abs=0.02 * rise)
+
+
+def wall(
+    times: list[float], sheets: list[tuple[float, float, float]], bond: float, flux: float
+) -> tuple[list[float], list[float]]:
+    """Rise [K] of the first sheet's back and of the last one's front, heated evenly in front, insulated behind.
+
+    Backward Euler on 120 cells a sheet, in steps of 5 ms: nothing of the product's.
+    """
+    cells = 120
+    width = np.repeat([one[0] / cells for one in sheets], cells)
+    half = np.repeat([0.5 * one[0] / cells / one[1] for one in sheets], cells)
+    capacity = np.repeat([one[2] for one in sheets], cells) * width
+    way = half[:-1] + half[1:]
+    way[2 * cells - 1] += bond
+    step, across = 5e-3, 1.0 / way
+    onward, back = np.append(across, 0.0), np.append(0.0, across)
+    matrix = np.array([np.append(0.0, -across), capacity / step + onward + back, np.append(-across, 0.0)])
+    rise, found = np.zeros(3 * cells), []
+    for count in range(1, round(times[-1] / step) + 1):
+        into = capacity / step * rise
+        into[0] += flux
+        rise = solve_banded((1, 1), matrix, into)
+        if any(abs(count * step - time) < 0.5 * step for time in times):
+            drop = (rise[cells - 1] - rise[cells]) / way[cells - 1]
+            onto = (rise[2 * cells - 1] - rise[2 * cells]) / way[2 * cells - 1]
+            found.append((rise[cells - 1] - drop * half[cells - 1], rise[2 * cells] + onto * half[2 * cells]))
+    far, behind = zip(*found, strict=True)
+    return list(far), list(behind)
+
+
+def test_what_heats_the_stack_is_stored_in_it(bare_stack: Make) -> None:
+    stack = lined(bare_stack, (1e-3, 0.29, 1.56e6), hot_contact=4000.0, plate_contact=500.0,
+                  hot_capacity=50.0, cold_capacity=50.0)  # fmt: skip
+    state = heat.initial_state(stack, 5, COLD) + np.linspace(0.5, 0.0, 2 + 5 + stack.plate_cells + 3)
+    rate = heat.rates(state, stack, 0.0)
+    change = heat.stored_energy(state + 1e-3 * rate, stack) - heat.stored_energy(state - 1e-3 * rate, stack)
+    given = heat.profile(state, stack).through_plate[-1]
+    assert change / 2e-3 == pytest.approx(-given, abs=1e-6 * abs(heat.profile(state, stack).through_layer[0]))

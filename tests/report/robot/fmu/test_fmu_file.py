@@ -1,0 +1,57 @@
+"""The FMU's file: a description that FMPy finds no fault in, sources, and what is said without a compiler."""
+
+from __future__ import annotations
+
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from fmpy import read_model_description
+from fmpy.validation import validate_fmu
+from robot_models import module_of
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.report.robot.fmu.fmu_file import compiled, write_fmu
+
+
+@pytest.fixture(scope="module")
+def without_compiler(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("CC", "no-such-compiler")
+        written = write_fmu(module_of("shear"), tmp_path_factory.mktemp("fmu") / "joint.fmu")
+    assert written.platform == ""
+    assert "no C compiler was found (cc, gcc, clang, or the one that CC names)" in written.told
+    return written.path
+
+
+def test_the_description_is_without_fault(without_compiler: Path) -> None:
+    assert validate_fmu(str(without_compiler)) == []
+
+
+def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_compiler: Path) -> None:
+    description = read_model_description(str(without_compiler))
+    found = {variable.name: variable for variable in description.modelVariables}
+    inputs = {name for name, variable in found.items() if variable.causality == "input"}
+    assert inputs == {"current", "angle", "ambient_temperature"}
+    assert {found[name].causality for name in ("torque", "temperature_far_face", "frozen")} == {"output"}
+    cells = module_of("shear").study.solver.cells
+    assert f"temperature_cell_{cells}" in found
+    assert f"temperature_cell_{cells + 1}" not in found
+    resolved = module_of("shear")
+    assert float(found["stroke"].start) == pytest.approx(float(resolved.quantity("stroke")))
+    assert float(found["ambient_temperature"].start) == pytest.approx(float(resolved.quantity("ambient_temperature")))
+
+
+def test_without_a_compiler_it_holds_every_source_that_is_named(without_compiler: Path) -> None:
+    (build,) = read_model_description(str(without_compiler)).buildConfigurations
+    with zipfile.ZipFile(without_compiler) as archive:
+        names = archive.namelist()
+    assert {f"sources/{name}" for part in build.sourceFileSets for name in part.sourceFiles} <= set(names)
+    assert not [name for name in names if name.startswith("binaries")]
+
+
+def test_a_compiler_that_fails_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CC", f"{sys.executable} -c 'import sys; sys.exit(\"no room\")'")
+    with pytest.raises(InputError, match="cannot build the FMU"):
+        compiled({"one.c": ""}, ".so")

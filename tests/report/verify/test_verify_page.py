@@ -1,0 +1,38 @@
+"""The page of a verification: rows worst first, a picture where there is one, and what solved them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tvimdesign.cad.fe.run_solvers import Solved
+from tvimdesign.page.page_file import page_html
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.verify.comparison import Compared
+from tvimdesign.report.verify.verify_page import verify_page
+
+PIXEL = bytes.fromhex(
+    "89504e470d0a1a0a0000000d4948445200000001000000010806000000"
+    "1f15c4890000000d49444154789c6360000002000001e221bc330000000049454e44ae426082"
+)
+
+
+def test_rows_pictures_and_solvers_are_on_the_page(tmp_path: Path) -> None:
+    rows = [
+        Compared("mean_time", "s", "until warm", model=87.0, fe=100.0, coarse=102.0),
+        Compared("hub", "N*m/rad", "frozen joint", model=500.0, fe=505.0, coarse=505.0),
+    ]
+    solved = {
+        name: Solved({"unknowns": 2e4, "seconds": 33.0, "gigabytes": 0.7}, {}, tmp_path) for name in ("joint", "heat")
+    }
+    with ResultsFolder(tmp_path / "out", False) as folder:
+        folder.write("heat.png", PIXEL)
+        page = verify_page(folder, "Wrist", rows, solved)
+        text = page_html(page).decode()
+    assert page.status == "1 OF 2 BEYOND 10 %"
+    assert page.tone == "warn"
+    assert text.index("mean_time") < text.index("hub</")
+    assert "0.870" in text
+    assert "-2.0" in text
+    assert text.count("data:image/png") == 1
+    assert "Temperature of half an arc" in text
+    assert "20000" in text

@@ -1,0 +1,102 @@
+"""Fit, verify and validation from a wheel, in an interpreter of its own and outside the repository.
+
+With `FE_PYTHON`, a Python that has netgen and ngsolve, a design is verified; without it the command has to say what it
+lacks. `make check-wheel FE_PYTHON=...` runs this file.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import site
+import subprocess
+import sys
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+from support import ROOT
+
+pytestmark = pytest.mark.slow
+
+CASES = ("spring_shigley_10_8", "heater_pc_heat", "freezing_avrami", "device_tvim_pair")
+ANGLES = (0.02, 0.041, 0.059, 0.081, 0.1, 0.079, 0.061, 0.04)
+
+
+class Installed:
+    """The wheel in an environment of its own, with this interpreter's libraries but for the package."""
+
+    def __init__(self, folder: Path) -> None:
+        """Build the wheel from a copy of the sources and install it."""
+        self.folder = folder
+        source = folder / "source"
+        shutil.copytree(ROOT / "tvimdesign", source / "tvimdesign", ignore=shutil.ignore_patterns("__pycache__"))
+        for name in ("pyproject.toml", "README.md", "setup.py", "LICENSE", "MANIFEST.in", "studies", "docs"):
+            path = ROOT / name
+            if path.exists():
+                (shutil.copytree if path.is_dir() else shutil.copy)(path, source / name)
+        pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+        run([*pip, "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, source], folder)
+        self.wheel = next(folder.glob("tvimdesign-*.whl"))
+        home = folder / "environment"
+        venv.create(home, symlinks=True)
+        self.python = home / "bin/python"
+        own = next(home.glob("lib/python*/site-packages"))
+        run([*pip, "--python", self.python, "install", "--no-deps", self.wheel], folder)
+        # Libraries come from where the tests run; a folder named so runs no .pth of its own, so no editable install.
+        (own / "libraries.pth").write_text("".join(f"{path}\n" for path in site.getsitepackages()))
+        shutil.rmtree(source)
+
+    def says(self, *words: object) -> subprocess.CompletedProcess[str]:
+        """What the command line says in a folder outside the repository."""
+        return run([self.python, "-m", "tvimdesign", *words], self.folder, check=False)
+
+
+def run(words: list[object], folder: Path, *, check: bool = True) -> subprocess.CompletedProcess[str]:
+    known = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
+    texts = [str(word) for word in words]
+    return subprocess.run(texts, cwd=folder, env=known, capture_output=True, text=True, timeout=900, check=check)
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
+    return Installed(tmp_path_factory.mktemp("wheel"))
+
+
+def test_the_package_is_that_of_the_wheel_and_has_the_solvers(installed: Installed) -> None:
+    where = run([installed.python, "-c", "import tvimdesign; print(tvimdesign.__file__)"], installed.folder).stdout
+    assert Path(where.strip()).is_relative_to(installed.folder)
+    names = zipfile.ZipFile(installed.wheel).namelist()
+    solvers = {path.name for path in (ROOT / "tvimdesign/cad/fe/solvers").glob("*.py")}
+    assert solvers == {Path(name).name for name in names if name.startswith("tvimdesign/cad/fe/solvers/")}
+
+
+def test_a_fit_and_its_record(installed: Installed) -> None:
+    loads = [0.1, 0.2, 0.3, 0.4, 0.5, 0.4, 0.3, 0.2]
+    rows = "".join(f"{torque},{angle}\n" for torque, angle in zip(loads, ANGLES, strict=True))
+    (installed.folder / "weights.csv").write_text("torque [N.m],angle [rad]\n" + rows)
+    sizes = ["--set", "wire_diameter=2 mm", "--set", "coil_diameter=20 mm", "--set", "coil_count=5"]
+    said = installed.says("fit", "weights.csv", *sizes, "--out", "fitted")
+    assert said.returncode == 0, said.stderr
+    assert "stiffness" in (installed.folder / "fitted/fit.json").read_text()
+
+
+def test_a_verification_of_a_shipped_design(installed: Installed) -> None:
+    shutil.copy(ROOT / "cad/paper_shear/design.json", installed.folder / "design.json")
+    solver = os.environ.get("FE_PYTHON")
+    said = installed.says("verify", "design.json", "--out", "verified", "--fe-python", solver or sys.executable)
+    if not solver:
+        assert said.returncode != 0
+        assert "tvimdesign[fe]" in said.stderr + said.stdout
+        return
+    assert said.returncode == 0, said.stderr
+    assert (installed.folder / "verified/report.html").stat().st_size > 1e5
+
+
+def test_cases_of_the_validation(installed: Installed) -> None:
+    for name in ("validation", "studies"):
+        shutil.copytree(ROOT / name, installed.folder / name, dirs_exist_ok=True)
+    said = run([installed.python, "validation/run.py", *CASES], installed.folder, check=False)
+    assert said.returncode == 0, said.stderr + said.stdout
+    assert said.stdout.count("inside") + said.stdout.count("known difference") >= len(CASES)

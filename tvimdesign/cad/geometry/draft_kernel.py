@@ -1,0 +1,141 @@
+"""Draft solids: the same upright bodies as triangles (manifold3d), a hundred times faster than exact ones.
+
+A circle is a polygon within `CHORD` of it. What is drawn is closed, and near the exact part by that much.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import acos, atan2, ceil, pi
+from typing import Any
+
+import numpy as np
+from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.geometry.outlines import Outline, Point, Segment
+from tvimdesign.cad.geometry.placement import placement
+
+CHORD = 0.2
+"""Largest distance of a polygon from its circle [mm]."""
+_FEWEST, _MOST = 16, 120
+"""Corners of a circle."""
+_LINE = 2
+"""Points of a segment that is a line."""
+_FLAT = 1e-9
+"""Doubled area [mm2] below which three points are on a line."""
+Array = NDArray[np.float64]
+
+
+class DraftSolid:
+    """A closed mesh and where it stands; copies share the mesh."""
+
+    def __init__(self, body: Manifold, matrix: Array | None = None) -> None:
+        """`matrix` is 4 x 4, from the mesh's coordinates to the module's."""
+        self.body = body
+        self.matrix = np.eye(4) if matrix is None else matrix
+
+    @property
+    def placed(self) -> Manifold:
+        """The mesh in the module's coordinates."""
+        return self.body if np.array_equal(self.matrix, np.eye(4)) else self.body.transform(self.matrix[:3])
+
+    def moved(self, location: Any) -> DraftSolid:
+        """The same at another place: a location of CadQuery."""
+        return DraftSolid(self.body, placement(location) @ self.matrix)
+
+    def cut(self, *others: DraftSolid) -> DraftSolid:
+        """Less what others take of it."""
+        return self._with(others, OpType.Subtract)
+
+    def fuse(self, *others: DraftSolid) -> DraftSolid:
+        """With others that it overlaps or touches."""
+        return self._with(others, OpType.Add)
+
+    def clean(self) -> DraftSolid:
+        """Itself: triangles have no seams."""
+        return self
+
+    def _with(self, others: Sequence[DraftSolid], how: OpType) -> DraftSolid:
+        return DraftSolid(Manifold.batch_boolean([self.placed, *(one.placed for one in others)], how))
+
+
+class DraftKernel:
+    """Draws meshes."""
+
+    def cylinder(self, radius: float, bottom: float, top: float, at: Point) -> DraftSolid:
+        """A cylinder about an upright axis through a point."""
+        return DraftSolid(_upright(_section(radius), bottom, top).body.translate((*at, 0.0)))
+
+    def block(self, along_x: Point, width: float, bottom: float, top: float) -> DraftSolid:
+        """A block across the x axis, between two places on it."""
+        start, end = along_x
+        body = Manifold.cube((end - start, width, top - bottom))
+        return DraftSolid(body.translate((start, -0.5 * width, bottom)))
+
+    def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> DraftSolid:
+        """What lies within an outline, less what lies within others."""
+        section = _section(outside)
+        for outline in inside:
+            section -= _section(outline)
+        return _upright(section, bottom, top)
+
+    def rounded(self, body: DraftSolid, radius: float) -> DraftSolid:
+        """An upright body with every upright edge rounded. Raises GeometryError where that leaves nothing."""
+        placed = body.placed
+        *_, bottom, _, _, top = placed.bounding_box()
+        count = corners_of(radius)
+        sharp = placed.slice(0.5 * (bottom + top))
+        outer = sharp.offset(-radius, JoinType.Miter).offset(radius, JoinType.Round, 2.0, count)
+        section = outer.offset(radius, JoinType.Miter).offset(-radius, JoinType.Round, 2.0, count)
+        if section.is_empty():
+            raise GeometryError(f"corners of {radius:.4g} mm do not fit; choose a smaller corner_radius")
+        return _upright(section, bottom, top)
+
+
+def corners_of(radius: float) -> int:
+    """Corners of the polygon that stands for a circle."""
+    return _corners(radius, 2.0 * pi)
+
+
+def _corners(radius: float, angle: float) -> int:
+    """Lines that stand for an arc."""
+    step = 2.0 * acos(max(1.0 - CHORD / radius, 0.0)) if radius > CHORD else pi
+    whole = min(max(4 * ceil(0.5 * pi / step), _FEWEST), _MOST)
+    return max(ceil(whole * angle / (2.0 * pi)), 1)
+
+
+def _upright(section: CrossSection, bottom: float, top: float) -> DraftSolid:
+    return DraftSolid(Manifold.extrude(section, top - bottom).translate((0.0, 0.0, bottom)))
+
+
+def _section(outline: Outline) -> CrossSection:
+    if isinstance(outline, float | int):
+        angles = 2.0 * pi * np.arange(corners_of(outline)) / corners_of(outline)
+        return CrossSection([outline * np.stack((np.cos(angles), np.sin(angles)), -1)])
+    return CrossSection([np.array([point for segment in outline for point in _points(segment)])], FillRule.NonZero)
+
+
+def _points(segment: Segment) -> list[Point]:
+    """Points of a segment but its last, at which the next one begins."""
+    if len(segment) == _LINE:
+        return [segment[0]]
+    start, middle, end = (complex(*point) for point in segment)
+    chord, half = end - start, middle - start
+    doubled = half.real * chord.imag - half.imag * chord.real
+    if abs(doubled) < _FLAT:
+        return [segment[0]]
+    # The circle's centre, from the start: of equal distance from all three points.
+    centre = 1j * (abs(half) ** 2 * chord - abs(chord) ** 2 * half) / (-2.0 * doubled)
+    radius, first = abs(centre), -centre
+    sweep = _turn(first, half - centre) + _turn(half - centre, chord - centre)
+    count = _corners(radius, abs(sweep))
+    found = [start + centre + first * complex(np.exp(1j * sweep * k / count)) for k in range(count)]
+    return [(point.real, point.imag) for point in found]
+
+
+def _turn(first: complex, second: complex) -> float:
+    """Angle [rad] from one direction to another, within a half turn."""
+    across = first.real * second.imag - first.imag * second.real
+    return atan2(across, first.real * second.real + first.imag * second.imag)

@@ -1,0 +1,59 @@
+"""Exact solids: upright bodies drawn by CadQuery."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import cadquery as cq
+from OCP.StdFail import StdFail_NotDone
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.geometry.outlines import Outline, Point, Segment
+
+_UP = cq.Vector(0, 0, 1)
+_UPRIGHT = 0.999
+"""Least upward part of the direction of an edge that counts as upright."""
+_LINE = 2
+"""Points of a segment that is a line."""
+
+
+class ExactKernel:
+    """The CAD kernel."""
+
+    def cylinder(self, radius: float, bottom: float, top: float, at: Point) -> cq.Solid:
+        """A cylinder about an upright axis through a point."""
+        return cq.Solid.makeCylinder(radius, top - bottom, cq.Vector(*at, bottom), _UP)
+
+    def block(self, along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
+        """A block across the x axis, between two places on it."""
+        start, end = along_x
+        return cq.Solid.makeBox(end - start, width, top - bottom, cq.Vector(start, -0.5 * width, bottom))
+
+    def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> cq.Solid:
+        """What lies within an outline, less what lies within others."""
+        inner = [_wire(outline, bottom) for outline in inside]
+        return cq.Solid.extrudeLinear(_wire(outside, bottom), inner, cq.Vector(0, 0, top - bottom))
+
+    def rounded(self, body: cq.Shape, radius: float) -> cq.Solid:
+        """The one solid of a body with every upright edge rounded. Raises GeometryError where that does not fit."""
+        solid = body.Solids()[0]
+        upright = [
+            edge for edge in solid.Edges() if edge.geomType() == "LINE" and abs(edge.tangentAt(0.5).z) > _UPRIGHT
+        ]
+        try:
+            return cq.Solid(solid.fillet(radius, upright).Solids()[0].wrapped)
+        except StdFail_NotDone as error:
+            raise GeometryError(f"corners of {radius:.4g} mm do not fit; choose a smaller corner_radius") from error
+
+
+def _wire(outline: Outline, level: float) -> cq.Wire:
+    if isinstance(outline, float | int):
+        return cq.Wire.makeCircle(outline, cq.Vector(0, 0, level), _UP)
+    if all(len(segment) == _LINE for segment in outline):
+        return cq.Wire.makePolygon([cq.Vector(*segment[0], level) for segment in outline], close=True)
+    return cq.Wire.assembleEdges([_edge(segment, level) for segment in outline])
+
+
+def _edge(segment: Segment, level: float) -> cq.Edge:
+    points = [cq.Vector(*point, level) for point in segment]
+    return cq.Edge.makeLine(*points) if len(points) == _LINE else cq.Edge.makeThreePointArc(*points)

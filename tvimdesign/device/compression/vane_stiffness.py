@@ -1,0 +1,93 @@
+"""How far the vanes of rotor and housing give under a block that stands between them, bonded to both as FE has it."""
+
+from __future__ import annotations
+
+from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.solids import vane
+
+quantities = QuantityGroup(shared.group)
+
+
+@quantities.helper()
+def vane_webs(slot_web: Scalar, slot_count: Scalar) -> Scalar:
+    """Radial width of all that a housing vane has beside its slots [m]."""
+    return 2.0 * slot_web * slot_count
+
+
+@quantities.helper()
+def block_between(
+    frozen_shear_modulus: Scalar,
+    block_depth: Scalar,
+    block_width: Scalar,
+    block_height: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_thickness: Scalar,
+    spreader_depth: Scalar,
+    running_clearance: Scalar,
+) -> vane.BlockBetween:
+    """A frozen block and the pad, or the modules and the spreader, that it presses on."""
+    return vane.BlockBetween(
+        (frozen_shear_modulus, peltier_shear_modulus), (block_depth, peltier_thickness, spreader_depth),
+        (block_width, block_height), running_clearance,
+    )  # fmt: skip
+
+
+@quantities.helper()
+def rotor_vane(
+    structure_youngs_modulus: Scalar,
+    structure_shear_modulus: Scalar,
+    block_width: Scalar,
+    vane_thickness: Scalar,
+    vane_web: Scalar,
+    block_between: vane.BlockBetween,
+    rotor_thickness: Scalar,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> vane.Vane:
+    """How one vane of the rotor gives, and the plate under its root."""
+    footing = vane.on_plate(rotor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, vane_thickness))
+    moduli = structure_youngs_modulus, structure_shear_modulus
+    return vane.on_footing(moduli, (block_width, vane_web), block_between, footing)
+
+
+@quantities.helper()
+def housing_vane(
+    structure_youngs_modulus: Scalar,
+    structure_shear_modulus: Scalar,
+    vane_webs: Scalar,
+    housing_vane_thickness: Scalar,
+    block_between: vane.BlockBetween,
+    floor_thickness: Scalar,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> vane.Vane:
+    """How one vane of the housing gives, and the floor under its root: what stands on either side of its slots."""
+    footing = vane.on_floor(floor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, housing_vane_thickness))
+    moduli = structure_youngs_modulus, structure_shear_modulus
+    return vane.on_footing(moduli, (vane_webs, housing_vane_thickness), block_between, footing)
+
+
+@quantities.helper()
+def rotor_vane_stiffness(
+    rotor_vane: vane.Vane,
+    housing_vane: vane.Vane,
+    block_between: vane.BlockBetween,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Stiffness of the rotor's vanes about the axis [N*m/rad], and of the plate under their roots."""
+    return vane_count * pcl_mean_radius**2 / vane.compliance(rotor_vane, housing_vane, block_between)
+
+
+@quantities.helper()
+def housing_vane_stiffness(
+    rotor_vane: vane.Vane,
+    housing_vane: vane.Vane,
+    block_between: vane.BlockBetween,
+    vane_count: Scalar,
+    pcl_mean_radius: Scalar,
+) -> Scalar:
+    """Stiffness of the housing's vanes about the axis [N*m/rad], and of the floor under them."""
+    return vane_count * pcl_mean_radius**2 / vane.compliance(housing_vane, rotor_vane, block_between)

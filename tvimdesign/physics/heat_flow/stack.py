@@ -1,0 +1,94 @@
+"""What the heat equation needs to know of the stack that heat passes, and what it tells of it at one instant."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from tvimdesign.physics.heat_flow import peltier
+from tvimdesign.physics.heat_flow.liner import Liner
+from tvimdesign.physics.heat_flow.lumps import Body, Link, Lump, Surface
+from tvimdesign.physics.polymers import crystallization, polymer
+
+
+class Stack(NamedTuple):
+    """Everything the heat equation needs to know of the stack."""
+
+    area: Any
+    """Area the heat passes [m^2], the same for all layers."""
+    thickness: Any
+    """Thickness of the polymer [m]."""
+    density: Any
+    conductivity_solid: Any
+    conductivity_melt: Any
+    melting: polymer.Melting
+    peltier: peltier.PeltierModule
+    cold_capacity: Any
+    """Heat capacity of the cold side [J/K], without the legs'."""
+    hot_capacity: Any
+    cold_surface: Surface
+    """What the cold side has towards the air; not used where there is a sink."""
+    hot_contact: Any
+    """Contact conductance of hot side and polymer [W/m^2 K]."""
+    plate_contact: Any
+    plate_thickness: Any
+    plate_conductivity: Any
+    plate_heat_capacity: Any
+    """Per volume [J/m^3 K]."""
+    plate_surface: Surface
+    """The plate's outer face; its area is the stack's."""
+    ambient: Any
+    """[K]"""
+    plate_cells: int
+    beside: tuple[Lump, ...] = ()
+    """What the plate belongs to: the first takes heat from all the plate's cells, each next from the one before."""
+    uneven_conductance: Any = None
+    """Conductance [W/K] sideways for what the plate's temperature differs over its depth from its mean; as for the mean
+    where not given."""
+    legs_capacity: Any = None
+    """Heat capacity of what is between the pads' sides [J/K]; without, heat passes it at once."""
+    sink: Lump | None = None
+    """A body between the cold side and the air."""
+    around: tuple[Body, ...] = ()
+    """What the pads are set in."""
+    links: tuple[Link, ...] = ()
+    """What else passes heat between the column and the bodies beside and around it."""
+    motion_heat: Any = 0.0
+    """Heat that the joint's motion makes in each polymer cell [W]."""
+    layer_resistance: Any = 0.0
+    """Of the polymer, where the heater's current passes it [ohm]; its heat is the same in each cell."""
+    freezing: crystallization.Kinetics | None = None
+    """Kinetics of freezing; without them the equilibrium melting curve holds."""
+    liner: Liner | None = None
+    """A sheet between polymer and plate; `plate_contact` is then that of polymer and sheet."""
+
+
+class Profile(NamedTuple):
+    """Temperatures [K] through the stack at one instant, and the solid fraction of each polymer cell."""
+
+    cold: Any
+    hot: Any
+    near: Any
+    """Polymer's face towards the Peltier element."""
+    cells: Any
+    far: Any
+    """Polymer's face towards the plate."""
+    plate_face: Any
+    """Plate's face towards the polymer."""
+    plate: Any
+    beside: Any
+    """Lumps beside the plate."""
+    sink: Any
+    """The sink, if there is one."""
+    around: Any
+    """Lumps around the pads."""
+    legs: Any
+    """Middle of the pads' legs, where they have a heat capacity."""
+    liner: Any
+    """Cells of the sheet between polymer and plate, if there is one."""
+    fractions: Any
+    through_layer: Any
+    """Heat [W] into the first polymer cell, between the cells, and out of the last."""
+    through_liner: Any
+    """Heat [W] into the sheet's first cell, between its cells, and out of the last."""
+    through_plate: Any
+    """Heat [W] into the first plate cell, between the cells, and out to the air."""

@@ -1,0 +1,139 @@
+"""The FMU as a file: sources, description, and the binary where this machine has a C compiler."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import shlex
+import shutil
+import subprocess
+import sys
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.report.robot.fmu.fmu_variables import Variable, fmu_variables
+from tvimdesign.report.robot.fmu.joint_equations import JointEquations, joint_equations, listed, sizes
+from tvimdesign.report.robot.fmu.model_description import IDENTIFIER, model_description
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+
+COMPILERS = ("cc", "gcc", "clang")
+FLAGS = ("-std=c99", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w")
+WITHIN = 600.0
+"""Time that compiling may take [s]."""
+SETTINGS = {"FIRST_STEP": 1e-3, "LONGEST_STEP": 1.0, "TOLERANCE": 1e-5}
+"""Of the heat's integration: steps [s], error of a step in a state, which is of the order of one."""
+_MOMENT = (1980, 1, 1, 0, 0, 0)
+_PLATFORMS = {"Linux": ("linux", ".so"), "Darwin": ("darwin", ".dylib"), "Windows": ("win", ".dll")}
+
+
+@dataclass(frozen=True)
+class WrittenFmu:
+    """What became of the FMU."""
+
+    path: Path
+    platform: str
+    """Of its binary, as FMI names it; empty where it has none."""
+    variables: tuple[Variable, ...]
+
+    @property
+    def told(self) -> str:
+        """A sentence for people."""
+        if self.platform:
+            return f"{self.path.name} holds heat and torque for co-simulation, built for {self.platform}."
+        return (
+            f"{self.path.name} holds heat and torque for co-simulation, as source code alone: no C compiler was found "
+            f"({', '.join(COMPILERS)}, or the one that CC names). Install one and run this again."
+        )
+
+
+def write_fmu(resolved: ResolvedModule, path: Path) -> WrittenFmu:
+    """Write the FMU of a module. Raises InputError where a compiler was found and fails."""
+    equations = joint_equations(resolved)
+    variables = fmu_variables(equations, resolved)
+    sources = source_files(equations, variables)
+    guid = hashlib.sha256("".join(sources.values()).encode()).hexdigest()[:32]
+    sources["sizes.h"] = sources["sizes.h"].replace("@GUID@", guid)
+    description = model_description(
+        resolved.study.name, guid, _ABOUT, variables, [name for name in sources if name.endswith(".c")],
+        stop=float(resolved.values["horizon"]),
+    )  # fmt: skip
+    folder, suffix = binary_place()
+    binary = compiled(sources, suffix)
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        _put(archive, "modelDescription.xml", description.encode())
+        for name, text in sources.items():
+            _put(archive, f"sources/{name}", text.encode())
+        if binary:
+            _put(archive, f"binaries/{folder}/{IDENTIFIER}{suffix}", binary)
+    return WrittenFmu(path, folder if binary else "", variables)
+
+
+_ABOUT = "Heat and torque of a thermo-active variable impedance joint. Written by tvimdesign robot."
+
+
+def source_files(equations: JointEquations, variables: tuple[Variable, ...]) -> dict[str, str]:
+    """The C code by name; `sizes.h` has a place for the GUID."""
+    own = files("tvimdesign.report.robot.fmu") / "source"
+    written = {
+        file.name: file.read_text(encoding="utf-8") for file in own.iterdir() if file.name.endswith((".c", ".h"))
+    }
+    inputs = [variable.start for variable in variables if variable.causality == "input"]
+    constants = [variable.start for variable in variables if variable.constant]
+    defined = {**SETTINGS, "CONSTANTS": len(constants), "FREQUENCY_START": repr(equations.start[2]), "GUID": '"@GUID@"'}
+    lines = [f"#define {name} {value}" for name, value in defined.items()]
+    lines += [listed("input_start", inputs), listed("constants", constants), sizes(equations)]
+    head = "/* What tvimdesign knows of the module when the code is built. */\n#ifndef SIZES_H\n#define SIZES_H\n"
+    return {**dict(sorted(written.items())), **equations.code(), "sizes.h": head + "\n".join(lines) + "\n#endif\n"}
+
+
+def binary_place() -> tuple[str, str]:
+    """FMI's name of this platform, and the ending of its binaries."""
+    name, suffix = _PLATFORMS.get(platform.system(), ("linux", ".so"))
+    return f"{name}{64 if sys.maxsize > 2**32 else 32}", suffix
+
+
+def compiler() -> list[str]:
+    """Command of the C compiler: what CC says, or the first that is there; nothing where none is."""
+    named = os.environ.get("CC", "")
+    if named:
+        return shlex.split(named) if shutil.which(shlex.split(named)[0]) else []
+    return next(([name] for name in COMPILERS if shutil.which(name)), [])
+
+
+def compiled(sources: Mapping[str, str], suffix: str) -> bytes:
+    """The binary; empty where there is no compiler. Raises InputError with what a compiler says that fails."""
+    command = compiler()
+    if not command:
+        return b""
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, text in sources.items():
+            (folder / file).write_text(text, encoding="utf-8")
+        built = folder / f"{IDENTIFIER}{suffix}"
+        code = [file for file in sources if file.endswith(".c")]
+        try:
+            subprocess.run(
+                [*command, *FLAGS, "-o", built.name, *code, "-lm"],
+                cwd=folder, check=True, capture_output=True, text=True, timeout=WITHIN,
+            )  # fmt: skip
+        except subprocess.CalledProcessError as error:
+            raise InputError(
+                f"the C compiler {command[0]!r} cannot build the FMU; choose another by CC, or none by CC=none "
+                f"for an FMU of sources alone:\n{error.stderr[-1000:]}"
+            ) from error
+        except subprocess.TimeoutExpired as error:
+            raise InputError(f"the C compiler {command[0]!r} took more than {WITHIN:g} s to build the FMU") from error
+        return built.read_bytes()
+
+
+def _put(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
+    """A file of the archive that is the same whenever it is written."""
+    entry = zipfile.ZipInfo(name, _MOMENT)
+    entry.compress_type = zipfile.ZIP_DEFLATED
+    archive.writestr(entry, data)

@@ -1,0 +1,100 @@
+"""The rows of a verification as tables: for people, as CSV and JSON, and as a page in Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Grid
+
+from tvimdesign.base.units import pretty
+from tvimdesign.cad.fe.run_solvers import Solved
+from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.tables import number
+from tvimdesign.report.verify.comparison import Compared
+
+FAR = 0.10
+"""Share by which model and FE may differ before the row is marked."""
+SOLVED = """Solved with netgen and NGSolve from the exported parts. Stresses and stiffness: quadratic tetrahedra, tied
+where parts are bonded; the core's top turns as one, the feet are held. Screws: link and core touch without friction.
+Heat: half an arc or half a vane in cells, each of the part drawn in its middle, implicit steps in time."""
+HEADS = ("", "model", "FE", "unit", "model / FE", "mesh", "what")
+
+
+def verified(rows: Sequence[Compared], solved: dict[str, Solved]) -> dict[str, Any]:
+    """What `verify.json` has."""
+    return {
+        **head(),
+        "rows": [
+            {"name": row.name, "unit": pretty(row.unit), "model": row.model, "fe": row.fe, "ratio": row.ratio,
+             "mesh_change": row.mesh_change, "meaning": row.meaning}
+            for row in rows
+        ],
+        "solved": {name: {"fine": one.found, "coarse": one.coarse} for name, one in solved.items()},
+    }  # fmt: skip
+
+
+def table_csv(rows: Sequence[Compared]) -> str:
+    """The rows, worst first."""
+    lines = ["name,unit,model,fe,model over fe,finer over coarser mesh,meaning"]
+    lines += [
+        f"{row.name},{row.unit},{row.model:.5g},{row.fe:.5g},{row.ratio:.3f},{1.0 + row.mesh_change:.3f},"
+        f'"{row.meaning}"'
+        for row in rows
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def print_rows(rows: Sequence[Compared], console: Console) -> None:
+    """Print the rows for people, worst first, and what to make of them."""
+    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
+    for title in HEADS:
+        grid.add_column(title, justify="right" if title in ("model", "FE", "model / FE", "mesh") else "left")
+    for row in rows:
+        grid.add_row(*cells(row))
+    console.print(grid)
+    console.print(escape(summary(rows)))
+
+
+def cells(row: Compared) -> tuple[str, ...]:
+    """A row as text, under `HEADS`."""
+    return (row.name, number(row.model), number(row.fe), pretty(row.unit), f"{row.ratio:.3f}",
+            f"{100.0 * row.mesh_change:+.1f} %", row.meaning)  # fmt: skip
+
+
+def far(rows: Sequence[Compared]) -> list[str]:
+    """Names of the rows that differ by more than `FAR`."""
+    return [row.name for row in rows if not 1.0 - FAR <= row.ratio <= 1.0 / (1.0 - FAR)]
+
+
+def summary(rows: Sequence[Compared]) -> str:
+    """How near the model is, in a sentence or two."""
+    beyond = far(rows)
+    told = f"{len(rows) - len(beyond)} of {len(rows)} within {100.0 * FAR:.0f} % of finite elements on the drawn parts"
+    worst = f"; beyond: {', '.join(beyond)}" if beyond else ""
+    return f"{told}{worst}. `mesh` is how far a value moved from elements 1.6 times as large."
+
+
+def page(name: str, rows: Sequence[Compared], solved: dict[str, Solved], *, pictures: bool) -> str:
+    """The page of the folder, in Markdown."""
+    lines = [f"# {name}: the model against finite elements", "", summary(rows), ""]
+    lines += ["| quantity | model | FE | unit | model / FE | mesh | what |", "|---|---|---|---|---|---|---|"]
+    lines += [f"| {' | '.join(cells(row))} |" for row in rows]
+    lines += ["", SOLVED, "", f"| {' | '.join(SOLVER_HEADS)} |", "|---|---|---|---|"]
+    lines += [f"| {' | '.join(row)} |" for row in solver_rows(solved)]
+    if pictures:
+        lines += ["", *(f"![{key}]({key}.png)" for key in solved)]
+    return "\n".join(lines) + "\n"
+
+
+SOLVER_HEADS = ("solver", "unknowns", "processor seconds", "GB")
+
+
+def solver_rows(solved: dict[str, Solved]) -> list[tuple[str, ...]]:
+    """How large each solver's finer mesh was and what it took, under `SOLVER_HEADS`."""
+    return [
+        (key, f"{one.found['unknowns']:.0f}", f"{one.found['seconds']:.0f}", f"{one.found['gigabytes']:.1f}")
+        for key, one in solved.items()
+    ]
