@@ -8,11 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
+import numpy as np
 import plain_module
 import pytest
+import trimesh
 from support import RELEASED, ROOT, STUDIES, Command
 
 from tvimdesign.report.output.results_format import results_schema
+from tvimdesign.report.robot.rigid_bodies import make_bodies
 from tvimdesign.study import read_study
 
 FILES = {
@@ -26,6 +29,9 @@ QUICK = {"paper_as_published", "paper_shear", "paper_compression"}
 """Studies that take seconds; the others are slow tests."""
 UNDRAWN = {"paper_as_published", "paper_compression"}
 """Run without plots, as drawing takes longer than evaluating: other evaluated modules of their modes have the same."""
+MESHED = 1e-3
+"""Share of a length by which a body's mesh may be beside its solid."""
+every = pytest.mark.parametrize("study", [pytest.param(path, id=path.stem) for path in STUDIES])
 names = pytest.mark.parametrize(
     "study",
     [pytest.param(path, id=path.stem, marks=[] if path.stem in QUICK else pytest.mark.slow) for path in STUDIES],
@@ -113,6 +119,21 @@ def test_the_springs_of_a_study_hold_by_a_second_implementation(runs: Runs, stud
     for name in (one for one in plain_module.COMPARED if one not in wider):
         within = 1e-4 * max(abs(found[name]), 1e-2)
         assert design["values"][name] == pytest.approx(found[name], abs=within), name
+
+
+@pytest.mark.slow
+@every
+def test_mass_inertia_and_envelope_of_a_study_are_those_of_its_solids(runs: Runs, study: Path, tmp_path: Path) -> None:
+    path = runs[study.stem] / "design.json"
+    values = json.loads(path.read_text())["values"]
+    base, moving, report = make_bodies(path, tmp_path)
+    assert not report.failed
+    assert base.mass + moving.mass == pytest.approx(values["module_mass"], rel=1e-5)
+    assert moving.about_axis() == pytest.approx(values["parts_inertia"], rel=1e-5)
+    bounds = np.array([trimesh.load(tmp_path / body.mesh).bounds for body in (base, moving)])
+    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
+    assert max(high[:2].max(), -low[:2].min()) <= 0.5 * values["envelope_diameter"] * (1.0 + MESHED)
+    assert high[2] - low[2] == pytest.approx(values["envelope_height"], abs=2e-5)
 
 
 @names
