@@ -91,6 +91,9 @@ def _study(design: Design, table: Table, problems: Mistakes) -> Study | None:
     if study.mode != design.mode:
         problems.add(_NOWHERE, "study.mode", f"is {quoted(study.mode)}, the design's mode is {design.mode}")
         return None
+    for name, value in study.module.items():
+        if isinstance(value, str) and isinstance(table.by_name.get(name), Input):
+            problems.add(_NOWHERE, step("study.module", name), f"is the text {quoted(value)}", "a number, in SI")
     unknown = [name for name in (*study.module, *study.vary) if name not in table.by_name]
     unknown += [limit.output for limit in study.require if limit.output.partition("@")[0] not in table.by_name]
     unknown += [name for point in study.operating_points.values() for name in point if name not in table.by_name]
