@@ -43,7 +43,7 @@ EDITS: dict[str, tuple[Callable[[Any], None], str]] = {
     "an end of a range": (
         _set("study", "vary", "current", "upper", to="x"), r"study\.vary\.current\.upper: Input should"
     ),
-    "an input that is text": (_set("study", "module", "stroke", to="0.1 rad"), r"study\.module\.stroke: is the text '0\.1"),
+    "an input that is text": (_set("study", "module", "stroke", to="0.1 rad"), r"stroke: is the text .0\.1 rad"),
     "an input of its study": (_set("study", "module", "strok", to=0.1), "did you mean 'stroke'"),
     "a value of its study": (_set("study", "module", "stroke", to=9.0), r"study\.module\.stroke: .* above the upper"),
     "a limit on nothing": (_set("study", "require", 0, "output", to="stiffnes"), "no such name: 'stiffnes'"),
