@@ -69,7 +69,7 @@ bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused b
 	$(BENCH) benchmarks/random_designs.py
 
 bench-random-choices: $(STAMP)  ## 200 random choices of heater, process, spring and fixtures: refused by name, or sound parts
-	$(BENCH) benchmarks/random_choices.py --inspect
+	$(BENCH) benchmarks/random_choices.py --inspect --out build/random_choices.jsonl
 
 fuzz: $(STAMP)  ## mutated inputs of every kind, from studies to the explorer's messages: each is read or refused in words (minutes)
 	OMP_NUM_THREADS=1 $(BIN)/python campaigns/fuzz.py

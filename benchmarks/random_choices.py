@@ -1,27 +1,28 @@
 """Random choices of what a module is made of and bought from: refused by a named rule, or sound parts.
 
-    python benchmarks/random_choices.py [--draws 200] [--seed 1] [--hands 2] [--inspect]
+    python benchmarks/random_choices.py [--draws 200] [--seed 1] [--hands 2] [--inspect] [--out FILE]
 
 Each draw takes a shipped study and chooses heater, process, spring, fixtures and so on at random. Either the reader
 refuses that in words, or all of 20,000 designs within the study's bounds break rules, which are counted, or the first
-that keeps them all is built and checked as in random_designs.py. Ends with code 1 where one of those fails.
+that keeps them all is built and checked as in random_designs.py. Ends with code 1 where one of those fails. With
+`--out FILE` each draw is a line of the file as it ends, and a call that was ended goes on from there.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import random
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, NamedTuple
 
 import yaml
-from random_designs import Draws, Tally, build
+from random_designs import Draws, Tally, built
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog.catalog import Catalog
@@ -44,15 +45,20 @@ NAMED = re.compile(r"module\.(\w+)|^(\w+) is")
 """What a refusal names first."""
 
 
-@dataclass
-class Outcome:
-    """What came of the draws."""
+class Ended(NamedTuple):
+    """What came of a draw."""
 
-    read: Counter[str] = field(default_factory=Counter)
-    """Refusals by the reader, by the choice they name."""
-    ruled: Counter[str] = field(default_factory=Counter)
-    """Draws in which no design kept the rules, by the rule that most broke."""
-    tally: Tally = field(default_factory=Tally)
+    draw: int
+    seed: int
+    inspected: bool
+    how: Literal["refused", "ruled", "built"]
+    """By the reader; no design kept the rules; or a design was built."""
+    by: str = ""
+    """The choice that the refusal names, or the rule that was most broken."""
+    faults: Sequence[str] = ()
+    warnings: Sequence[str] = ()
+    seconds: float = 0.0
+    """Processor time of the building."""
 
 
 def words_of(choice: Choice) -> list[str]:
@@ -77,28 +83,61 @@ def drawn_study(draw: random.Random) -> Study:
     return read_study_text(yaml.safe_dump(text, allow_unicode=True), name)
 
 
-def designs(draws: int, seed: int, outcome: Outcome) -> Iterator[Design]:
-    """Those designs that keep every rule; what becomes of the others is counted."""
-    for index in range(draws):
-        try:
-            draws_of = Draws(drawn_study(random.Random(1000 * seed + index)), seed=index)
-        except InputError as error:
-            named = NAMED.search(str(error))
-            outcome.read[next(filter(None, named.groups())) if named else str(error)] += 1
-            continue
-        tally = Tally()
-        design = draws_of.first(tally)
-        if design is None:
-            outcome.ruled[tally.refused.most_common(1)[0][0]] += 1
-        else:
-            yield design.model_copy(update={"name": f"draw {index}, {design.name}"})
+def drawn(index: int, seed: int, inspect: bool) -> Design | Ended:
+    """The design to build of a draw, or why there is none."""
+    try:
+        draws = Draws(drawn_study(random.Random(1000 * seed + index)), seed=index)
+    except InputError as error:
+        named = NAMED.search(str(error))
+        return Ended(index, seed, inspect, "refused", next(filter(None, named.groups())) if named else str(error))
+    tally = Tally()
+    design = draws.first(tally)
+    if design is None:
+        return Ended(index, seed, inspect, "ruled", tally.refused.most_common(1)[0][0])
+    return design.model_copy(update={"name": f"draw {index}, {design.name}"})
 
 
-def run(draws: int, seed: int, inspect: bool, hands: int) -> Outcome:
-    """Draw, refuse, build and check."""
-    outcome = Outcome()
-    build(designs(draws, seed, outcome), outcome.tally, inspect, hands)
-    return outcome
+def run(draws: Iterable[int], seed: int, inspect: bool, hands: int) -> Iterator[Ended]:
+    """Draw, refuse, build and check; yields what came of each draw as it ends."""
+    unbuilt: list[Ended] = []
+    indices: dict[str, int] = {}
+
+    def designs() -> Iterator[Design]:
+        for index in draws:
+            one = drawn(index, seed, inspect)
+            if isinstance(one, Ended):
+                unbuilt.append(one)
+            else:
+                indices[one.name] = index
+                yield one
+
+    for one in built(designs(), inspect, hands):
+        yield from unbuilt
+        unbuilt.clear()
+        yield Ended(indices[one.design.name], seed, inspect, "built", "", one.wrong, list(one.warned), one.seconds)
+    yield from unbuilt
+
+
+def ended_before(path: Path | None) -> list[Ended]:
+    """What earlier calls wrote to a file."""
+    lines = path.read_text(encoding="utf-8").splitlines() if path and path.exists() else []
+    return [Ended(**json.loads(line)) for line in lines]
+
+
+def told(ended: Sequence[Ended]) -> str:
+    """Counts of all draws, and each fault."""
+    of = {how: [one for one in ended if one.how == how] for how in ("refused", "ruled", "built")}
+    faults = [f"    draw {one.draw} of seed {one.seed}: {fault}" for one in of["built"] for fault in one.faults]
+    counts = {
+        "refused": Counter(one.by for one in of["refused"]),
+        "rule most broken": Counter(one.by for one in of["ruled"]),
+        "warnings": Counter(name for one in of["built"] for name in one.warnings),
+    }
+    rows = [f"  {title}: {', '.join(f'{name} {n}' for name, n in count.most_common()) or 'none'}"
+            for title, count in counts.items()]  # fmt: skip
+    first = (f"{len(ended)} draws: {len(of['refused'])} refused by the reader, {len(of['ruled'])} without a design "
+             f"that keeps the rules, {len(of['built'])} built, {len(faults)} faults")  # fmt: skip
+    return "\n".join([first, *faults, *rows])
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -108,16 +147,21 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--hands", type=int, default=os.cpu_count() or 1, help="designs that are built at once")
     parser.add_argument("--inspect", action="store_true", help="also walls, overhang, order of assembly ...")
+    parser.add_argument("--out", type=Path, help="file to which each draw is appended; those in it are not drawn again")
     asked = parser.parse_args(arguments)
-    outcome = run(asked.draws, asked.seed, asked.inspect, asked.hands)
-    built = outcome.tally
-    print(f"{asked.draws} draws: {sum(outcome.read.values())} refused by the reader, {sum(outcome.ruled.values())} "
-          f"without a design that keeps the rules, {built.built} built, {len(built.failed)} faults")  # fmt: skip
-    for text in built.failed:
-        print(f"    {text}")
-    for title, counts in (("refused", outcome.read), ("rule most broken", outcome.ruled), ("warnings", built.warned)):
-        print(f"  {title}: {', '.join(f'{name} {count}' for name, count in counts.most_common()) or 'none'}")
-    return int(bool(built.failed))
+    if asked.out:
+        asked.out.parent.mkdir(parents=True, exist_ok=True)
+    ended = ended_before(asked.out)
+    done = {one.draw for one in ended if (one.seed, one.inspected) == (asked.seed, asked.inspect)}
+    for one in run(
+        (index for index in range(asked.draws) if index not in done), asked.seed, asked.inspect, asked.hands
+    ):
+        ended.append(one)
+        if asked.out:
+            with asked.out.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(one._asdict()) + "\n")
+    print(told(ended))
+    return int(any(one.faults for one in ended))
 
 
 if __name__ == "__main__":

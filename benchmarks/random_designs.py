@@ -19,7 +19,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import psutil
@@ -54,6 +54,17 @@ class Tally:
     failed: list[str] = field(default_factory=list)
     """What was wrong with designs that keep every rule."""
     warned: Counter[str] = field(default_factory=Counter)
+    """Warnings of the inspection, by what was checked."""
+    seconds: float = 0.0
+    """Processor time of the building."""
+
+
+class Built(NamedTuple):
+    """What came of building a design."""
+
+    design: Design
+    wrong: list[str]
+    warned: Sequence[str] = ()
     """Warnings of the inspection, by what was checked."""
     seconds: float = 0.0
     """Processor time of the building."""
@@ -182,11 +193,15 @@ def _child(design: Design, inspect: bool, mouth: Connection) -> None:
 def run(study: Study, count: int, seed: int, inspect: bool = False, hands: int = 1) -> Tally:
     """Draw, refuse, build and check, `hands` designs at once."""
     tally = Tally()
-    build(Draws(study, seed).keeping_rules(count, tally), tally, inspect, hands)
+    for one in built(Draws(study, seed).keeping_rules(count, tally), inspect, hands):
+        tally.built += 1
+        tally.failed += [f"{one.design.name}: {text}" for text in one.wrong]
+        tally.warned.update(one.warned)
+        tally.seconds += one.seconds
     return tally
 
 
-def build(designs: Iterable[Design], tally: Tally, inspect: bool, hands: int) -> None:
+def built(designs: Iterable[Design], inspect: bool, hands: int) -> Iterator[Built]:
     """Build and check designs, each in a process of its own, `hands` at once."""
     # Not a plain fork: where this process has used the CAD kernel, its threads are missing in the child, which hangs.
     context: Any = mp.get_context("forkserver")
@@ -194,32 +209,29 @@ def build(designs: Iterable[Design], tally: Tally, inspect: bool, hands: int) ->
     at_work: list[tuple[Design, Any, Connection, float]] = []
     for design in designs:
         if len(at_work) == hands:
-            _settle(*at_work.pop(0), tally)
+            yield _settled(*at_work.pop(0))
         ear, mouth = context.Pipe(duplex=False)
         child = context.Process(target=_child, args=(design, inspect, mouth), daemon=True)
         child.start()
         mouth.close()
         at_work.append((design, child, ear, time.monotonic()))
     for one in at_work:
-        _settle(*one, tally)
+        yield _settled(*one)
 
 
-def _settle(design: Design, child: Any, ear: Connection, started: float, tally: Tally) -> None:
+def _settled(design: Design, child: Any, ear: Connection, started: float) -> Built:
     """Take in what a child found, or end it when it has had its time."""
-    wrong = [f"no answer in {TIME_LIMIT:g} s of the processor, or {SILENCE_LIMIT:g} s by the clock"]
+    found = Built(design, [f"no answer in {TIME_LIMIT:g} s of the processor, or {SILENCE_LIMIT:g} s by the clock"])
     try:
         if _answers(child, ear, started):
-            wrong, warned, seconds = ear.recv()
-            tally.warned.update(warned)
-            tally.seconds += seconds
+            found = Built(design, *ear.recv())
     except EOFError:
         child.join()
-        wrong = [f"its process ended with code {child.exitcode}"]
+        found = Built(design, [f"its process ended with code {child.exitcode}"])
     child.kill()
     child.join()
-    tally.built += 1
-    tally.failed += [f"{design.name}: {text}" for text in wrong]
-    print(f"{tally.built} built, {len(tally.failed)} faults{' '.join(['', *wrong])}", file=sys.stderr, flush=True)
+    print(f"{design.name}: {'; '.join(found.wrong) or 'sound'}", file=sys.stderr, flush=True)
+    return found
 
 
 def _answers(child: Any, ear: Connection, started: float) -> bool:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import pytest
 import random_choices
 import random_designs
@@ -43,14 +46,23 @@ def test_a_design_that_is_not_sound_is_told() -> None:
 
 
 def test_random_choices_are_refused_by_name_or_have_a_design_that_keeps_the_rules() -> None:
-    outcome = random_choices.Outcome()
-    kept = sum(1 for _ in random_choices.designs(12, 3, outcome))
-    assert kept + sum(outcome.read.values()) + sum(outcome.ruled.values()) == 12
-    assert {*outcome.read, *outcome.ruled} <= {row.name for mode in STUDIES for row in table_for(mode).quantities}
+    drawn = [random_choices.drawn(index, 3, inspect=True) for index in range(12)]
+    ended = [one for one in drawn if isinstance(one, random_choices.Ended)]
+    assert len(ended) < len(drawn)
+    assert {one.by for one in ended} <= {row.name for mode in STUDIES for row in table_for(mode).quantities}
 
 
 @pytest.mark.slow
 def test_modules_of_random_choices_are_sound() -> None:
-    outcome = random_choices.run(12, 3, inspect=True, hands=1)
-    assert outcome.tally.failed == []
-    assert outcome.tally.built > 0
+    built = [one for one in random_choices.run(range(12), 3, inspect=True, hands=1) if one.how == "built"]
+    assert built
+    assert [fault for one in built for fault in one.faults] == []
+
+
+def test_a_draw_that_is_in_the_file_is_not_drawn_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "draws.jsonl"
+    ended = [random_choices.Ended(index, 1, False, "built", faults=["a gap"] * index) for index in range(2)]
+    file.write_text("".join(json.dumps(one._asdict()) + "\n" for one in ended))
+    assert random_choices.main(["--draws", "2", "--out", str(file)]) == 1
+    assert "2 draws: 0 refused by the reader, 0 without" in (printed := capsys.readouterr().out)
+    assert "draw 1 of seed 1: a gap" in printed
