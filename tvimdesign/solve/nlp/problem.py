@@ -29,6 +29,10 @@ from tvimdesign.solve.nlp.transcription import Block, at_each, phase_block
 Array = NDArray[np.float64]
 
 
+FREEZING = 2.5
+"""Elements of a freezing layer, whose edge runs through the cells, over those of a melting one."""
+
+
 @dataclass(frozen=True)
 class Free:
     """One number that may change: its name, bounds (SI), and whether its unknown is a logarithm."""
@@ -222,9 +226,9 @@ class Problem:
     def elements(self, phase: str) -> int:
         """Count of a phase's elements: no less than asked for, and the corners of its current lie between them.
 
-        A freezing layer whose edge runs through the cells wants twice as many.
+        A freezing layer whose edge runs through the cells wants more.
         """
-        asked = self._elements * (2 if self.model.phases[phase].phase.history else 1)
+        asked = self._elements * (FREEZING if self.model.phases[phase].phase.history else 1.0)
         pieces = next((current.pieces for current in self.free_currents if current.phase == phase), 1)
         return pieces * math.ceil(asked / pieces)
 
