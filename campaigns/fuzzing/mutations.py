@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import random
 from collections.abc import Iterator
+from copy import deepcopy
 from typing import Any
 
 ODD: list[Any] = [
@@ -107,7 +108,7 @@ def mutated_data(text: str, places: list[tuple[Any, ...]], draw: random.Random) 
             elif kind < 0.4 and isinstance(node, dict):
                 node[str(draw.choice(ODD))] = node.pop(path[-1])
             else:
-                node[path[-1]] = draw.choice(ODD)
+                node[path[-1]] = deepcopy(draw.choice(ODD))  # a later change may go into it
         except (KeyError, IndexError, TypeError):  # an earlier change took the place away
             continue
     return changed

@@ -15,7 +15,7 @@ import fuzz
 import pytest
 from fuzzing import watched
 from fuzzing.kind import Drawn, Kind
-from fuzzing.mutations import mutated_data, mutated_table, mutated_text, paths
+from fuzzing.mutations import ODD, mutated_data, mutated_table, mutated_text, paths
 from support import ROOT
 
 USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "column_maps"]
@@ -58,6 +58,14 @@ def starts_a_process(_: Path) -> None:
 def spins(_: Path) -> None:
     while True:
         pass
+
+
+def test_an_input_changes_nothing_that_others_are_made_of() -> None:
+    before = repr(ODD)
+    draw = random.Random(1)
+    for _ in range(3000):
+        mutated_data('{"a": {"b": [1, {"c": 2}]}}', [("a",), ("a", "b"), ("a", "b", 1), ("a", "b", 1, "c")], draw)
+    assert repr(ODD) == before
 
 
 def spins_briefly(_: Path) -> None:
