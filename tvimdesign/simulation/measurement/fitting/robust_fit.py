@@ -24,6 +24,8 @@ _EXACT, _MOST_STEPS = 1e-9, 100
 _ROUGH, _FEW_STEPS = 1e-6, 8
 _SETTLED = 1e-3
 _LEAST_NOISE = 1e-9
+_WILDEST = 1e60
+"""Residual over noise whose powers still are numbers."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,11 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
             "the equations give no number at the start of the fit; look at units and ranges of the columns"
         )
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
+    farthest = float(np.max(np.abs(residuals.at(start) * weights_of(residuals, noise))))
+    if farthest > _WILDEST:
+        raise InputError(
+            f"a value is {farthest:.0e} times the scatter of the others away from them; look for a wrong number"
+        )
     inner = start
     for _ in range(_PASSES):
         inner = solved(residuals, inner, noise)
