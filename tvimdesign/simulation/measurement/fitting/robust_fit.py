@@ -41,14 +41,13 @@ class RobustFit:
 
 def loss(z: Array) -> Array:
     """Loss of residuals over their noise, 2 c^2 (sqrt(1 + z^2/c^2) - 1): z^2 for small ones."""
-    square = (z / LINEAR_UP_TO) ** 2
-    return np.asarray(2.0 * LINEAR_UP_TO**2 * (np.sqrt(1.0 + square) - 1.0))
+    return np.asarray(2.0 * LINEAR_UP_TO**2 * (np.hypot(1.0, z / LINEAR_UP_TO) - 1.0))
 
 
 def influence(z: Array) -> tuple[Array, Array]:
     """Half the derivative of the loss by the residual, and its slope."""
-    square = 1.0 + (z / LINEAR_UP_TO) ** 2
-    return z / np.sqrt(square), square**-1.5
+    slant = np.hypot(1.0, z / LINEAR_UP_TO)
+    return z / slant, slant**-3.0
 
 
 def _mean_square() -> float:
