@@ -32,6 +32,12 @@ def moment_now(
     return blocks_moment(shape_factor / share, vane_count, block_area, pcl_mean_radius)
 
 
+@quantities.helper(instant=True)
+def column_shifts() -> list[Scalar]:
+    """How much warmer than their mean parts of a block's face are [K]: it is one column."""
+    return []
+
+
 @quantities.helper()
 def plate_depth(vane_thickness: Scalar) -> Scalar:
     """Thickness of what is behind a block [m]: half a rotor vane."""

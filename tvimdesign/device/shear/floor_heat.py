@@ -94,15 +94,23 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 
 @quantities.helper()
+def pad_wall(
+    pad_edge: Scalar, beside_area: Scalar, edge_length: Scalar, pad_depth: Scalar, structure_conductivity: Scalar
+) -> Scalar:
+    """Conductance [W/K] from one side of the pads into the first body of the floor beside half of their pockets."""
+    way = WAYS[0] * beside_area / edge_length
+    return lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / way)
+
+
+@quantities.helper()
 def stack_links(
     heater_form: str,
-    pad_edge: Scalar,
+    pad_wall: Scalar,
     pcl_area: Scalar,
     heated_area: Scalar,
     cold_area: Scalar,
     beside_area: Scalar,
     edge_length: Scalar,
-    pad_depth: Scalar,
     peltier_thickness: Scalar,
     floor_web: Scalar,
     structure_conductivity: Scalar,
@@ -117,24 +125,22 @@ def stack_links(
     """
     first, ledge = WAYS[0] * beside_area / edge_length, (heated_area - cold_area) / edge_length
     bare = (pcl_area - heated_area) / edge_length
-    wall = lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / first)
     onto, to_root = (way / (structure_conductivity * edge_length) for way in lumps.ledge_ways(ledge / floor_web))
     beyond = (bare + first) / (structure_conductivity * floor_web * edge_length)
     upper, lower, ledges = ("around", CORNER), ("around", UPPER[0]), ("around", LEDGES)
     hot, cold = ("hot", 0), ("cold", 0)
     if heater_form == CUT:
-        rims = [Link(side, half, 0.5 * wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)]
+        rims = [Link(side, half, 0.5 * pad_wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)]
     else:
         backs = lumps.air_gap(
             pcl_area - heated_area, peltier_thickness, air_conductivity, surface_emissivity, hot, ledges
         )
-        rims = [Link(hot, upper, wall), backs]
+        rims = [Link(hot, upper, pad_wall), backs]
     return (*rims, Link(cold, ledges, 1.0 / onto), _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)))
 
 
 @quantities.helper()
-def side_links(
-    edge_length: Scalar,
+def air_beside(
     pcl_thickness: Scalar,
     pcl_conductivity_melt: Scalar,
     pad_edge_contact: Scalar,
@@ -142,23 +148,35 @@ def side_links(
     surface_emissivity: Scalar,
     ambient_temperature: Scalar,
     pcl_melting: polymer.Melting,
-    structure_conductivity: Scalar,
-) -> tuple[Link, ...]:
-    """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
+) -> tuple[Scalar, Scalar]:
+    """Of the gap's air at the layer's free side the conductivity [W/m K], in series with the layer's; and the slot's
+    width over the gap's.
 
-    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. The gap
-    conducts better up than along, as its faces radiate, here as where the PCL is molten: it is an even one of the mean
-    conductivity sqrt(k_x k_y), x stretched by sqrt(k_y/k_x). The contact of the pads' edges is a slot of still air.
+    The gap conducts better up than along, as its faces radiate, here as where the PCL is molten: it is an even one of
+    the mean conductivity sqrt(k_x k_y), x stretched by sqrt(k_y/k_x). The contact of the pads' edges is a slot of
+    still air.
     """
     across = lumps.air_gap(1.0, pcl_thickness, air_conductivity, surface_emissivity, ("hot", 0), ("around", CORNER))
     up = pcl_thickness * lumps.link_conductance(across, pcl_melting.end, ambient_temperature)
     evenly = np.sqrt(air_conductivity * up)
-    near, far = lumps.gap_end(evenly / (pad_edge_contact * pcl_thickness))
-    through = edge_length / (1.0 / evenly + 1.0 / pcl_conductivity_melt)
+    return lumps.in_series(evenly, pcl_conductivity_melt), evenly / (pad_edge_contact * pcl_thickness)
+
+
+@quantities.helper()
+def side_links(edge_length: Scalar, air_beside: tuple[Scalar, Scalar], structure_conductivity: Scalar) -> tuple[Link, ...]:
+    """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
+
+    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
+    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side.
+    """
+    conductivity, slot = air_beside
+    near, far = lumps.gap_end(slot)
+    through = edge_length * conductivity
     corner = structure_conductivity * edge_length * lumps.corner_shape(near)
+    inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
     return (
-        Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner)),
-        Link(("hot", 0), ("beside", 0), far * through),
+        Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner), of_layer=inside),
+        Link(("hot", 0), ("beside", 0), far * through, of_layer=inside),
     )
 
 

@@ -17,7 +17,7 @@ from tvimdesign.device.core.impedance.joint_impedance import joint_damping, join
 from tvimdesign.device.table.quantity import Phase, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import heat, lumps, peltier
+from tvimdesign.physics.heat_flow import columns, heat, lumps, peltier
 from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import crystallization, polymer
@@ -263,9 +263,21 @@ def slice_moduli(
 
 
 @quantities.helper(instant=True)
-def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of the layer [Pa], its slices in series."""
-    return layer.series_modulus(*slice_moduli)
+def layer_moduli(
+    stack_profile: heat.Profile,
+    stack_now: heat.Stack,
+    slice_moduli: tuple[Scalar, Scalar],
+    column_shifts: list[Scalar],
+    pcl_rheology: polymer.AnyRheology,
+    frequency_now: Scalar,
+) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of the layer [Pa]: its slices in series, and while it melts its columns side by side.
+
+    A layer that freezes carries one history at each depth.
+    """
+    if stack_now.freezing is not None or not column_shifts:
+        return layer.series_modulus(*slice_moduli)
+    return columns.moduli(stack_profile.cells, stack_now.melting, column_shifts, 2.0 * np.pi * frequency_now, pcl_rheology)
 
 
 @quantities.helper(instant=True)
