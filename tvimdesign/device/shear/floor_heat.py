@@ -35,6 +35,24 @@ def housing_ring(
 
 
 @quantities.helper()
+def floor_end(
+    beside_area: Scalar,
+    edge_length: Scalar,
+    floor_web: Scalar,
+    floor_thickness: Scalar,
+    housing_ring: Scalar,
+    structure_conductivity: Scalar,
+    ambient_temperature: Scalar,
+    floor_in_air: lumps.Surface,
+) -> tuple[lumps.Surface, Scalar, Scalar]:
+    """Outer end of the lower strip: the last body's surface, its conductance to the housing [W/K], surface [m^2] that
+    counts there."""
+    along = structure_conductivity * floor_web * edge_length**2 / (BEYOND * beside_area)
+    face = floor_in_air._replace(area=STRIP[-1] * beside_area, behind=floor_web / 3.0 / structure_conductivity)
+    return lumps.strip_end(face, along, housing_ring * floor_web / floor_thickness, ambient_temperature)
+
+
+@quantities.helper()
 def around_pads(
     pcl_area: Scalar,
     cold_area: Scalar,
@@ -47,6 +65,7 @@ def around_pads(
     structure_conductivity: Scalar,
     floor_in_air: lumps.Surface,
     housing_rest: Body,
+    floor_end: tuple[lumps.Surface, Scalar, Scalar],
 ) -> tuple[Body, ...]:
     """What the pads are set in: upper and lower strip of the floor, ledges, corner, and the rest of the housing."""
     volumetric = structure_heat_capacity
@@ -55,8 +74,10 @@ def around_pads(
     upper = [corner, *(Body(area * pad_depth * volumetric, lumps.NOWHERE) for area in areas[1:])]
     face = floor_in_air._replace(behind=floor_web / 3.0 / structure_conductivity)
     lower = [Body(area * floor_web * volumetric, face._replace(area=area)) for area in (*areas, pcl_area - cold_area)]
+    last, _, at_housing = floor_end
+    lower[-2] = lower[-2]._replace(surface=last)
     floor = (*upper, *lower, corner)
-    below = np.pi * (housing_outer_radius**2 - rotor_radius**2)
+    below = np.pi * (housing_outer_radius**2 - rotor_radius**2) + at_housing
     return (*floor, lumps.less(housing_rest, floor, below))
 
 
@@ -68,6 +89,7 @@ def floor_links(
     floor_web: Scalar,
     floor_thickness: Scalar,
     housing_ring: Scalar,
+    floor_end: tuple[lumps.Surface, Scalar, Scalar],
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
     """What conducts within the floor, along the strips to the housing's wall and from the upper to the lower one."""
@@ -79,8 +101,8 @@ def floor_links(
             found.append(_link(CORNER, row[1], 0.5 * first))
             first = 0.5 * first
         found += [_link(row[i], row[i + 1], along) for i, along in enumerate((first, *others))]
-        to_wall = lumps.in_series(per_depth * depth / BEYOND, housing_ring * depth / floor_thickness)
-        found.append(_link(row[-1], HOUSING, to_wall))
+    to_wall = lumps.in_series(per_depth * pad_depth / BEYOND, housing_ring * pad_depth / floor_thickness)
+    found += [_link(UPPER[-1], HOUSING, to_wall), _link(LOWER[-1], HOUSING, floor_end[1])]
     down = [structure_conductivity * share * beside_area for share in STRIP]
     found.append(_link(CORNER, UPPER[0], down[0] / (0.5 * pad_depth)))
     for i, area in enumerate(down):

@@ -22,6 +22,9 @@ hundredth of w^2/alpha on. Bodies with their means in their middles take 5 to 15
 """
 BEYOND = 1.0 - sum(WAYS)
 """Way from the last of them to the strip's other edge; a steady flow has the whole width before it."""
+AT_END = 1.0 - 0.5 * STRIP[-1] / BEYOND
+"""Share of the way from the last of them to that edge at which their share of the strip has its mean temperature while
+heat flows on steadily."""
 INTO_SLOT = 0.2619
 """Heat per length over k and excess that leaves a warm wall above the slot's mouth for the slot: ln(1/0.4392)/pi, where
 0.4392 is the mouth's height in the map of `gap_end`, the root of sqrt(1 + u) = artanh(1/sqrt(1 + u))."""
@@ -245,6 +248,20 @@ def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple
         Lump(across / way, share * area * heat_capacity, surface._replace(area=share * area * surface.area))
         for share, way in zip(STRIP, WAYS, strict=True)
     )
+
+
+def strip_end(surface: Surface, along: Any, onward: Any, ambient: Any) -> tuple[Surface, Any, Any]:
+    """Surface of a strip's last body, its conductance [W/K] to what takes heat at the strip's end, and surface [m^2]
+    that counts there.
+
+    `along` is the conductance from the body to the end, `onward` from there. The body's part of the strip is colder
+    than the body while heat flows on, by `AT_END` of what the end is: that share of its surface is at the end, which
+    has a temperature between body and onward (star to delta).
+    """
+    end = AT_END * surface.area
+    total = along + onward + end * surface_coefficient(surface, ambient, ambient)
+    own = surface.area - end * (1.0 - along / total)
+    return surface._replace(area=own), along * onward / total, end * onward / total
 
 
 def way_to_faces(slenderness: Any) -> Any:
