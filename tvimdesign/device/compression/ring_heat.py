@@ -149,23 +149,24 @@ def floor_links(
 ) -> tuple[Link, ...]:
     """Within the floor, along the ring and out to the housing's wall; and within the housing's vanes.
 
-    Heat goes along the ring from below the pads through what is below the blocks, by half the way through either; what
-    is heated at its end has its mean temperature a third of its length away.
+    Heat goes along the ring from below the pads through what is below the blocks, which loses or takes heat evenly on
+    the way. What is below pads has its mean temperature a quarter of its length from either end (a sixth where both
+    ends take as much, a third where one takes all), what is heated at its end a third of its length away.
     """
     pads = pads_share * heated_length
     blocks, sheet = heated_length - pads, structure_conductivity * floor_thickness * ring_width
     out = 2.0 * np.pi * structure_conductivity * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
     out = out / (heated_length + plate_depth + wall_depth)
-    to_vanes, between, to_walls = (
-        sheet / way for way in (0.5 * blocks + plate_depth / 3.0, 0.5 * heated_length, 0.5 * pads + wall_depth / 3.0)
-    )
+    to_walls = sheet / (0.25 * pads + wall_depth / 3.0)
+    to_vanes, to_pads, across = lumps.heated_between(sheet / blocks, 3.0 * sheet / plate_depth, 4.0 * sheet / pads)
     found = []
     for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, BELOW_WALLS, to_walls)):
         down = structure_conductivity * depth * ring_width / floor_thickness
         found += [_link(row[i - 1], row[i], down / way) for i, way in enumerate(WAYS[1:], 1)]
         for place, share in zip(row, STRIP, strict=True):
             found += [_link(place, HOUSING, share * out * depth), _link(place, end, share * along)]
-    found += [_link(*row, share * between) for *row, share in zip(FLOOR, BELOW_PADS, STRIP, strict=True)]
+    for block, pad, share in zip(FLOOR, BELOW_PADS, STRIP, strict=True):
+        found += [_link(block, pad, share * to_pads), _link(pad, BELOW_VANES, share * across)]
     found.append(_link(BELOW_VANES, HOUSING, out * plate_depth))
     found.append(_link(BELOW_WALLS, HOUSING, out * wall_depth))
     inwards = structure_conductivity * (pcl_area - cold_area) / wall_depth
