@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -178,12 +179,26 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 
 @quantities.helper()
+def pad_height(heater_form: str, block_height: Scalar, peltier_width: Scalar) -> Scalar:
+    """Height of what heats a block [m]: its pad, or tiles that stand at its lower edge."""
+    return block_height if heater_form == CUT else peltier_width
+
+
+@quantities.helper()
+def pad_rows(heated_area: Scalar, pcl_area: Scalar, pad_height: Scalar, block_height: Scalar) -> Scalar:
+    """What pads or tiles have of the width of the blocks [1]."""
+    return heated_area / pcl_area * block_height / pad_height
+
+
+@quantities.helper()
 def stack_links(
     ring_width: Scalar,
     block_depth: Scalar,
     peltier_thickness: Scalar,
     running_clearance: Scalar,
     block_height: Scalar,
+    pad_height: Scalar,
+    pad_rows: Scalar,
     pcl_conductivity_melt: Scalar,
     air_conductivity: Scalar,
     surface_emissivity: Scalar,
@@ -202,15 +217,17 @@ def stack_links(
     The pads lose heat from their legs, which are as thick as they are, by half from either side at the legs' mean
     temperature. Where legs fall evenly from T_h to T_c the hot side loses two thirds of what is at T_h and a third of
     what is at T_c: 1/12 of the difference more. A clearance between a wall of one temperature and one that changes
-    along it conducts along as well, like a strip of a third of its width.
+    along it conducts along as well, like a strip of a third of its width. Above tiles there is more air.
     """
     blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS))
     to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
     found = []
-    for place, depth, faced in ((("layer", 0), block_depth, blocks), (LEGS, peltier_thickness, pads)):
+    above = running_clearance + block_height - pad_height
+    of_pads = (LEGS, pad_rows * peltier_thickness, pads, (running_clearance, above))
+    for place, depth, faced, gaps in ((("layer", 0), block_depth, blocks, (running_clearance,) * 2), of_pads):
         area = ring_width * depth
-        for face, deep in zip(faced, (floor_thickness, rotor_thickness), strict=True):
-            gap = lumps.air_gap(area, running_clearance, air_conductivity, surface_emissivity, place, face)
+        for face, deep, wide in zip(faced, (floor_thickness, rotor_thickness), gaps, strict=True):
+            gap = lumps.air_gap(area, wide, air_conductivity, surface_emissivity, place, face)
             walls = structure_conductivity * area / (WAYS[0] * deep)
             if place == ("layer", 0):
                 walls = lumps.in_series(walls, pcl_conductivity_melt * area / (to_faces * 0.5 * block_height))
@@ -245,6 +262,8 @@ def side_links(
     block_depth: Scalar,
     plate_depth: Scalar,
     peltier_thickness: Scalar,
+    block_height: Scalar,
+    pad_height: Scalar,
     heated_area: Scalar,
     cold_area: Scalar,
     wall_depth: Scalar,
@@ -252,7 +271,7 @@ def side_links(
     spreader_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
     """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes."""
-    housing, pads = ("around", HOUSING), peltier_thickness * open_sides
+    housing, pads = ("around", HOUSING), pad_height / block_height * peltier_thickness * open_sides
     into_walls = structure_conductivity * (heated_area - cold_area) / (WAYS[0] * wall_depth)
     return (
         Link(("layer", 0), housing, open_sides * block_depth),
