@@ -40,21 +40,19 @@ def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
     y = lines((-v["floor_thickness"], 0.0, 7, 0.75), (0.0, low, 5, 1.0), *inside, (high, plate, 5, 1.0),
               (plate, plate + v["rotor_thickness"], 7, 1.3), fine=fine)  # fmt: skip
 
+    heated = ((block, "layer"), (hot, "spreader"), (hot + film, "hot"), (hot + pad - film, "legs"), (hot + pad, "cold"))
+    bare = ((block, "layer"), (hot, "spreader"), (hot + pad, "beside tiles"))
+
     def what(a: float, b: float) -> str:
-        if b < 0.0:
-            return "floor"
-        if b > plate:
-            return "plate"
+        if b < 0.0 or b > plate:
+            return "floor" if b < 0.0 else "plate"
         if a < vane:
             return "vane" if b > low else "air"
         if a > hot + pad:
             return "air" if b > high else "wall" if b < tile else "upper wall"
         if b < low or b > high:
             return "air"
-        if b > tile and a > hot:
-            return "beside tiles"
-        upright = ((block, "layer"), (hot, "spreader"), (hot + film, "hot"), (hot + pad - film, "legs"))
-        return next((name for right, name in upright if a < right), "cold")
+        return next(name for right, name in (bare if b > tile else heated) if a < right)
 
     contacts = {("hot", "layer"): "hot_contact", ("spreader", "layer"): "hot_contact",
                 ("spreader", "hot"): "spreader_contact", ("layer", "vane"): "rotor_contact"}  # fmt: skip

@@ -152,7 +152,9 @@ def stack_links(
     upper, lower, ledges = ("around", CORNER), ("around", UPPER[0]), ("around", LEDGES)
     hot, cold = ("hot", 0), ("cold", 0)
     if heater_form == CUT:
-        rims = [Link(side, half, 0.5 * pad_wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)]
+        rims = [
+            Link(side, half, 0.5 * pad_wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)
+        ]
     else:
         backs = lumps.air_gap(
             pcl_area - heated_area, peltier_thickness, air_conductivity, surface_emissivity, hot, ledges
@@ -185,7 +187,9 @@ def air_beside(
 
 
 @quantities.helper()
-def side_links(edge_length: Scalar, air_beside: tuple[Scalar, Scalar], structure_conductivity: Scalar) -> tuple[Link, ...]:
+def side_links(
+    edge_length: Scalar, air_beside: tuple[Scalar, Scalar], structure_conductivity: Scalar
+) -> tuple[Link, ...]:
     """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
 
     `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of

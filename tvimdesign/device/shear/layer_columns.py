@@ -9,7 +9,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import columns, heat, lumps, peltier
+from tvimdesign.physics.heat_flow import columns, heat, peltier
 
 quantities = QuantityGroup(shared.group)
 

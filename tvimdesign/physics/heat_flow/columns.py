@@ -7,15 +7,12 @@ Fundamentals of Heat and Mass Transfer, ch. 3), and sines over its depth (Carsla
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from tvimdesign.physics.heat_flow.lumps import gap_end_depth
 from tvimdesign.physics.heat_flow.stack import Stack
-from tvimdesign.physics.layers import layer
-from tvimdesign.physics.polymers import polymer
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 PLACES, SHARES = tuple(0.5 * (1.0 + _NODES)), tuple(0.5 * _WEIGHTS)
@@ -66,17 +63,3 @@ def at_end(place: float, heights: Any, width: Any, slot: Any) -> Any:
         falls = np.exp(-(1.0 - place) * whole) * (1.0 + np.exp(-2.0 * place * whole)) / (1.0 - np.exp(-2.0 * whole))
         found = found + 2.0 / (n * np.pi) * (falls - 1.0 / whole) * np.sin(n * np.pi * heights)
     return found * gap_end_depth(slot) / gap_end_depth(0.0)
-
-
-def moduli(cells: Any, melting: polymer.Melting, shifts: Sequence[Any], omega: Any, rheology: polymer.AnyRheology) -> tuple[Any, Any]:
-    """Storage and loss modulus [Pa] of a layer that melts: its columns side by side, the slices of each in series.
-
-    `cells` are the layer's temperatures [K] over its depth, `shifts` those of the columns above them.
-    """
-    found = []
-    for shift in shifts:
-        enthalpy = polymer.enthalpy(cells + shift, melting)
-        temperature, solid = polymer.temperature(enthalpy, melting), polymer.solid_fraction(enthalpy, melting)
-        found.append(layer.series_modulus(*polymer.moduli(temperature, solid, omega, rheology)))
-    storage, loss = (sum(share * one for share, one in zip(SHARES, column, strict=True)) for column in zip(*found, strict=True))
-    return storage, loss

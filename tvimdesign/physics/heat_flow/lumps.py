@@ -90,7 +90,7 @@ class Link(NamedTuple):
     radiating_area: Any = 0.0
     """Area times exchange factor 1/(1/e + 1/e - 1) [m^2]."""
     of_layer: Any = None
-    """Share of its heat [1] that the layer gives in place of `first`, evenly over its depth."""
+    """Share of its heat [1] that the layer gives in place of `first`; none where not given."""
 
 
 def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
@@ -134,20 +134,15 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
     """Heat [W] that links bring to each of the `places`, by group, and to each cell of what is `divided` into cells.
 
     A link of what is divided takes from each cell in turn as much as that is warmer than the link's other end, and
-    radiates as from their mean temperature.
+    radiates as from their mean temperature. What the layer gives in place of a link's first end (`Link.of_layer`) comes
+    from its cells, most from the first, falling evenly to nothing at its far face.
     """
     at = {**places, **{group: [np.mean(cells)] for group, cells in divided.items()}}
     found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in at.items()}
     taking: dict[str, Any] = dict.fromkeys(divided, 0.0)
-    drawn: Any = 0.0
     for link in links:
         ends = [at[group][i] for group, i in (link.first, link.second)]
         conductance = link_conductance(link, *ends)
-        if link.of_layer is not None:
-            given = link.of_layer * conductance * (ends[0] - ends[1])
-            (group, i) = link.first
-            found[group][i] = found[group][i] + given
-            drawn = drawn + given
         for (group, i), own, other in ((link.first, *ends), (link.second, *reversed(ends))):
             if group in divided:
                 found[group][0] = found[group][0] + conductance * other
@@ -156,10 +151,18 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
                 found[group][i] = found[group][i] + conductance * (other - own)
     for group, cells in divided.items():
         found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
-    if "layer" in divided:
-        count = len(divided["layer"])
-        found["layer"][0] = found["layer"][0] - 2.0 * drawn * (1.0 - (np.arange(count) + 0.5) / count) / count
+    for link in links:
+        if link.of_layer is not None:
+            (group, i), count = link.first, len(divided["layer"])
+            given = link.of_layer * link_heat(link, at[group][i], at[link.second[0]][link.second[1]])
+            found[group][i] = found[group][i] + given
+            found["layer"][0] = found["layer"][0] - given * _falling(count)
     return found
+
+
+def _falling(count: int) -> Any:
+    """Shares of a layer's cells in what falls evenly over its depth to nothing."""
+    return 2.0 * (1.0 - (np.arange(count) + 0.5) / count) / count
 
 
 class Loss(NamedTuple):

@@ -5,8 +5,8 @@ Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`,
 `cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
 `stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
 layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
-(`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `moment_now` what a partly molten layer
-is to the joint. `layer_heater.py` has the layer that its own current heats.
+(`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `moment_now` and `column_shifts` what a
+partly molten layer is to the joint. `layer_heater.py` has the layer that its own current heats.
 """
 
 from __future__ import annotations
@@ -273,11 +273,15 @@ def layer_moduli(
 ) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer [Pa]: its slices in series, and while it melts its columns side by side.
 
-    A layer that freezes carries one history at each depth.
+    A layer that freezes has one history at each depth.
     """
     if stack_now.freezing is not None or not column_shifts:
         return layer.series_modulus(*slice_moduli)
-    return columns.moduli(stack_profile.cells, stack_now.melting, column_shifts, 2.0 * np.pi * frequency_now, pcl_rheology)
+    found = []
+    for shift in column_shifts:
+        cells, fractions = polymer.melting_at(stack_profile.cells + shift, stack_now.melting)
+        found.append(layer.series_modulus(*polymer.moduli(cells, fractions, 2.0 * np.pi * frequency_now, pcl_rheology)))
+    return layer.side_by_side(found, columns.SHARES)
 
 
 @quantities.helper(instant=True)
