@@ -1,7 +1,7 @@
 """The reference problem's heat written out by hand for numba: through pads, layer and plate, and its derivatives.
 
 Beside the plate and around the pads stand bodies that take heat, with air between them.
-States in kelvin and J/kg, in the order of `hand_chain`; the last is the mean of the plate, which takes no step.
+States in kelvin and J/kg, in the order of `hand_chain`; the last two are the mean of the plate and the hot side, which take no step.
 """
 
 from __future__ import annotations
@@ -43,9 +43,12 @@ JOINED = np.array([
 """Bodies that conduct to one another; the last three pairs radiate as well."""
 LINKS = len(JOINED)
 CAPACITIES, SURFACES, EDGES, CONDUCTS = 6, 6 + BODIES, 6 + 2 * BODIES, 12 + 2 * BODIES
+OF_LAYER = CONDUCTS + LINKS + 3
+FALLING = 2.0 * (1.0 - (np.arange(CELLS) + 0.5) / CELLS) / CELLS
 """Where the switch's numbers have the bodies' heat capacities and surfaces; plate to its edge, and what differs from
 its mean; hot sides to the corner, either side to its wall, cold ones to the ledges, hot ones to the plate's edge; the
-links. The legs between the sides give both walls as much as a side."""
+links. The legs between the sides give both walls as much as a side. Last the share of what passes the layer's free side
+that its cells give in the hot sides' place, falling evenly over their depth."""
 LEGS, OF_SIDE, OF_LEGS = BODIES, 2.0 / 9.0, 5.0 / 9.0
 """Place of the legs' middle in the border; shares of the pads' heat capacity. Temperatures are on a parabola."""
 SEEBECK, RESISTANCE, CONDUCTANCE = 0.025, 3.0, 0.12
@@ -144,6 +147,8 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     flow, _, _, _ = to_wall(2, warm[1], half, contact, p)
     flow = -flow
     f[1] = (made - through + carried * warm[1] - flow - gain[CORNER] - gain[0]) / capacity
+    side = q[OF_LAYER] * ((to_corner - to_side) * (warm[1] - bodies[CORNER]) + gain[0])
+    f[1] += side / capacity
     gain[LEGS] = (2.0 / 3.0 * (joule - of_legs) - 2.0 * above) / (OF_LEGS * q[4])
     gain[COLD_WALL] += to_side * (legs - bodies[COLD_WALL])
     gain[CORNER] += to_side * (legs - bodies[CORNER])
@@ -152,7 +157,7 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     across, _, _, within = to_wall(first - 1, warm[first], half, contact + plate, p)
     for i in range(2, first):
         on = 0.5 * (p[4, i] - p[4, i + 1]) / half if i + 1 < first else across
-        f[i] = (flow - on) / mass
+        f[i] = (flow - on - side * FALLING[i - 2]) / mass
         flow = on
     heat, mean = RHO_PETG * C_PETG * area * ROTOR / PLATE, np.mean(warm[first:CHAIN])
     for i in range(first, CHAIN):
@@ -161,9 +166,9 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
         else:
             grey = RADIATION * (warm[i] ** 2 + AMBIENT**2) * (warm[i] + AMBIENT)
             on = (warm[i] - AMBIENT) / (plate + 1.0 / ((PARTS_AIR + grey) * area))
-        side = (to_edge * (mean - bodies[0]) + uneven * (warm[i] - mean)) / PLATE
-        f[i] = (flow - on - side) / heat
-        gain[0] += side
+        aside = (to_edge * (mean - bodies[0]) + uneven * (warm[i] - mean)) / PLATE
+        f[i] = (flow - on - aside) / heat
+        gain[0] += aside
         flow = on
     for n in range(LINKS):
         a, b = JOINED[n]
@@ -225,6 +230,10 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     had[1, 1] = had[3, 0] = of_legs
     had[4, 0] = had[4, 1] = 8.0 / 3.0 * through - 4.0 / 3.0 * of_legs
     given[:, :2] = had[:, :2]
+    side, above = q[OF_LAYER] * (to_corner - to_side), q[OF_LAYER] * up
+    a[1, 1] += (side + above) / capacity
+    had[0, 1] -= above
+    had[3, 1] -= side
     had[:, :2] /= capacity
     given[0] /= q[CAPACITIES]
     given[1] /= q[CAPACITIES + COLD_WALL]
@@ -256,6 +265,10 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     a[1, CHAIN - 1] -= (1.0 + (last - AMBIENT) / resistance * steep / (grey**2 * area)) / resistance / heat
     for i in range(first, CHAIN):
         a[1, i] -= uneven / PLATE / heat
-        had[0, i], had[TOUCH - 1, i] = to_edge / PLATE / heat, (uneven - to_edge) / PLATE / heat
-        given[TOUCH - 1, i] = 1.0 / PLATE
+        had[0, i], had[TOUCH - 2, i] = to_edge / PLATE / heat, (uneven - to_edge) / PLATE / heat
+        given[TOUCH - 2, i] = 1.0 / PLATE
+    given[TOUCH - 1, 1] = 1.0
+    for i in range(2, first):
+        part = FALLING[i - 2] / mass
+        had[0, i], had[3, i], had[TOUCH - 1, i] = above * part, side * part, -(side + above) * part
     of_bodies(y[CHAIN:], q, a[3 + 2 * TOUCH :])
