@@ -1,7 +1,8 @@
 """The reference problem's heat written out by hand for numba: through pads, layer and plate, and its derivatives.
 
 Beside the plate and around the pads stand bodies that take heat, with air between them.
-States in kelvin and J/kg, in the order of `hand_chain`; the last two are the mean of the plate and the hot side, which take no step.
+States in kelvin and J/kg, in the order of `hand_chain`; the last two are the mean of the plate and the hot side, which
+take no step.
 """
 
 from __future__ import annotations
@@ -213,6 +214,22 @@ def of_bodies(bodies: Array, q: Array, among: Array) -> None:
 
 
 @njit(cache=True)
+def of_free_side(q: Array, a: Array) -> None:
+    """Slopes of what the layer's cells give at their free side in the hot sides' place, which stand in the border once
+    more."""
+    to_corner, to_side, up = q[EDGES + 2], q[EDGES + 3], q[EDGES + 5]
+    side, above = q[OF_LAYER] * (to_corner - to_side), q[OF_LAYER] * up
+    had, capacity, mass = a[3 : 3 + TOUCH], OF_SIDE * q[4], RHO_PCL * q[1] * q[2] / CELLS
+    a[1, 1] += (side + above) / capacity
+    had[0, 1] -= above / capacity
+    had[3, 1] -= side / capacity
+    a[2 + 2 * TOUCH, 1] = 1.0
+    for i in range(CELLS):
+        part = FALLING[i] / mass
+        had[0, 2 + i], had[3, 2 + i], had[TOUCH - 1, 2 + i] = above * part, side * part, -(side + above) * part
+
+
+@njit(cache=True)
 def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     """Slopes of the rates, in rows as `hand_chain.ROWS` says."""
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], OF_SIDE * q[4], q[5]
@@ -230,16 +247,13 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     had[1, 1] = had[3, 0] = of_legs
     had[4, 0] = had[4, 1] = 8.0 / 3.0 * through - 4.0 / 3.0 * of_legs
     given[:, :2] = had[:, :2]
-    side, above = q[OF_LAYER] * (to_corner - to_side), q[OF_LAYER] * up
-    a[1, 1] += (side + above) / capacity
-    had[0, 1] -= above
-    had[3, 1] -= side
     had[:, :2] /= capacity
     given[0] /= q[CAPACITIES]
     given[1] /= q[CAPACITIES + COLD_WALL]
     given[2] /= q[CAPACITIES + LEDGE]
     given[3] /= q[CAPACITIES + CORNER]
     given[4] /= OF_LEGS * q[4]
+    of_free_side(q, a)
     half, contact, mass = 0.5 * thick / CELLS / area, 1.0 / (CONTACT * area), RHO_PCL * area * thick / CELLS
     first, plate, heat = 2 + CELLS, WITHIN / area, RHO_PETG * C_PETG * area * ROTOR / PLATE
     for i in range(1, CHAIN - 1):
@@ -267,8 +281,4 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
         a[1, i] -= uneven / PLATE / heat
         had[0, i], had[TOUCH - 2, i] = to_edge / PLATE / heat, (uneven - to_edge) / PLATE / heat
         given[TOUCH - 2, i] = 1.0 / PLATE
-    given[TOUCH - 1, 1] = 1.0
-    for i in range(2, first):
-        part = FALLING[i - 2] / mass
-        had[0, i], had[3, i], had[TOUCH - 1, i] = above * part, side * part, -(side + above) * part
     of_bodies(y[CHAIN:], q, a[3 + 2 * TOUCH :])

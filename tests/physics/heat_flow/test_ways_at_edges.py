@@ -53,8 +53,10 @@ def test_the_end_of_a_gap_over_a_slot_gives_what_conduction_in_two_dimensions_sa
     kept[0, 1 : deep + 1], kept[0, deep + 1 : -1] = 1.0, 1.0 - height
     kept[slot + 1 :, deep] = kept[slot + 1, 1 : deep + 1] = kept[:, -1] = 0.0
     found = conducted(inside, kept, np.zeros(inside.shape))
-    leaves = 2.0 * np.sum(1.0 - height - found[1, deep + 1 : -1])
-    assert sum(lumps.gap_end(slot / cells)) == pytest.approx(leaves, rel=0.01)
+    flux = 2.0 * (1.0 - height - found[1, deep + 1 : -1])
+    assert sum(lumps.gap_end(slot / cells)) == pytest.approx(np.sum(flux), rel=0.01)
+    # And how deep it lies in what ends there.
+    assert lumps.gap_end_depth(slot / cells) == pytest.approx(np.sum(0.5 * flux * height * (1.0 - height)), rel=0.01)
 
 
 @pytest.mark.parametrize("slenderness", [0.3, 0.6, 1.0, 1.7])

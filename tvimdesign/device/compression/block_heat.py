@@ -14,7 +14,7 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.layers import film
+from tvimdesign.physics.layers import film, layer
 
 quantities = QuantityGroup(shared.group)
 
@@ -33,9 +33,9 @@ def moment_now(
 
 
 @quantities.helper(instant=True)
-def column_shifts() -> list[Scalar]:
-    """How much warmer than their mean parts of a block's face are [K]: it is one column."""
-    return []
+def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of a block [Pa], its slices in series."""
+    return layer.series_modulus(*slice_moduli)
 
 
 @quantities.helper()

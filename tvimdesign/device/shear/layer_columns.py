@@ -10,6 +10,8 @@ from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import columns, heat, peltier
+from tvimdesign.physics.layers import layer
+from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
@@ -67,3 +69,25 @@ def column_shifts(
         end = excess * columns.at_end(place, heights, width, slot)
         found.append(-(near + (far - near) * share + end))
     return found
+
+
+@quantities.helper(instant=True)
+def layer_moduli(
+    stack_profile: heat.Profile,
+    stack_now: heat.Stack,
+    slice_moduli: tuple[Scalar, Scalar],
+    column_shifts: list[Scalar],
+    pcl_rheology: polymer.AnyRheology,
+    frequency_now: Scalar,
+) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of the layer [Pa]: its slices in series, and while it melts its columns side by side.
+
+    A layer that freezes has one history at each depth.
+    """
+    if stack_now.freezing is not None:
+        return layer.series_modulus(*slice_moduli)
+    found = []
+    for shift in column_shifts:
+        cells, fractions = polymer.melting_at(stack_profile.cells + shift, stack_now.melting)
+        found.append(layer.series_modulus(*polymer.moduli(cells, fractions, 2.0 * np.pi * frequency_now, pcl_rheology)))
+    return layer.side_by_side(found, columns.SHARES)
