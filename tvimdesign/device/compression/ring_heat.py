@@ -270,9 +270,13 @@ def side_links(
     structure_conductivity: Scalar,
     spreader_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
-    """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes."""
+    """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes.
+
+    Tiles heat a vane over their own height.
+    """
     housing, pads = ("around", HOUSING), pad_height / block_height * peltier_thickness * open_sides
-    into_walls = structure_conductivity * (heated_area - cold_area) / (WAYS[0] * wall_depth)
+    onto = WAYS[0] * wall_depth + lumps.constriction(pad_height / block_height) * pad_height
+    into_walls = structure_conductivity * (heated_area - cold_area) / onto
     return (
         Link(("layer", 0), housing, open_sides * block_depth),
         Link(("plate", 0), housing, open_sides * plate_depth),

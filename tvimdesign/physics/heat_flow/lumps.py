@@ -232,6 +232,15 @@ def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
     return onto, slenderness / 3.0
 
 
+def constriction(share: Any) -> Any:
+    """What a slab resists more where only a `share` of its face up to one side is heated, evenly, times k and length.
+
+    By separation of variables (Carslaw and Jaeger, ch. V) the heated share is warmer than the mean of the face by the
+    sum of 2 sin^2(n pi f)/((n pi)^3 f^2), heat over k and length, in a slab deeper than a third of its height.
+    """
+    return sum(2.0 * np.sin(n * np.pi * share) ** 2 / ((n * np.pi) ** 3 * share**2) for n in range(1, 9))
+
+
 def corner_shape(shape: Any) -> Any:
     """Shape factor [1] of a corner of a solid, over its conductivity, that takes heat along one face as `gap_end` does.
 
