@@ -104,3 +104,14 @@ def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward: float, 
         taken = lumps.in_series(body.conductance, taken)
         taken += coefficient * before.surface.area if before else 0.0
     assert taken == pytest.approx(exact, rel=0.007)
+
+
+def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> None:
+    cells = np.array([350.0, 340.0, 330.0, 320.0])
+    places = {"hot": [360.0], "around": [310.0]}
+    link = lumps.Link(("hot", 0), ("around", 0), 0.2)
+    found = lumps.linked([link._replace(of_layer=0.7)], places, {"layer": cells})
+    assert found["around"][0] == pytest.approx(10.0)
+    assert found["hot"][0] == pytest.approx(-3.0)
+    # Seven, five, three and one sixteenth: it falls evenly to nothing at the far face.
+    assert found["layer"][0] == pytest.approx(-7.0 * np.array([7.0, 5.0, 3.0, 1.0]) / 16.0)
