@@ -1,10 +1,10 @@
 """Linear equations of the chain of cells that `hand_switch.py` steps through, by hand for numba.
 
-The chain is tridiagonal; thirteen bodies, the middle of the pads' legs and the mean temperature of the plate are
-bordered onto it, of which six touch it (`TOUCHING`). Order: cold side, hot side, cells of the layer, cells of the
-plate; beside the plate three bodies from its edge on and the core; around the pads three bodies of their height from
-the edge on, three below those, the ledges, the corner next to the hot sides, the rest of the housing; the legs' middle;
-the mean of the plate's cells.
+The chain is tridiagonal; thirteen bodies, the middle of the pads' legs, the mean temperature of the plate and that of
+the hot side once more are bordered onto it, of which seven touch it (`TOUCHING`). Order: cold side, hot side, cells of
+the layer, cells of the plate; beside the plate three bodies from its edge on and the core; around the pads three
+bodies of their height from the edge on, three below those, the ledges, the corner next to the hot sides, the rest of
+the housing; the legs' middle; the mean of the plate's cells; the hot side.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from numba import njit
 
 CELLS, PLATE, BODIES = 12, 8, 13
 CHAIN = 2 + CELLS + PLATE
-BORDER = BODIES + 2
+BORDER = BODIES + 3
 STATES = CHAIN + BORDER
-TOUCHING = np.array([0, 4, 10, 11, 13, 14])
+TOUCHING = np.array([0, 4, 10, 11, 13, 14, 15])
 """Of the border: the first beside the plate, the first around the pads, the ledges, the corner, the legs, the plate's
-mean."""
+mean, the hot side."""
 TOUCH = TOUCHING.size
 ROWS = 3 + 2 * TOUCH + BORDER
 """Rows of a matrix: below, on and above the chain's diagonal; what the chain has from each that touches it; what it
@@ -40,7 +40,7 @@ def chain_solve(w: Array, b: Array) -> None:
 def factor(a: Array, h: float, w: Array) -> None:
     """Factors of I - h A: the chain by Thomas, then what is left of the border by Gauss.
 
-    The mean's row says that it is the mean: it has no step.
+    The last two rows say that they are the plate's mean and the hot side: they have no step.
     """
     for i in range(CHAIN):
         below, above = -h * a[0, i], -h * a[2, i]
@@ -48,7 +48,7 @@ def factor(a: Array, h: float, w: Array) -> None:
         w[0, i], w[1, i], w[2, i] = below, 1.0 / pivot, above / pivot
         for t in range(TOUCH):
             w[3 + t, i] = -h * a[3 + t, i]
-            w[3 + TOUCH + t, i] = -(h if t + 1 < TOUCH else 1.0) * a[3 + TOUCH + t, i]
+            w[3 + TOUCH + t, i] = -(h if t + 2 < TOUCH else 1.0) * a[3 + TOUCH + t, i]
     for t in range(TOUCH):
         chain_solve(w, w[3 + t])
     left, among = w[3 + 2 * TOUCH :], a[3 + 2 * TOUCH :]

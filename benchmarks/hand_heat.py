@@ -1,7 +1,8 @@
 """The reference problem's heat written out by hand for numba: through pads, layer and plate, and its derivatives.
 
 Beside the plate and around the pads stand bodies that take heat, with air between them.
-States in kelvin and J/kg, in the order of `hand_chain`; the last is the mean of the plate, which takes no step.
+States in kelvin and J/kg, in the order of `hand_chain`; the last two are the mean of the plate and the hot side, which
+take no step.
 """
 
 from __future__ import annotations
@@ -43,9 +44,12 @@ JOINED = np.array([
 """Bodies that conduct to one another; the last three pairs radiate as well."""
 LINKS = len(JOINED)
 CAPACITIES, SURFACES, EDGES, CONDUCTS = 6, 6 + BODIES, 6 + 2 * BODIES, 12 + 2 * BODIES
+OF_LAYER = CONDUCTS + LINKS + 3
+FALLING = 2.0 * (1.0 - (np.arange(CELLS) + 0.5) / CELLS) / CELLS
 """Where the switch's numbers have the bodies' heat capacities and surfaces; plate to its edge, and what differs from
 its mean; hot sides to the corner, either side to its wall, cold ones to the ledges, hot ones to the plate's edge; the
-links. The legs between the sides give both walls as much as a side."""
+links. The legs between the sides give both walls as much as a side. Last the share of what passes the layer's free side
+that its cells give in the hot sides' place, falling evenly over their depth."""
 LEGS, OF_SIDE, OF_LEGS = BODIES, 2.0 / 9.0, 5.0 / 9.0
 """Place of the legs' middle in the border; shares of the pads' heat capacity. Temperatures are on a parabola."""
 SEEBECK, RESISTANCE, CONDUCTANCE = 0.025, 3.0, 0.12
@@ -144,6 +148,8 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     flow, _, _, _ = to_wall(2, warm[1], half, contact, p)
     flow = -flow
     f[1] = (made - through + carried * warm[1] - flow - gain[CORNER] - gain[0]) / capacity
+    side = q[OF_LAYER] * ((to_corner - to_side) * (warm[1] - bodies[CORNER]) + gain[0])
+    f[1] += side / capacity
     gain[LEGS] = (2.0 / 3.0 * (joule - of_legs) - 2.0 * above) / (OF_LEGS * q[4])
     gain[COLD_WALL] += to_side * (legs - bodies[COLD_WALL])
     gain[CORNER] += to_side * (legs - bodies[CORNER])
@@ -152,7 +158,7 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     across, _, _, within = to_wall(first - 1, warm[first], half, contact + plate, p)
     for i in range(2, first):
         on = 0.5 * (p[4, i] - p[4, i + 1]) / half if i + 1 < first else across
-        f[i] = (flow - on) / mass
+        f[i] = (flow - on - side * FALLING[i - 2]) / mass
         flow = on
     heat, mean = RHO_PETG * C_PETG * area * ROTOR / PLATE, np.mean(warm[first:CHAIN])
     for i in range(first, CHAIN):
@@ -161,9 +167,9 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
         else:
             grey = RADIATION * (warm[i] ** 2 + AMBIENT**2) * (warm[i] + AMBIENT)
             on = (warm[i] - AMBIENT) / (plate + 1.0 / ((PARTS_AIR + grey) * area))
-        side = (to_edge * (mean - bodies[0]) + uneven * (warm[i] - mean)) / PLATE
-        f[i] = (flow - on - side) / heat
-        gain[0] += side
+        aside = (to_edge * (mean - bodies[0]) + uneven * (warm[i] - mean)) / PLATE
+        f[i] = (flow - on - aside) / heat
+        gain[0] += aside
         flow = on
     for n in range(LINKS):
         a, b = JOINED[n]
@@ -208,6 +214,22 @@ def of_bodies(bodies: Array, q: Array, among: Array) -> None:
 
 
 @njit(cache=True)
+def of_free_side(q: Array, a: Array) -> None:
+    """Slopes of what the layer's cells give at their free side in the hot sides' place, which stand in the border once
+    more."""
+    to_corner, to_side, up = q[EDGES + 2], q[EDGES + 3], q[EDGES + 5]
+    side, above = q[OF_LAYER] * (to_corner - to_side), q[OF_LAYER] * up
+    had, capacity, mass = a[3 : 3 + TOUCH], OF_SIDE * q[4], RHO_PCL * q[1] * q[2] / CELLS
+    a[1, 1] += (side + above) / capacity
+    had[0, 1] -= above / capacity
+    had[3, 1] -= side / capacity
+    a[2 + 2 * TOUCH, 1] = 1.0
+    for i in range(CELLS):
+        part = FALLING[i] / mass
+        had[0, 2 + i], had[3, 2 + i], had[TOUCH - 1, 2 + i] = above * part, side * part, -(side + above) * part
+
+
+@njit(cache=True)
 def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     """Slopes of the rates, in rows as `hand_chain.ROWS` says."""
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], OF_SIDE * q[4], q[5]
@@ -231,6 +253,7 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     given[2] /= q[CAPACITIES + LEDGE]
     given[3] /= q[CAPACITIES + CORNER]
     given[4] /= OF_LEGS * q[4]
+    of_free_side(q, a)
     half, contact, mass = 0.5 * thick / CELLS / area, 1.0 / (CONTACT * area), RHO_PCL * area * thick / CELLS
     first, plate, heat = 2 + CELLS, WITHIN / area, RHO_PETG * C_PETG * area * ROTOR / PLATE
     for i in range(1, CHAIN - 1):
@@ -256,6 +279,6 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     a[1, CHAIN - 1] -= (1.0 + (last - AMBIENT) / resistance * steep / (grey**2 * area)) / resistance / heat
     for i in range(first, CHAIN):
         a[1, i] -= uneven / PLATE / heat
-        had[0, i], had[TOUCH - 1, i] = to_edge / PLATE / heat, (uneven - to_edge) / PLATE / heat
-        given[TOUCH - 1, i] = 1.0 / PLATE
+        had[0, i], had[TOUCH - 2, i] = to_edge / PLATE / heat, (uneven - to_edge) / PLATE / heat
+        given[TOUCH - 2, i] = 1.0 / PLATE
     of_bodies(y[CHAIN:], q, a[3 + 2 * TOUCH :])

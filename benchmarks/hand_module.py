@@ -49,7 +49,8 @@ PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6
 K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
 # Strips beside the arcs, in three bodies each, and the air between them
 STRIP, WAYS, BEYOND = (0.087, 0.247, 0.666), (0.029, 0.153, 0.395), 0.423
-INTO_SLOT, K_AIR, EMISSIVITY = 0.2619, 0.028, 0.9
+INTO_SLOT, BEFORE_SLOT, K_AIR, EMISSIVITY = 0.2619, 0.27993, 0.028, 0.9
+HOUSING_AIR = 5.0
 BLACK, AMBIENT, ZETA_3 = 5.670374419e-8, 295.15, 1.2020569032
 # Enthalpy of PCL: melts between 50 and 65 degC
 C_SOLID, C_MELT, LATENT, MELTS, MOLTEN, ROUNDING = 1850.0, 2100.0, 76750.0, 323.15, 338.15, 1000.0
@@ -87,7 +88,7 @@ def _moduli(kelvin: float) -> tuple[float, float]:
 
 (COLD_STORAGE, COLD_LOSS), (HOT_STORAGE, HOT_LOSS) = _moduli(303.15), _moduli(373.15)
 
-OUTPUTS, RESIDUALS, HEAT = 3, 43, 59
+OUTPUTS, RESIDUALS, HEAT = 3, 43, 60
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
 switch.
@@ -154,7 +155,10 @@ def beside(area: float, windows: float, rotor: float, inside: float, t: float, e
     near = math.log(1.0 + (0.5 * PAD_EDGE * t / evenly) ** 2) / PI + INTO_SLOT
     through = edge / (1.0 / evenly + 1.0 / K_MELT)
     heat[34] = heat[35] + 1.0 / (1.0 / (near * through) + near / (3.0 * K_PETG * edge))
-    heat[37] = 2.0 / PI * math.log(2.0) * through
+    far = 2.0 / PI * math.log(2.0)
+    heat[37] = far * through
+    whole = 3.5 * ZETA_3 / PI**3
+    heat[59] = 12.0 * whole / (1.0 + BEFORE_SLOT * evenly / (PAD_EDGE * t) / whole) / (near + far)
     # ledges: heated over their face, and on to their root
     slim = ledge / edge / web
     falling = 0.0
@@ -168,7 +172,14 @@ def beside(area: float, windows: float, rotor: float, inside: float, t: float, e
     heat[41] = heat[42] = 0.5 * upper / (WAYS[1] * wide)
     heat[43], heat[44] = upper / (WAYS[2] * wide), 1.0 / (BEYOND * wide / upper + ring / PAD)
     heat[45], heat[46] = lower / (WAYS[1] * wide), lower / (WAYS[2] * wide)
-    heat[47] = 1.0 / (BEYOND * wide / lower + ring / web)
+    # the lower strip's end is colder than its last body, and loses heat there
+    along, out, share = lower / (BEYOND * wide), web / ring, 1.0 - 0.5 * STRIP[2] / BEYOND
+    open_air = HOUSING_AIR + 4.0 * EMISSIVITY * BLACK * AMBIENT**3
+    ends = share * heat[28]
+    total = along + out + ends / (1.0 / open_air + web / (3.0 * K_PETG))
+    heat[47] = along * out / total
+    heat[28] -= ends * (1.0 - along / total)
+    heat[31] = ends * out / total
     heat[48] = K_PETG * own[0] * edge / (0.5 * PAD)
     for i in range(3):
         heat[49 + i] = K_PETG * own[i] * edge / ((0.5 if i else 0.25) * PAD + web / 3.0)
@@ -382,4 +393,4 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     beside(area, windows, rotor, inside, t, ARCS * (2.0 * (outer - INNER) + span * (INNER + outer)), heat)
     heat[9], heat[22] = RHO_PETG * (turning - plate + link + retainer) * C_PETG, 0.0
     heat[18] = RHO_PETG * housing * C_PETG - np.sum(heat[10:18])
-    heat[31] = tall + PI * (outside**2 - rotor**2)
+    heat[31] += tall + PI * (outside**2 - rotor**2)

@@ -50,7 +50,7 @@ def implicit(
         far = 0.0
         for i in range(STATES):
             right[i] = base[i] + h * f[i] - y[i]
-        right[STATES - 1] = np.mean(y[2 + CELLS : CHAIN]) - y[STATES - 1]
+        right[STATES - 2], right[STATES - 1] = np.mean(y[2 + CELLS : CHAIN]) - y[STATES - 2], y[1] - y[STATES - 1]
         solve(w, right)
         for i in range(STATES):
             y[i] += right[i]
@@ -64,11 +64,11 @@ def implicit(
             rates(y, moved[k], p, other)
             for i in range(STATES):
                 s[k, i] += (lengths[k] * other[i] - h * f[i]) / STEP_OF
-            s[k, STATES - 1] = 0.0
+            s[k, STATES - 2 :] = 0.0
             solve(w, s[k])
         for i in range(STATES):
             s[FREE, i] += (lengths[FREE] - h) / STEP_OF * f[i]
-        s[FREE, STATES - 1] = 0.0
+        s[FREE, STATES - 2 :] = 0.0
         solve(w, s[FREE])
     return p[0, 1 + CELLS] - drop - TARGET
 

@@ -24,8 +24,8 @@ from scipy.integrate import solve_ivp
 from tvimdesign.device import table_for
 from tvimdesign.device.core.heat import thermal_stack
 from tvimdesign.device.core.impedance import warm_structure
+from tvimdesign.device.shear import layer_columns
 from tvimdesign.physics.heat_flow import heat
-from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -58,13 +58,20 @@ class Contender:
     solve: Callable[[float], Array]
 
 
+OF_EDGES = ("heater_form", "pad_wall", "heater_along", "plate_to_edge", "uneven_sideways")
+OF_COLUMNS = ("air_beside", "plate_slenderness", "pcl_area", "edge_length", "pcl_depth", "pcl_conductivity_melt")
+"""What the layer's columns need to know of the module."""
+
+
 def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     """Write the equations as a user of numpy and scipy would: floats through `physics.heat`, a state as an array."""
     numbers = {name: float(value) for name, value in zip(model.names, model.start, strict=True)}
     known = {**model.words, **numbers, "rotor_cells": int(numbers["rotor_cells"])}
     wanted = ["stack", "pcl_rheology", "layer_polar_moment", "structure_compliances", "structure_softening",
               "spring_stiffness", "joint_impedance@hot"]  # fmt: skip
-    found = model.table.evaluate(known, wanted)
+    found = model.table.evaluate(known, [*wanted, *OF_EDGES, *OF_COLUMNS])
+    of = {**known, **found}
+    edges, columns = ({name: of[name] for name in names} for names in (OF_EDGES, OF_COLUMNS))
     stack, rheology, moment, parts, law, springs, hot = (found[name] for name in wanted)
     target, soft = numbers["target_temperature"], numbers["softening_band"] * hot
 
@@ -75,7 +82,9 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
 
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
-        moduli = layer.series_modulus(*polymer.moduli(now.cells, now.fractions, omega, rheology))
+        shifts = layer_columns.column_shifts(now, stack, layer_columns.edge_drops(now, stack, **edges), **columns)
+        slices = polymer.moduli(now.cells, now.fractions, omega, rheology)
+        moduli = layer_columns.layer_moduli(now, stack, slices, shifts, rheology, numbers["frequency@hot"])
         support = warm_structure.in_series(parts, warm_structure.parts_now(now), law, numbers["clamped_loss_factor"])
         stiffness = thermal_stack.layer_stiffness_now(moduli, moment, numbers["pcl_thickness"])
         branch = thermal_stack.branch_now(stiffness, support)

@@ -152,6 +152,16 @@ class AnotherStack:
                 join(row[i], row[i + 1], k * deep * edge / apart[i])
             wall = np.log(v("housing_inner_radius") / rotor) / (2.0 * np.pi * k * deep)
             join(row[2], HOUSING, 1.0 / (beyond / (k * deep * edge) + wall))
+        # The lower strip's last part is colder than its body by a share of the way to its end, which loses heat too.
+        share, along = 1.0 - 0.5 * STRIPS[2] * wide / beyond, k * web * edge / beyond
+        air = (
+            v("housing_coefficient") + 4.0 * v("surface_emissivity") * STEFAN_BOLTZMANN * v("ambient_temperature") ** 3
+        )
+        ends = share * STRIPS[2] * self.rest
+        total = along + 1.0 / wall + ends / (1.0 / air + web / (3.0 * k))
+        join(LOWER[2], HOUSING, along / (wall * total))
+        self.below[LOWER[2]] -= ends * (1.0 - along / total)
+        self.below[HOUSING] += ends / (wall * total)
         # The first of the upper ones is two, one above the other.
         join(UPPER[0], UPPER[1], 0.5 * among[UPPER[0], UPPER[1]])
         join(CORNER, UPPER[1], among[UPPER[0], UPPER[1]])
@@ -180,8 +190,14 @@ class AnotherStack:
         mouth = brentq(lambda u: np.sqrt(1.0 + u) - np.arctanh(1.0 / np.sqrt(1.0 + u)), 0.1, 1.0)
         stretched = slot * np.sqrt(1.0 + radiated) / gap
         down = np.log((1.0 + 0.25 / stretched**2) / mouth) / np.pi
-        self.from_hot[CORNER] += 1.0 / (1.0 / (down * through) + down / (3.0 * k * edge))
+        self.side = 1.0 / (1.0 / (down * through) + down / (3.0 * k * edge))
         self.up = 2.0 / np.pi * np.log(2.0) * through
+        # Of the end's series 2 sin(n pi y) the odd ones bring 8/(n pi)^3/2 from within the layer; a slot keeps some.
+        whole = np.sum(4.0 / (np.pi * np.arange(1, 2001, 2)) ** 3)
+        turns = np.linspace(1e-9, np.arctanh(1.0 / np.sqrt(1.0 + mouth)), 2001)
+        less = 2.0 / np.pi**2 * np.trapezoid(turns / np.tanh(turns), turns) * stretched
+        height = (np.arange(CELLS) + 0.5) / CELLS
+        self.within = 24.0 / CELLS * whole**2 / (whole + less) / (down + 2.0 / np.pi * np.log(2.0)) * (1.0 - height)
 
     # --- states ---
 
@@ -236,16 +252,18 @@ class AnotherStack:
         mean = np.mean(y[PLATE])
         aside = (self.to_beside[0] * (mean - y[BESIDE.start]) + self.uneven * (y[PLATE] - mean)) / PLATE_CELLS
         cold, hot = self.from_cold * (y[0] - y[FLOOR]), self.from_hot * (y[1] - y[FLOOR])
-        up = self.up * (y[1] - y[BESIDE.start])
+        up, side = self.up * (y[1] - y[BESIDE.start]), self.side * (y[1] - y[FLOOR][CORNER])
         pads = y[[0, LEGS, 1]]
         legs = self.from_legs * (SIMPSON @ pads - y[FLOOR])
         below, middle, above = SIMPSON * (amps**2 * self.ohms - np.sum(legs)) - self.leak * PARABOLA @ pads
         watts[1 + CELLS :] -= aside
-        watts[0] += above - np.sum(hot) - up
+        watts[0] += above - np.sum(hot) - (1.0 - np.sum(self.within)) * (up + side)
+        watts[1 : 1 + CELLS] -= self.within * (up + side)
         beside = self._chain(y[BESIDE], self.to_beside, np.sum(aside) + up) - self.strips * self._flux(
             y[BESIDE], self.value("rotor_coefficient"), self.to_face[0]
         )
         floor = cold + hot + legs + self.among @ y[FLOOR] - np.sum(self.among, axis=1) * y[FLOOR]
+        floor[CORNER] += side
         floor -= self.below * self._flux(y[FLOOR], self.value("housing_coefficient"), self.to_face[1])
         gap = self._gap(y)
         beside[:3] -= gap

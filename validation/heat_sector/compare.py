@@ -206,15 +206,8 @@ def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> d
 
 
 def studies() -> list[Path]:
-    """The shipped studies but those of compression with modules behind a spreader: its plane has pads alike all
-    over."""
-    return [path for path in sorted(STUDIES.glob("*.yaml")) if has_a_plane(path)]
-
-
-def has_a_plane(path: Path) -> bool:
-    """Whether the plane draws the heaters of a study."""
-    study = read_study(path)
-    return study.mode == "shear" or given(study).get("heater_form", "flexible") == "flexible"
+    """The shipped studies."""
+    return sorted(STUDIES.glob("*.yaml"))
 
 
 def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunctions]]:

@@ -17,7 +17,7 @@ from tvimdesign.device import Table
 
 WANTED = ("pcl_area", "block_width", "pcl_mean_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
           "peltier_mass", "rotor_radius", "housing_inner_radius", "housing_mass", "slot_width", "slot_height",
-          "sink")  # fmt: skip
+          "sink", "spreader_depth", "heated_area", "heater_strings")  # fmt: skip
 
 PAD_CONDUCTIVITY = 6.0
 """Of the pads in their plane [W/m K], the default in shear; the compression module's table does not have it."""
@@ -28,51 +28,72 @@ def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
     v = {**values, **table.evaluate(values, WANTED)}
     gap, height, pad = v["running_clearance"], v["block_height"], v["peltier_thickness"]
     vane, block = 0.5 * v["vane_thickness"], 0.5 * v["vane_thickness"] + v["block_depth"]
+    hot, tile = block + v["spreader_depth"], gap + height * (v["heated_area"] / v["pcl_area"])
     film, end = PAD_FILM * pad, np.pi * v["pcl_mean_radius"] / v["vane_count"]
     low, high, plate = gap, gap + height, 2.0 * gap + height
-    middle = 0.5 * (low + high)
+    spreader = [(block, hot, 5, 1.0)] if v["spreader_depth"] else []
+    inside = _heights(low, high, tile)
 
-    x = lines((0.0, vane, 6, 0.85), (vane, block, 24, 1.0), (block, block + film, 2, 1.0),
-              (block + film, block + pad - film, 5, 1.0), (block + pad - film, block + pad, 2, 1.0),
-              (block + pad, end, 6, 1.3), fine=fine)  # fmt: skip
-    y = lines((-v["floor_thickness"], 0.0, 7, 0.75), (0.0, low, 5, 1.0), (low, middle, 9, 1.3),
-              (middle, high, 9, 1.0 / 1.3), (high, plate, 5, 1.0),
+    x = lines((0.0, vane, 6, 0.85), (vane, block, 24, 1.0), *spreader, (hot, hot + film, 2, 1.0),
+              (hot + film, hot + pad - film, 5, 1.0), (hot + pad - film, hot + pad, 2, 1.0),
+              (hot + pad, end, 6, 1.3), fine=fine)  # fmt: skip
+    y = lines((-v["floor_thickness"], 0.0, 7, 0.75), (0.0, low, 5, 1.0), *inside, (high, plate, 5, 1.0),
               (plate, plate + v["rotor_thickness"], 7, 1.3), fine=fine)  # fmt: skip
 
+    heated = ((block, "layer"), (hot, "spreader"), (hot + film, "hot"), (hot + pad - film, "legs"), (hot + pad, "cold"))
+    bare = ((block, "layer"), (hot, "spreader"), (hot + pad, "beside tiles"))
+
     def what(a: float, b: float) -> str:
-        if b < 0.0:
-            return "floor"
-        if b > plate:
-            return "plate"
+        if b < 0.0 or b > plate:
+            return "floor" if b < 0.0 else "plate"
         if a < vane:
             return "vane" if b > low else "air"
-        if a > block + pad:
-            return "wall" if b < high else "air"
+        if a > hot + pad:
+            return "air" if b > high else "wall" if b < tile else "upper wall"
         if b < low or b > high:
             return "air"
-        upright = ((block, "layer"), (block + film, "hot"), (block + pad - film, "legs"))
-        return next((name for right, name in upright if a < right), "cold")
+        return next(name for right, name in (bare if b > tile else heated) if a < right)
 
+    contacts = {("hot", "layer"): "hot_contact", ("spreader", "layer"): "hot_contact",
+                ("spreader", "hot"): "spreader_contact", ("layer", "vane"): "rotor_contact"}  # fmt: skip
     return _with_borders(Plane(
         x, y, drawn(x, y, what), _materials(v), _polymer(v), _pump(v), False,
-        {frozenset(("hot", "layer")): v["hot_contact"], frozenset(("layer", "vane")): v["rotor_contact"]},
+        {frozenset(pair): v[name] for pair, name in contacts.items() if "spreader" not in pair or spreader},
         v["ambient_temperature"] - 273.15,
     ), v)  # fmt: skip
+
+
+def _heights(low: float, high: float, tile: float) -> list[tuple[float, float, int, float]]:
+    """Rows of cells of what stands in the ring, narrow at its faces and at the tiles' upper edge."""
+    if tile >= high:
+        middle = 0.5 * (low + high)
+        return [(low, middle, 9, 1.3), (middle, high, 9, 1.0 / 1.3)]
+    middle, above = 0.5 * (low + tile), 0.5 * (tile + high)
+    return [(low, middle, 9, 1.3), (middle, tile, 9, 1.0 / 1.3), (tile, above, 5, 1.3), (above, high, 5, 1.0 / 1.3)]
 
 
 def _materials(v: Mapping[str, Any]) -> dict[str, Material]:
     capacity = v["structure_density"] * v["structure_specific_heat"]
     solid = Material(v["structure_conductivity"], v["structure_conductivity"], capacity)
-    whole = 1.0 - v["slot_width"] * v["slot_height"] / (v["block_width"] * v["block_height"])
+    whole = 1.0 - v["cold_area"] / v["heated_area"]
     wall = Material(whole * solid.along, whole * solid.up, whole * capacity)
-    pad_heat = v["peltier_mass"] * v["peltier_specific_heat"] / (v["pcl_area"] * v["peltier_thickness"])
+    pad_heat = v["peltier_mass"] * v["peltier_specific_heat"] / (v["heated_area"] * v["peltier_thickness"])
     pad = Material(100.0, PAD_CONDUCTIVITY, pad_heat)
     through = v["peltier_conductance"] / v["peltier_area"] * (1.0 - 2.0 * PAD_FILM) * v["peltier_thickness"]
     legs = Material(through, PAD_CONDUCTIVITY, pad_heat)
-    shine = v["running_clearance"] * v["surface_emissivity"] / (2.0 - v["surface_emissivity"])
-    air = Material(v["air_conductivity"], v["air_conductivity"], 0.0, shine)
-    return {"floor": solid, "plate": solid, "vane": solid, "wall": wall, "hot": pad, "legs": legs, "cold": pad,
-            "air": air}  # fmt: skip
+    exchange = v["surface_emissivity"] / (2.0 - v["surface_emissivity"])
+    air = Material(v["air_conductivity"], v["air_conductivity"], 0.0, v["running_clearance"] * exchange)
+    found = {"floor": solid, "plate": solid, "vane": solid, "wall": wall, "hot": pad, "legs": legs, "cold": pad,
+             "air": air}  # fmt: skip
+    if v["spreader_depth"]:
+        sheet = v["spreader_conductivity"]
+        found["spreader"] = Material(sheet, sheet, v["spreader_density"] * v["spreader_specific_heat"])
+        found["upper wall"] = solid
+        # The gap behind a spreader lies along the ring; it radiates there as between the melt and what is cold.
+        warm, cool = v["pcl_melting"].end, v["ambient_temperature"]
+        shine = v["peltier_thickness"] * exchange * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
+        found["beside tiles"] = Material(air.along + shine, air.up, 0.0)
+    return found
 
 
 def _polymer(v: Mapping[str, Any]) -> Polymer:
@@ -86,7 +107,7 @@ def _polymer(v: Mapping[str, Any]) -> Polymer:
 def _pump(v: Mapping[str, Any]) -> Pump:
     whole = v["peltier_area"]
     return Pump(v["peltier_seebeck"] / whole, v["peltier_resistance"] / whole, v["peltier_conductance"] / whole,
-                v["current"])  # fmt: skip
+                v["current"] / v["heater_strings"])  # fmt: skip
 
 
 def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
@@ -96,7 +117,7 @@ def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
     _bodies(found, v, wide, ring)
     cold = found.cells("cold")
     last = cold[found.i[cold] == np.max(found.i[cold])]
-    shown = found.dy[last] * v["cold_area"] / v["pcl_area"]
+    shown = found.dy[last] * v["cold_area"] / v["heated_area"]
     if v["sink"] is None:
         found.borders.append(Border(last, shown, v["cold_side_coefficient"], v["surface_emissivity"]))
     else:
@@ -105,7 +126,7 @@ def _with_borders(found: Plane, v: Mapping[str, Any]) -> Plane:
     found.meets("floor", "below", v["housing_coefficient"], v["surface_emissivity"])
     # Inner and outer sides of what stands in the chamber, which give their heat to the housing around it.
     sides = v["housing_coefficient"] + 4.0 * STEFAN_BOLTZMANN * v["surface_emissivity"] * v["ambient_temperature"] ** 3
-    for name in ("layer", "hot", "legs", "cold", "vane"):
+    for name in ("layer", "spreader", "hot", "legs", "cold", "vane"):
         own = found.cells(name)
         found.borders.append(Border(own, 2.0 * found.volume[own] / v["block_width"], sides, body=2))
     return found
@@ -123,11 +144,12 @@ def _bodies(found: Plane, v: Mapping[str, Any], wide: float, ring: float) -> Non
     inner, outer, rotor = v["pcl_inner_radius"], v["pcl_outer_radius"], v["rotor_radius"]
     middle, core, around = np.pi * inner**2, v["core_and_link"], v["around_pads"][-1]
     rim = max(np.pi * rotor**2 - ring - middle, 1e-6)
+    walls = sum(_heat(found, name) for name in ("wall", "upper wall") if name in found.materials)
     found.bodies.extend([
         Body(core.capacity / wide),
         Body(rim * height * capacity / wide, rim / wide, v["rotor_coefficient"], v["surface_emissivity"]),
         # The housing's vanes are in the drawing.
-        Body((v["housing_mass"] * v["structure_specific_heat"] - ring * depth * capacity) / wide - _heat(found, "wall"),
+        Body((v["housing_mass"] * v["structure_specific_heat"] - ring * depth * capacity) / wide - walls,
              around.surface.area / wide, v["housing_coefficient"], v["surface_emissivity"]),
         Body(middle * height * capacity / wide, (middle - np.pi * v["core_radius"] ** 2) / wide,
              v["rotor_coefficient"], v["surface_emissivity"]),

@@ -126,3 +126,22 @@ def test_finite_elements_bear_the_plane_out() -> None:
     judged = rows("outside_judge")
     assert {row["pads"] for row in judged} == {"usual", "badly conducting", "well conducting"}
     assert all(abs(float(row["difference [%]"])) < 100.0 * THREE_PERCENT for row in judged)
+
+
+@pytest.mark.parametrize("block_height", [0.0071, 0.0083, 0.0097, 0.0113])
+def test_pads_between_vanes_are_drawn_as_high_as_their_blocks(block_height: float) -> None:
+    found = plane_of(model_of(STUDIES / "wrist_compression.yaml", block_height=block_height))
+    assert np.min(found.volume) > 0.0
+    assert "beside tiles" not in found.material
+
+
+def test_rigid_modules_between_vanes_are_drawn_as_large_as_they_are() -> None:
+    model = model_of(STUDIES / "rigid_modules_compression.yaml")
+    found, known = plane_of(model), inputs_of(model)
+    sizes = model.table.evaluate(known, ["pcl_area", "ring_width", "spreader_volume", "heater_count"])
+    drawn = {name: np.sum(found.volume[found.cells(name)]) for name in found.materials}
+    tiles = sizes["heater_count"] * known["peltier_length"] * known["peltier_width"] * known["peltier_thickness"]
+    assert drawn["hot"] + drawn["legs"] + drawn["cold"] == pytest.approx(tiles / sizes["ring_width"], rel=1e-9)
+    around = sizes["pcl_area"] * known["peltier_thickness"] - tiles
+    assert drawn["beside tiles"] == pytest.approx(around / sizes["ring_width"], rel=1e-9)
+    assert drawn["spreader"] == pytest.approx(sizes["spreader_volume"] / sizes["ring_width"], rel=1e-9)

@@ -53,8 +53,10 @@ def test_the_end_of_a_gap_over_a_slot_gives_what_conduction_in_two_dimensions_sa
     kept[0, 1 : deep + 1], kept[0, deep + 1 : -1] = 1.0, 1.0 - height
     kept[slot + 1 :, deep] = kept[slot + 1, 1 : deep + 1] = kept[:, -1] = 0.0
     found = conducted(inside, kept, np.zeros(inside.shape))
-    leaves = 2.0 * np.sum(1.0 - height - found[1, deep + 1 : -1])
-    assert sum(lumps.gap_end(slot / cells)) == pytest.approx(leaves, rel=0.01)
+    flux = 2.0 * (1.0 - height - found[1, deep + 1 : -1])
+    assert sum(lumps.gap_end(slot / cells)) == pytest.approx(np.sum(flux), rel=0.01)
+    # And how deep it lies in what ends there.
+    assert lumps.gap_end_depth(slot / cells) == pytest.approx(np.sum(0.5 * flux * height * (1.0 - height)), rel=0.01)
 
 
 @pytest.mark.parametrize("slenderness", [0.3, 0.6, 1.0, 1.7])
@@ -72,3 +74,19 @@ def test_a_ledge_conducts_as_two_dimensions_say(slenderness: float) -> None:
     onto, onward = lumps.ledge_ways(wide / high)
     assert onto == pytest.approx(face - ledge, rel=0.02)
     assert onward == pytest.approx(ledge - root, rel=0.02)
+
+
+@pytest.mark.parametrize("share", [0.4, 0.7, 0.9, 1.0])
+def test_a_slab_that_is_heated_over_a_share_of_its_face_resists_as_conduction_says(share: float) -> None:
+    high, deep = 60, 90
+    inside = np.zeros((deep + 2, high + 2), dtype=bool)
+    inside[1:-1, 1:-1] = True
+    kept = np.full(inside.shape, np.nan)
+    kept[-1, 1:-1] = 0.0
+    source = np.zeros(inside.shape)
+    heated = slice(1, 1 + round(share * high))
+    source[1, heated] = 1.0 / (share * high)
+    found = conducted(inside, kept, source)
+    # Half a cell lies between the face and the first row, which the heated share passes in less width.
+    onto = np.mean(found[1, heated]) - np.mean(found[1, 1:-1]) + 0.5 / high * (1.0 / share - 1.0)
+    assert lumps.constriction(share) == pytest.approx(onto, rel=0.01, abs=1e-3)

@@ -14,7 +14,7 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.layers import film
+from tvimdesign.physics.layers import film, layer
 
 quantities = QuantityGroup(shared.group)
 
@@ -30,6 +30,12 @@ def moment_now(
     """The blocks' moment at an instant [m^4], 3 (1 + 2 (S/p)^2) N A r^2, p the share of them that is soft."""
     share = film.soft_share(*slice_moduli)
     return blocks_moment(shape_factor / share, vane_count, block_area, pcl_mean_radius)
+
+
+@quantities.helper(instant=True)
+def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of a block [Pa], its slices in series."""
+    return layer.series_modulus(*slice_moduli)
 
 
 @quantities.helper()

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -19,12 +20,13 @@ from tvimdesign.physics.polymers import polymer
 quantities = QuantityGroup(shared.group)
 
 FLOOR = (0, 1, 2)
-"""Places of the floor's bodies below blocks and pads, from its upper face on."""
+"""Places of the floor's bodies below the blocks, from its upper face on."""
 WALLS = (3, 4, 5)
 """The housing's vanes, from the pads on."""
 RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, 9, 10
-BELOW_PADS, ABOVE_PADS, HOUSING = 11, 12, 13
-"""Beside the upper of the floor's bodies, which is below the blocks, and the plate's lower one, which is above."""
+BELOW_PADS, ABOVE_PADS, HOUSING = (11, 12, 13), 14, 15
+"""The floor's bodies below the pads, from its upper face on; beside the plate's lower one, which is above the
+blocks."""
 ABOVE_VANES, ABOVE = 0, (1, 2, 3)
 """Places beside the vanes: the rotor plate above them; above blocks and pads, from its lower face on."""
 LEGS = ("legs", 0)
@@ -48,7 +50,7 @@ def ring_width(vane_count: Scalar, block_width: Scalar) -> Scalar:
 @quantities.helper()
 def ring_places() -> tuple[Place, Place, Place, Place]:
     """What pads face: floor, rotor plate and housing's vanes; and the housing."""
-    return ("around", BELOW_PADS), ("around", ABOVE_PADS), ("around", WALLS[0]), ("around", HOUSING)
+    return ("around", BELOW_PADS[0]), ("around", ABOVE_PADS), ("around", WALLS[0]), ("around", HOUSING)
 
 
 @quantities.helper()
@@ -79,23 +81,24 @@ def around_pads(
 ) -> tuple[Body, ...]:
     """Floor below blocks and pads, housing vanes, rotor plate without and within the ring, floor below the rotor's and
     the housing's vanes, rotor plate above the housing's, floor and plate next to the pads, the rest."""
-    areas = [ring_width * depth for depth in (heated_length, plate_depth, wall_depth)]
+    pads = pads_share * heated_length
+    depths = (heated_length - pads, pads, plate_depth, wall_depth)
     deep = floor_thickness / structure_conductivity
     below = [
-        Body(area * floor_thickness * structure_heat_capacity, floor_in_air._replace(area=area, behind=way * deep))
-        for area, way in zip(areas, (BEYOND, 1.0 / 3.0, 1.0 / 3.0), strict=True)
-    ]
-    floor = [Body(share * below[0].capacity, lumps.NOWHERE) for share in STRIP]
-    floor[-1] = floor[-1]._replace(surface=below[0].surface)
+        Body(ring_width * depth * floor_thickness * structure_heat_capacity,
+             floor_in_air._replace(area=ring_width * depth, behind=way * deep))
+        for depth, way in zip(depths, (BEYOND, BEYOND, 1.0 / 3.0, 1.0 / 3.0), strict=True)
+    ]  # fmt: skip
+    blocks, below_pads = ([Body(share * whole.capacity, lumps.NOWHERE) for share in STRIP] for whole in below[:2])
+    for bodies, whole in zip((blocks, below_pads), below[:2], strict=True):
+        bodies[-1] = bodies[-1]._replace(surface=whole.surface)
     wall = (pcl_area - cold_area) * (1.0 + running_clearance / block_height) * wall_depth * structure_heat_capacity
     walls = [Body(share * wall, lumps.NOWHERE) for share in STRIP]
     rim, within, above_walls = plate_around
-    below_pads = Body(pads_share * floor[0].capacity, lumps.NOWHERE)
-    above_pads = Body(rotor_thickness / floor_thickness * below_pads.capacity, lumps.NOWHERE)
-    floor[0] = floor[0]._replace(capacity=(1.0 - pads_share) * floor[0].capacity)
-    parts = (*floor, *walls, *below[1:], below_pads)
-    rest = lumps.less(housing_rest, parts, np.pi * housing_inner_radius**2 - sum(areas))
-    return (*floor, *walls, rim, within, *below[1:], above_walls, below_pads, above_pads, rest)
+    above_pads = Body(STRIP[0] * pads * ring_width * rotor_thickness * structure_heat_capacity, lumps.NOWHERE)
+    parts = (*blocks, *walls, *below[2:], *below_pads)
+    rest = lumps.less(housing_rest, parts, np.pi * housing_inner_radius**2 - ring_width * sum(depths))
+    return (*blocks, *walls, rim, within, *below[2:], above_walls, *below_pads, above_pads, rest)
 
 
 @quantities.helper()
@@ -139,25 +142,32 @@ def floor_links(
     wall_depth: Scalar,
     heated_length: Scalar,
     pads_share: Scalar,
-    ways_along: tuple[Scalar, ...],
     ring_width: Scalar,
     floor_thickness: Scalar,
     pcl_outer_radius: Scalar,
     housing_inner_radius: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
-    """Within the floor, along the ring and out to the housing's wall; and within the housing's vanes."""
-    heated = heated_length * ring_width
-    first, second = (structure_conductivity * heated / (way * floor_thickness) for way in WAYS[1:])
-    found = [_link(FLOOR[0], FLOOR[1], (1.0 - pads_share) * first), _link(BELOW_PADS, FLOOR[1], pads_share * first)]
-    found.append(_link(FLOOR[1], FLOOR[2], second))
+    """Within the floor, along the ring and out to the housing's wall; and within the housing's vanes.
+
+    Heat goes along the ring from below the pads through what is below the blocks, which loses or takes heat evenly on
+    the way. What is below pads has its mean temperature a quarter of its length from either end (a sixth where both
+    ends take as much, a third where one takes all), what is heated at its end a third of its length away.
+    """
+    pads = pads_share * heated_length
+    blocks, sheet = heated_length - pads, structure_conductivity * floor_thickness * ring_width
     out = 2.0 * np.pi * structure_conductivity * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
     out = out / (heated_length + plate_depth + wall_depth)
-    to_vanes, to_walls = (structure_conductivity * floor_thickness * ring_width * way for way in ways_along)
-    for i in FLOOR:
-        found.append(_link(i, HOUSING, STRIP[i] * out * heated_length))
-        found.append(_link(i, BELOW_VANES, STRIP[i] * to_vanes))
-        found.append(_link(i, BELOW_WALLS, STRIP[i] * to_walls))
+    to_walls = sheet / (0.25 * pads + wall_depth / 3.0)
+    to_vanes, to_pads, across = lumps.heated_between(sheet / blocks, 3.0 * sheet / plate_depth, 4.0 * sheet / pads)
+    found = []
+    for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, BELOW_WALLS, to_walls)):
+        down = structure_conductivity * depth * ring_width / floor_thickness
+        found += [_link(row[i - 1], row[i], down / way) for i, way in enumerate(WAYS[1:], 1)]
+        for place, share in zip(row, STRIP, strict=True):
+            found += [_link(place, HOUSING, share * out * depth), _link(place, end, share * along)]
+    for block, pad, share in zip(FLOOR, BELOW_PADS, STRIP, strict=True):
+        found += [_link(block, pad, share * to_pads), _link(pad, BELOW_VANES, share * across)]
     found.append(_link(BELOW_VANES, HOUSING, out * plate_depth))
     found.append(_link(BELOW_WALLS, HOUSING, out * wall_depth))
     inwards = structure_conductivity * (pcl_area - cold_area) / wall_depth
@@ -169,12 +179,26 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 
 @quantities.helper()
+def pad_height(heater_form: str, block_height: Scalar, peltier_width: Scalar) -> Scalar:
+    """Height of what heats a block [m]: its pad, or tiles that stand at its lower edge."""
+    return block_height if heater_form == CUT else peltier_width
+
+
+@quantities.helper()
+def pad_rows(heated_area: Scalar, pcl_area: Scalar, pad_height: Scalar, block_height: Scalar) -> Scalar:
+    """What pads or tiles have of the width of the blocks [1]."""
+    return heated_area / pcl_area * block_height / pad_height
+
+
+@quantities.helper()
 def stack_links(
     ring_width: Scalar,
     block_depth: Scalar,
     peltier_thickness: Scalar,
     running_clearance: Scalar,
     block_height: Scalar,
+    pad_height: Scalar,
+    pad_rows: Scalar,
     pcl_conductivity_melt: Scalar,
     air_conductivity: Scalar,
     surface_emissivity: Scalar,
@@ -193,15 +217,17 @@ def stack_links(
     The pads lose heat from their legs, which are as thick as they are, by half from either side at the legs' mean
     temperature. Where legs fall evenly from T_h to T_c the hot side loses two thirds of what is at T_h and a third of
     what is at T_c: 1/12 of the difference more. A clearance between a wall of one temperature and one that changes
-    along it conducts along as well, like a strip of a third of its width.
+    along it conducts along as well, like a strip of a third of its width. Above tiles there is more air.
     """
-    blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS), ("around", ABOVE_PADS))
+    blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS))
     to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
     found = []
-    for place, depth, faced in ((("layer", 0), block_depth, blocks), (LEGS, peltier_thickness, pads)):
+    above = running_clearance + block_height - pad_height
+    of_pads = (LEGS, pad_rows * peltier_thickness, pads, (running_clearance, above))
+    for place, depth, faced, gaps in ((("layer", 0), block_depth, blocks, (running_clearance,) * 2), of_pads):
         area = ring_width * depth
-        for face, deep in zip(faced, (floor_thickness, rotor_thickness), strict=True):
-            gap = lumps.air_gap(area, running_clearance, air_conductivity, surface_emissivity, place, face)
+        for face, deep, wide in zip(faced, (floor_thickness, rotor_thickness), gaps, strict=True):
+            gap = lumps.air_gap(area, wide, air_conductivity, surface_emissivity, place, face)
             walls = structure_conductivity * area / (WAYS[0] * deep)
             if place == ("layer", 0):
                 walls = lumps.in_series(walls, pcl_conductivity_melt * area / (to_faces * 0.5 * block_height))
@@ -236,15 +262,21 @@ def side_links(
     block_depth: Scalar,
     plate_depth: Scalar,
     peltier_thickness: Scalar,
+    block_height: Scalar,
+    pad_height: Scalar,
     heated_area: Scalar,
     cold_area: Scalar,
     wall_depth: Scalar,
     structure_conductivity: Scalar,
     spreader_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
-    """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes."""
-    housing, pads = ("around", HOUSING), peltier_thickness * open_sides
-    into_walls = structure_conductivity * (heated_area - cold_area) / (WAYS[0] * wall_depth)
+    """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes.
+
+    Tiles heat a vane over their own height.
+    """
+    housing, pads = ("around", HOUSING), pad_height / block_height * peltier_thickness * open_sides
+    onto = WAYS[0] * wall_depth + lumps.constriction(pad_height / block_height) * pad_height
+    into_walls = structure_conductivity * (heated_area - cold_area) / onto
     return (
         Link(("layer", 0), housing, open_sides * block_depth),
         Link(("plate", 0), housing, open_sides * plate_depth),

@@ -35,6 +35,24 @@ def housing_ring(
 
 
 @quantities.helper()
+def floor_end(
+    beside_area: Scalar,
+    edge_length: Scalar,
+    floor_web: Scalar,
+    floor_thickness: Scalar,
+    housing_ring: Scalar,
+    structure_conductivity: Scalar,
+    ambient_temperature: Scalar,
+    floor_in_air: lumps.Surface,
+) -> tuple[lumps.Surface, Scalar, Scalar]:
+    """Outer end of the lower strip: the last body's surface, its conductance to the housing [W/K], surface [m^2] that
+    counts there."""
+    along = structure_conductivity * floor_web * edge_length**2 / (BEYOND * beside_area)
+    face = floor_in_air._replace(area=STRIP[-1] * beside_area, behind=floor_web / 3.0 / structure_conductivity)
+    return lumps.strip_end(face, along, housing_ring * floor_web / floor_thickness, ambient_temperature)
+
+
+@quantities.helper()
 def around_pads(
     pcl_area: Scalar,
     cold_area: Scalar,
@@ -47,6 +65,7 @@ def around_pads(
     structure_conductivity: Scalar,
     floor_in_air: lumps.Surface,
     housing_rest: Body,
+    floor_end: tuple[lumps.Surface, Scalar, Scalar],
 ) -> tuple[Body, ...]:
     """What the pads are set in: upper and lower strip of the floor, ledges, corner, and the rest of the housing."""
     volumetric = structure_heat_capacity
@@ -55,8 +74,10 @@ def around_pads(
     upper = [corner, *(Body(area * pad_depth * volumetric, lumps.NOWHERE) for area in areas[1:])]
     face = floor_in_air._replace(behind=floor_web / 3.0 / structure_conductivity)
     lower = [Body(area * floor_web * volumetric, face._replace(area=area)) for area in (*areas, pcl_area - cold_area)]
+    last, _, at_housing = floor_end
+    lower[-2] = lower[-2]._replace(surface=last)
     floor = (*upper, *lower, corner)
-    below = np.pi * (housing_outer_radius**2 - rotor_radius**2)
+    below = np.pi * (housing_outer_radius**2 - rotor_radius**2) + at_housing
     return (*floor, lumps.less(housing_rest, floor, below))
 
 
@@ -68,6 +89,7 @@ def floor_links(
     floor_web: Scalar,
     floor_thickness: Scalar,
     housing_ring: Scalar,
+    floor_end: tuple[lumps.Surface, Scalar, Scalar],
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
     """What conducts within the floor, along the strips to the housing's wall and from the upper to the lower one."""
@@ -79,8 +101,8 @@ def floor_links(
             found.append(_link(CORNER, row[1], 0.5 * first))
             first = 0.5 * first
         found += [_link(row[i], row[i + 1], along) for i, along in enumerate((first, *others))]
-        to_wall = lumps.in_series(per_depth * depth / BEYOND, housing_ring * depth / floor_thickness)
-        found.append(_link(row[-1], HOUSING, to_wall))
+    to_wall = lumps.in_series(per_depth * pad_depth / BEYOND, housing_ring * pad_depth / floor_thickness)
+    found += [_link(UPPER[-1], HOUSING, to_wall), _link(LOWER[-1], HOUSING, floor_end[1])]
     down = [structure_conductivity * share * beside_area for share in STRIP]
     found.append(_link(CORNER, UPPER[0], down[0] / (0.5 * pad_depth)))
     for i, area in enumerate(down):
@@ -94,15 +116,23 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 
 @quantities.helper()
+def pad_wall(
+    pad_edge: Scalar, beside_area: Scalar, edge_length: Scalar, pad_depth: Scalar, structure_conductivity: Scalar
+) -> Scalar:
+    """Conductance [W/K] from one side of the pads into the first body of the floor beside half of their pockets."""
+    way = WAYS[0] * beside_area / edge_length
+    return lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / way)
+
+
+@quantities.helper()
 def stack_links(
     heater_form: str,
-    pad_edge: Scalar,
+    pad_wall: Scalar,
     pcl_area: Scalar,
     heated_area: Scalar,
     cold_area: Scalar,
     beside_area: Scalar,
     edge_length: Scalar,
-    pad_depth: Scalar,
     peltier_thickness: Scalar,
     floor_web: Scalar,
     structure_conductivity: Scalar,
@@ -117,24 +147,24 @@ def stack_links(
     """
     first, ledge = WAYS[0] * beside_area / edge_length, (heated_area - cold_area) / edge_length
     bare = (pcl_area - heated_area) / edge_length
-    wall = lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / first)
     onto, to_root = (way / (structure_conductivity * edge_length) for way in lumps.ledge_ways(ledge / floor_web))
     beyond = (bare + first) / (structure_conductivity * floor_web * edge_length)
     upper, lower, ledges = ("around", CORNER), ("around", UPPER[0]), ("around", LEDGES)
     hot, cold = ("hot", 0), ("cold", 0)
     if heater_form == CUT:
-        rims = [Link(side, half, 0.5 * wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)]
+        rims = [
+            Link(side, half, 0.5 * pad_wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)
+        ]
     else:
         backs = lumps.air_gap(
             pcl_area - heated_area, peltier_thickness, air_conductivity, surface_emissivity, hot, ledges
         )
-        rims = [Link(hot, upper, wall), backs]
+        rims = [Link(hot, upper, pad_wall), backs]
     return (*rims, Link(cold, ledges, 1.0 / onto), _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)))
 
 
 @quantities.helper()
-def side_links(
-    edge_length: Scalar,
+def air_beside(
     pcl_thickness: Scalar,
     pcl_conductivity_melt: Scalar,
     pad_edge_contact: Scalar,
@@ -142,23 +172,37 @@ def side_links(
     surface_emissivity: Scalar,
     ambient_temperature: Scalar,
     pcl_melting: polymer.Melting,
-    structure_conductivity: Scalar,
-) -> tuple[Link, ...]:
-    """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
+) -> tuple[Scalar, Scalar]:
+    """Of the gap's air at the layer's free side the conductivity [W/m K], in series with the layer's; and the slot's
+    width over the gap's.
 
-    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. The gap
-    conducts better up than along, as its faces radiate, here as where the PCL is molten: it is an even one of the mean
-    conductivity sqrt(k_x k_y), x stretched by sqrt(k_y/k_x). The contact of the pads' edges is a slot of still air.
+    The gap conducts better up than along, as its faces radiate, here as where the PCL is molten: it is an even one of
+    the mean conductivity sqrt(k_x k_y), x stretched by sqrt(k_y/k_x). The contact of the pads' edges is a slot of
+    still air.
     """
     across = lumps.air_gap(1.0, pcl_thickness, air_conductivity, surface_emissivity, ("hot", 0), ("around", CORNER))
     up = pcl_thickness * lumps.link_conductance(across, pcl_melting.end, ambient_temperature)
     evenly = np.sqrt(air_conductivity * up)
-    near, far = lumps.gap_end(evenly / (pad_edge_contact * pcl_thickness))
-    through = edge_length / (1.0 / evenly + 1.0 / pcl_conductivity_melt)
+    return lumps.in_series(evenly, pcl_conductivity_melt), evenly / (pad_edge_contact * pcl_thickness)
+
+
+@quantities.helper()
+def side_links(
+    edge_length: Scalar, air_beside: tuple[Scalar, Scalar], structure_conductivity: Scalar
+) -> tuple[Link, ...]:
+    """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
+
+    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
+    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side.
+    """
+    conductivity, slot = air_beside
+    near, far = lumps.gap_end(slot)
+    through = edge_length * conductivity
     corner = structure_conductivity * edge_length * lumps.corner_shape(near)
+    inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
     return (
-        Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner)),
-        Link(("hot", 0), ("beside", 0), far * through),
+        Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner), of_layer=inside),
+        Link(("hot", 0), ("beside", 0), far * through, of_layer=inside),
     )
 
 

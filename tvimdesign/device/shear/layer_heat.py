@@ -61,7 +61,7 @@ def to_edge(pcl_area: Scalar, edge_length: Scalar) -> Scalar:
 
 
 @quantities.helper()
-def plate_to_edge(
+def plate_slenderness(
     pcl_area: Scalar,
     edge_length: Scalar,
     pcl_depth: Scalar,
@@ -70,13 +70,22 @@ def plate_to_edge(
     backing_depth: Scalar,
     structure_conductivity: Scalar,
 ) -> Scalar:
-    """Conductance [W/K] from where the plate above the arcs has its mean temperature to their edges.
-
-    The layer heats the plate from below, more where that is colder.
-    """
-    width, sheet = pcl_area / edge_length, structure_conductivity * backing_depth
+    """Of the plate above the arcs as a fin w (h/k t)^(1/2) [1]: the layer heats it, more where it is colder."""
     layer = 0.5 * (pcl_conductivity_solid + pcl_conductivity_melt) / pcl_depth
-    return sheet * edge_length / (width * lumps.way_in_fin(width * np.sqrt(layer / sheet)))
+    return pcl_area / edge_length * np.sqrt(layer / (structure_conductivity * backing_depth))
+
+
+@quantities.helper()
+def plate_to_edge(
+    pcl_area: Scalar,
+    edge_length: Scalar,
+    plate_slenderness: Scalar,
+    backing_depth: Scalar,
+    structure_conductivity: Scalar,
+) -> Scalar:
+    """Conductance [W/K] from where the plate above the arcs has its mean temperature to their edges."""
+    width, sheet = pcl_area / edge_length, structure_conductivity * backing_depth
+    return sheet * edge_length / (width * lumps.way_in_fin(plate_slenderness))
 
 
 @quantities.helper()
@@ -132,22 +141,32 @@ def uneven_sideways(plate_to_edge: Scalar, edge_length: Scalar, structure_conduc
 
 
 @quantities.helper()
-def pad_edge(
+def heater_along(
     heater_form: str,
-    pad_edge_contact: Scalar,
     pad_conductivity: Scalar,
     peltier_thickness: Scalar,
     spreader_conductivity: Scalar,
     spreader_depth: Scalar,
-    edge_length: Scalar,
     to_edge: Scalar,
+) -> Scalar:
+    """Conductance [W/K] along half of the pads' thickness, or the spreader, from its mean temperature to its edge."""
+    if heater_form != CUT:
+        return spreader_conductivity * spreader_depth * to_edge
+    return pad_conductivity * 0.5 * peltier_thickness * to_edge
+
+
+@quantities.helper()
+def pad_edge(
+    heater_form: str,
+    pad_edge_contact: Scalar,
+    peltier_thickness: Scalar,
+    spreader_depth: Scalar,
+    edge_length: Scalar,
+    heater_along: Scalar,
 ) -> Scalar:
     """Conductance from one side of the pads to the walls of their pockets [W/K]: along the pads, and into the wall.
 
     Tiles stand in air there; the spreader on them touches the wall.
     """
-    if heater_form != CUT:
-        along = spreader_conductivity * spreader_depth * to_edge
-        return lumps.in_series(along, pad_edge_contact * spreader_depth * edge_length)
-    half = 0.5 * peltier_thickness
-    return lumps.in_series(pad_conductivity * half * to_edge, pad_edge_contact * half * edge_length)
+    height = 0.5 * peltier_thickness if heater_form == CUT else spreader_depth
+    return lumps.in_series(heater_along, pad_edge_contact * height * edge_length)

@@ -22,9 +22,17 @@ hundredth of w^2/alpha on. Bodies with their means in their middles take 5 to 15
 """
 BEYOND = 1.0 - sum(WAYS)
 """Way from the last of them to the strip's other edge; a steady flow has the whole width before it."""
+AT_END = 1.0 - 0.5 * STRIP[-1] / BEYOND
+"""Share of the way from the last of them to that edge at which their share of the strip has its mean temperature while
+heat flows on steadily."""
 INTO_SLOT = 0.2619
 """Heat per length over k and excess that leaves a warm wall above the slot's mouth for the slot: ln(1/0.4392)/pi, where
 0.4392 is the mouth's height in the map of `gap_end`, the root of sqrt(1 + u) = artanh(1/sqrt(1 + u))."""
+BEFORE_SLOT = 0.27993
+"""What a narrow slot takes of `gap_end_depth` for its width over the gap's: 2/pi^2 times the integral of p coth p up to
+1.19968, where p = coth p."""
+FALLING = 12.0
+"""What a layer gives in all over the `gap_end_depth` of it, where it gives 2 (1 - y/t) of that at each height y/t."""
 ZETA_3 = 1.2020569032
 
 
@@ -81,6 +89,8 @@ class Link(NamedTuple):
     """[W/K]"""
     radiating_area: Any = 0.0
     """Area times exchange factor 1/(1/e + 1/e - 1) [m^2]."""
+    of_layer: Any = None
+    """Share of its heat [1] that the layer gives in place of `first`; none where not given."""
 
 
 def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
@@ -124,7 +134,8 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
     """Heat [W] that links bring to each of the `places`, by group, and to each cell of what is `divided` into cells.
 
     A link of what is divided takes from each cell in turn as much as that is warmer than the link's other end, and
-    radiates as from their mean temperature.
+    radiates as from their mean temperature. What the layer gives in place of a link's first end (`Link.of_layer`) comes
+    from its cells, most from the first, falling evenly to nothing at its far face.
     """
     at = {**places, **{group: [np.mean(cells)] for group, cells in divided.items()}}
     found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in at.items()}
@@ -140,7 +151,18 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
                 found[group][i] = found[group][i] + conductance * (other - own)
     for group, cells in divided.items():
         found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
+    for link in links:
+        if link.of_layer is not None:
+            (group, i), count = link.first, len(divided["layer"])
+            given = link.of_layer * link_heat(link, at[group][i], at[link.second[0]][link.second[1]])
+            found[group][i] = found[group][i] + given
+            found["layer"][0] = found["layer"][0] - given * _falling(count)
     return found
+
+
+def _falling(count: int) -> Any:
+    """Shares of a layer's cells in what falls evenly over its depth to nothing."""
+    return 2.0 * (1.0 - (np.arange(count) + 0.5) / count) / count
 
 
 class Loss(NamedTuple):
@@ -183,6 +205,19 @@ def gap_end(slot: Any) -> tuple[Any, Any]:
     return np.log(1.0 + 0.25 / slot**2) / np.pi + INTO_SLOT, 2.0 / np.pi * np.log(2.0)
 
 
+def gap_end_depth(slot: Any) -> Any:
+    """How much heat through the end of a gap lies deep in what ends there [1]: the integral of q y (t - y)/(2 t^2) dy.
+
+    A layer whose end loses the flux q(y) is colder in the mean by k_gap/k times that, times t over its width, than with
+    q at its faces: its mean over the width has T'' = q/(k w), whatever its profile. The series of `gap_end` is
+    cot(pi y/(2 t)), of which 7 zeta(3)/(2 pi^3) comes. Before a narrow slot g the map has the flux 1/(g s) at
+    y = 2 g/pi (s - artanh(1/s)): less by 2/pi^2 times the integral of p coth p up to artanh(1/s) = s, 0.28 g/t.
+    A fraction with both is within 2 % of conduction in two dimensions up to g = t/3, 3 % at 0.6 t.
+    """
+    whole = 3.5 * ZETA_3 / np.pi**3
+    return whole / (1.0 + BEFORE_SLOT * slot / whole)
+
+
 def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
     """Ways [1] from a ledge's upper face to its mean, and on to its root, over its height: T k L/Q, heat Q, length L.
 
@@ -195,6 +230,15 @@ def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
     falling = sum(np.exp(-2.0 * n * np.pi * slenderness) / n**3 for n in (1, 2, 3))
     onto = 1.0 / (3.0 * slenderness) - (ZETA_3 - falling) / (np.pi**3 * slenderness**2)
     return onto, slenderness / 3.0
+
+
+def constriction(share: Any) -> Any:
+    """What a slab resists more where only a `share` of its face up to one side is heated, evenly, times k and length.
+
+    By separation of variables (Carslaw and Jaeger, ch. V) the heated share is warmer than the mean of the face by the
+    sum of 2 sin^2(n pi f)/((n pi)^3 f^2), heat over k and length, in a slab deeper than a third of its height.
+    """
+    return sum(2.0 * np.sin(n * np.pi * share) ** 2 / ((n * np.pi) ** 3 * share**2) for n in range(1, 9))
 
 
 def corner_shape(shape: Any) -> Any:
@@ -216,6 +260,20 @@ def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple
         Lump(across / way, share * area * heat_capacity, surface._replace(area=share * area * surface.area))
         for share, way in zip(STRIP, WAYS, strict=True)
     )
+
+
+def strip_end(surface: Surface, along: Any, onward: Any, ambient: Any) -> tuple[Surface, Any, Any]:
+    """Surface of a strip's last body, its conductance [W/K] to what takes heat at the strip's end, and surface [m^2]
+    that counts there.
+
+    `along` is the conductance from the body to the end, `onward` from there. The body's part of the strip is colder
+    than the body while heat flows on, by `AT_END` of what the end is: that share of its surface is at the end, which
+    has a temperature between body and onward (star to delta).
+    """
+    end = AT_END * surface.area
+    total = along + onward + end * surface_coefficient(surface, ambient, ambient)
+    own = surface.area - end * (1.0 - along / total)
+    return surface._replace(area=own), along * onward / total, end * onward / total
 
 
 def way_to_faces(slenderness: Any) -> Any:

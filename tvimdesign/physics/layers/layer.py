@@ -5,6 +5,7 @@ Textbook torsion of a flat ring: shear strain r theta/t, traction G r theta/t, t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,14 @@ def series_modulus(storage: Any, loss: Any) -> tuple[Any, Any]:
     real, imaginary = np.mean(storage / square), np.mean(loss / square)
     square = real**2 + imaginary**2
     return real / square, imaginary / square
+
+
+def side_by_side(columns: Sequence[tuple[Any, Any]], shares: Sequence[float]) -> tuple[Any, Any]:
+    """Storage and loss modulus [Pa] of columns of a layer that are sheared alike: the mean by their shares of it."""
+    storage, loss = (
+        sum(share * one for share, one in zip(shares, parts, strict=True)) for parts in zip(*columns, strict=True)
+    )
+    return storage, loss
 
 
 def series_stiffness(stiffness: Any, loss_stiffness: Any, support: Any, support_loss: Any = 0.0) -> tuple[Any, Any]:

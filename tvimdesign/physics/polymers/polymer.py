@@ -94,6 +94,12 @@ def enthalpy(temperature_kelvin: Any, melting: Melting) -> Any:
     return melting.specific_heat_solid * below + (h2 - h1) / window * inside + melting.specific_heat_melt * above
 
 
+def melting_at(temperature_kelvin: Any, melting: Melting) -> tuple[Any, Any]:
+    """Temperature [K] and solid fraction on the melting curve at a temperature, with its rounded corners."""
+    heat = enthalpy(temperature_kelvin, melting)
+    return temperature(heat, melting), solid_fraction(heat, melting)
+
+
 class SolidModulus(NamedTuple):
     """The frozen polymer's stiffness: E at a reference, and a slope that sets in with temperature."""
 

@@ -5,8 +5,8 @@ Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`,
 `cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
 `stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
 layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
-(`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `moment_now` what a partly molten layer
-is to the joint. `layer_heater.py` has the layer that its own current heats.
+(`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `layer_moduli` and `moment_now` what a
+partly molten layer is to the joint. `layer_heater.py` has the layer that its own current heats.
 """
 
 from __future__ import annotations
@@ -260,12 +260,6 @@ def slice_moduli(
 ) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the phase leads."""
     return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency_now, pcl_rheology)
-
-
-@quantities.helper(instant=True)
-def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of the layer [Pa], its slices in series."""
-    return layer.series_modulus(*slice_moduli)
 
 
 @quantities.helper(instant=True)

@@ -1,0 +1,117 @@
+"""A layer in columns from the middle of a strip to its edge, and what its end loses, against conduction in two
+dimensions and boundary value problems."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_bvp
+from scipy.sparse import eye, kron
+from scipy.sparse.linalg import spsolve
+
+from tvimdesign.physics.heat_flow import columns, lumps
+
+Array = NDArray[np.float64]
+
+
+def second_difference(count: int, walls: float) -> Array:
+    """Conduction along a row of `count` cells of a length of one; `walls` is 2 where both ends are at 0, 0 for none."""
+    diagonal = np.full(count, 2.0)
+    diagonal[[0, -1]] = 1.0 + walls
+    return count**2 * (np.diag(diagonal) - np.eye(count, k=1) - np.eye(count, k=-1))
+
+
+def layer_that_loses(flux: Array, width: float, across: int) -> Array:
+    """Temperatures of a layer of depth and conductivity one, faces at 0, that loses a flux over its end, by column."""
+    deep = len(flux)
+    inside = kron(second_difference(across, 0.0) / width**2, eye(deep)) + kron(
+        eye(across), second_difference(deep, 2.0)
+    )
+    source = np.zeros((across, deep))
+    source[-1] = -flux * across / width
+    return np.asarray(spsolve(inside.tocsc(), source.ravel())).reshape(across, deep)
+
+
+@pytest.mark.parametrize("width", [0.7, 1.5, 5.0])
+def test_a_layer_is_below_its_mean_by_what_conduction_in_two_dimensions_says(width: float) -> None:
+    across, deep = 300, 60
+    heights = (np.arange(deep) + 0.5) / deep
+    waves = np.pi * np.arange(1, columns.SINES + 1)
+    flux = 2.0 * np.sum(np.sin(np.outer(waves, heights)), axis=0)
+    found = layer_that_loses(flux, width, across)
+    below = np.mean(found, axis=0) - found
+    places = (np.arange(across) + 0.5) / across
+    for column, place in enumerate(places):
+        if place < 0.97:
+            ours = columns.at_end(float(place), heights, width, 0.0)
+            assert ours == pytest.approx(below[column], abs=0.01)
+
+
+def test_what_a_layer_gives_evenly_falling_leaves_it_as_cold_in_the_mean_as_its_end_does() -> None:
+    across, deep, width = 200, 200, 1.2
+    heights = (np.arange(deep) + 0.5) / deep
+    flux = 1.0 / np.tan(0.5 * np.pi * heights)
+    mean = np.mean(layer_that_loses(flux, width, across))
+    share = lumps.FALLING * lumps.gap_end_depth(0.0)
+    sink = 2.0 * (1.0 - heights) * share / width
+    column = np.linalg.solve(second_difference(deep, 2.0), -sink)
+    assert np.mean(column) == pytest.approx(mean, rel=0.01)
+
+
+@pytest.mark.parametrize("slenderness", [0.04, 0.5, 1.9, 4.0])
+def test_a_sheet_is_below_its_mean_as_a_fin_whose_edge_is_cooled(slenderness: float) -> None:
+    # t'' = x^2 (t - 1) over the half width, nothing passes its middle, the edge is at 0.
+    found = solve_bvp(
+        lambda _, t: np.array([t[1], slenderness**2 * (t[0] - 1.0)]),
+        lambda at_middle, at_edge: np.array([at_middle[1], at_edge[0]]),
+        np.linspace(0.0, 1.0, 401),
+        np.zeros((2, 401)),
+        tol=1e-8,
+    )
+    fine = np.linspace(0.0, 1.0, 4001)
+    mean = np.trapezoid(found.sol(fine)[0], fine)
+    for place in columns.PLACES:
+        assert columns.in_sheet(place, slenderness) == pytest.approx((mean - found.sol(place)[0]) / mean, abs=2e-4)
+    if slenderness < 0.1:
+        for place in columns.PLACES:
+            assert columns.fed_evenly(place) == pytest.approx(columns.in_sheet(place, slenderness), abs=1e-3)
+
+
+def test_columns_have_no_mean_of_their_own() -> None:
+    heights = np.array([0.2, 0.5, 0.8])
+    for shape in (columns.fed_evenly, lambda place: columns.in_sheet(place, 1.5)):
+        assert np.dot(columns.SHARES, [shape(place) for place in columns.PLACES]) == pytest.approx(0.0, abs=1e-3)
+    ends = np.array([columns.at_end(place, heights, 3.0, 0.1) for place in columns.PLACES])
+    assert columns.SHARES @ ends == pytest.approx(np.zeros(3), abs=0.02)
+
+
+@pytest.mark.parametrize("onward", [0.005, 0.02, 0.08, 0.5])
+@pytest.mark.parametrize("coefficient", [3.0, 10.0, 25.0])
+def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward: float, coefficient: float) -> None:
+    # A fin of 10 mm that gives heat to the air and at its end onwards, both at 0; its edge at 1.
+    sheet, width = 5e-4, 10e-3
+    steep = np.sqrt(coefficient / sheet)
+    tanh, wave = np.tanh(steep * width), np.sqrt(coefficient * sheet)
+    exact = wave * (onward / wave + tanh) / (1.0 + onward / wave * tanh)
+    air = lumps.Surface(1.0, coefficient)
+    bodies = lumps.strip(width, 1.0, sheet / width, air)
+    last, to_end, at_end = lumps.strip_end(bodies[-1].surface, sheet / width / lumps.BEYOND, onward, 300.0)
+    # What counts at the end meets the same air as the end itself, which takes all at 0.
+    assert last.area + at_end < bodies[-1].surface.area
+    taken = to_end + coefficient * last.area
+    for body, before in zip(bodies[::-1], (*bodies[-2::-1], None), strict=True):
+        taken = lumps.in_series(body.conductance, taken)
+        taken += coefficient * before.surface.area if before else 0.0
+    assert taken == pytest.approx(exact, rel=0.007)
+
+
+def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> None:
+    cells = np.array([350.0, 340.0, 330.0, 320.0])
+    places = {"hot": [360.0], "around": [310.0]}
+    link = lumps.Link(("hot", 0), ("around", 0), 0.2)
+    found = lumps.linked([link._replace(of_layer=0.7)], places, {"layer": cells})
+    assert found["around"][0] == pytest.approx(10.0)
+    assert found["hot"][0] == pytest.approx(-3.0)
+    # Seven, five, three and one sixteenth: it falls evenly to nothing at the far face.
+    assert found["layer"][0] == pytest.approx(-7.0 * np.array([7.0, 5.0, 3.0, 1.0]) / 16.0)
