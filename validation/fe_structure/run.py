@@ -7,16 +7,22 @@ parts are exported as STEP, and FE finds the rate of a spring, the stiffness of 
 stresses. Of a study with a front or a comparison, its own optimum. What is in the work folder already is not made
 again. Without a name: all studies that ship. A study that fails keeps its rows; the command then ends with 1. With
 `--check` the table is only held against what is found.
+
+Several of these commands may run at once, on studies of their own: each holds a lock while it reads both files, puts a
+study's rows in and writes them again.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import csv
+import fcntl
 import json
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -141,12 +147,24 @@ def differing(study: str, fresh: list[Row]) -> list[str]:
 
 def put(study: str, fresh: list[Row], case: dict[str, Any]) -> None:
     """Put a study's rows and case in place of those that stood in results.csv and shipped.yaml."""
-    cases = yaml.safe_load(CASES.read_text()) if CASES.exists() else {}
-    CASES.write_text(yaml.safe_dump({**cases, study: case}, width=160, default_flow_style=None))
-    with RESULTS.open(newline="") as file:
-        kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
-    with RESULTS.open("w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
+    with alone():
+        cases = yaml.safe_load(CASES.read_text()) if CASES.exists() else {}
+        CASES.write_text(yaml.safe_dump({**cases, study: case}, width=160, default_flow_style=None))
+        with RESULTS.open(newline="") as file:
+            kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
+        with RESULTS.open("w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
+
+
+@contextlib.contextmanager
+def alone() -> Iterator[None]:
+    """No other process that asks for this goes on meanwhile: the folder is locked."""
+    folder = os.open(HERE, os.O_RDONLY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(folder)
 
 
 if __name__ == "__main__":
