@@ -18,6 +18,9 @@ WINDOW = 0.25, 0.3
 """Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]."""
 PAD_GAP = 0.2
 """How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it."""
+OTHER_GAPS = 0.3, 0.25, 0.35
+"""The same where the first leaves an edge shorter than `SLIVER`, which gets no mesh: a wall beside a vane's end."""
+SLIVER = 0.005
 
 
 def tube(inner: float, outer: float, bottom: float, top: float) -> Any:
@@ -104,10 +107,20 @@ def _ring_housing(whole: Any, mm: dict[str, float], pads: list[Any]) -> Any:
     end of that edge, would belong to the vane as well, and a line or a point that is tied bears more than a soft pad.
     """
     far, inside = 500.0, 0.5 * (mm["hub_radius"] + mm["pcl_inner_radius"])
-    housing = whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    plain = whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    housing = plain
+    for gap in (PAD_GAP, *OTHER_GAPS):
+        housing = _with_gaps(plain, pads, gap)
+        if min(float(edge.mass) for edge in housing.edges) > SLIVER:
+            break
+    return housing
+
+
+def _with_gaps(housing: Any, pads: list[Any], gap: float) -> Any:
+    """Housing whose pockets' walls stand off the pads."""
     for pad in pads:
         for sense in (-1, 0, 1):
-            housing -= pad.Move(_along(pad, sense * PAD_GAP) - Vec(0, 0, PAD_GAP))
+            housing -= pad.Move(_along(pad, sense * gap) - Vec(0, 0, gap))
     return housing
 
 
