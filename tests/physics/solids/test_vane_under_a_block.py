@@ -80,8 +80,8 @@ def between(modulus: float) -> vane.BlockBetween:
 
 
 def test_two_vanes_under_a_block_stand_where_their_energy_and_its_is_least() -> None:
-    # Angles of both vanes by a search for the least of strain energy less the work of a force between them. The block's
-    # corners go with the vanes' faces, which lie half a thickness beside the lines that turn: its shear by finite turns.
+    # Angles of both vanes by a search for the least of strain energy less the work of a force between them. The block
+    # goes with the vanes' faces, which lie half a thickness beside the lines that turn.
     one, other, block = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(8e-7, 0.0, 6e-3), between(140e6)
     arm, width, height, depth = 0.4e-3 + 0.5 * HEIGHT, WIDTH, HEIGHT, 5e-3
 
