@@ -8,7 +8,8 @@ stresses. Of a study with a front or a comparison, its own optimum. What is in t
 again. Without a name: all studies that ship. A study that fails keeps its rows; the command then ends with 1. With
 `--check` the table is only held against what is found.
 
-With `--model` nothing is solved: the model's column is told anew, of the designs that stand in the table.
+With `--model` nothing is solved: the model's column is told anew, of the designs that stand in the table, and the table
+of README.md is printed.
 
 Several of these commands may run at once, on studies of their own: each holds a lock while it reads both files, puts a
 study's rows in and writes them again.
@@ -124,6 +125,7 @@ def main() -> None:
     asked = parser.parse_args()
     if asked.model:
         tell_model()
+        print(*worst_first(), sep="\n")
         return
     failed = []
     shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")} - LEFT_OUT
@@ -158,6 +160,19 @@ def tell_model() -> None:
             for row in rows
         ]
         write(fresh)
+
+
+def worst_first() -> list[str]:
+    """Rows of the table in README.md: what model over FE is, the quantity that is farthest off first."""
+    with RESULTS.open(newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["ratio"]]
+    found = []
+    for name in {row["quantity"] for row in rows}:
+        ratios = sorted((float(row["ratio"]), row["study"]) for row in rows if row["quantity"] == name)
+        off, study = max((abs(ratio - 1.0), study) for ratio, study in ratios)
+        words = f"| {name} | {ratios[0][0]:.3f} to {ratios[-1][0]:.3f} | `{study}` | {len(ratios)} |"
+        found.append((off, words))
+    return [words for _, words in sorted(found, reverse=True)]
 
 
 def write(rows: list[list[str]]) -> None:

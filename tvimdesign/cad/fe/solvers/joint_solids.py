@@ -14,7 +14,7 @@ FOOT, EDGE = 0.5, 2.0
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
 PRESSED = 0.4
 """Size of elements in a pad that is pressed, over its thickness."""
-WINDOW = 0.25, 0.3
+WINDOW = 0.125, 0.2
 """Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]."""
 PAD_GAP = 0.2
 """How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it."""
