@@ -211,7 +211,7 @@ def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
     inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
     rise = shear_lag.arc_edge_rise(*lap(case), (inner, outer), held_share(case, mm))
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
-    # Pads a hundred times softer than the layer: it spreads over its own thickness what the ledges bear, not in the form.
+    # Over pads a hundred times softer the layer spreads what the ledges bear over its own thickness: not in the form.
     soft = case["pad_shear_modulus"] < 0.01 * case["frozen_shear_modulus"]
     assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.1 if soft else 0.08)
 
