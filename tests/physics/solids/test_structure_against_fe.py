@@ -46,10 +46,9 @@ def bores(mm: dict[str, float]) -> tuple[structure.Bores, structure.Bores]:
 
 
 def foot_rise(mm: dict[str, float]) -> float:
-    if "vane_count" not in mm:
-        length = mm["link_bottom_level"] - mm["rotor_top_level"]
-        return float(structure.foot_rise_on_plate(mm["core_radius"], length, mm["rotor_thickness"], *bores(mm)))
-    return float(structure.foot_rise_among_vanes(mm["core_radius"], mm["rotor_thickness"]))
+    among = structure.foot_rise_among_vanes if "vane_count" in mm else structure.foot_rise_on_plate
+    length = mm["link_bottom_level"] - mm["rotor_top_level"]
+    return float(among(mm["core_radius"], length, mm["rotor_thickness"], *bores(mm)))
 
 
 BORED = [name for name in (*SHEAR, *SPREAD) if "link_screw_hole" in SHIPPED[name]["mm"]]
@@ -156,7 +155,7 @@ def test_the_floor_on_its_feet_is_as_stiff_as_in_fe(name: str) -> None:
     lag = shear_lag.lag(*lap(case), mm["pcl_outer_radius"] - mm["pcl_inner_radius"])
     below = structure.ring_under_arcs_stiffness(ring, coverage(mm), lag)
     found = structure.series(below, footed_floor(case))
-    assert found == pytest.approx(case["found"]["housing"], rel=0.085)
+    assert found == pytest.approx(case["found"]["housing"], rel=0.095)  # as structure.footed_floor_stiffness says
 
 
 @pytest.mark.parametrize(("name", "rel"), [("printed_shear", 0.16), ("milled_shear", 0.25)])
