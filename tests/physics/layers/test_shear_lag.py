@@ -1,5 +1,7 @@
 """Shear lag in a lap joint and over a window: Volkersen's result for like sheets, the equations solved by numbers."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy import sparse
@@ -69,7 +71,7 @@ def lost_width(window: float, fine: int) -> float:
         [np.stack([at[:-1].ravel(), at[1:].ravel()]), np.stack([at[:, :-1].ravel(), at[:, 1:].ravel()])], 1
     )
     flow = np.concatenate([np.tile(tall, columns - 1), np.repeat(wide, rows - 1)])
-    whole = sparse.coo_matrix(
+    whole: Any = sparse.coo_matrix(
         (np.tile(-flow, 2), (pairs.ravel(), pairs[::-1].ravel())), shape=(at.size, at.size)
     ).tocsr()
     whole += sparse.diags(-np.asarray(whole.sum(axis=1)).ravel())

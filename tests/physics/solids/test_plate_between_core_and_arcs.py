@@ -1,5 +1,7 @@
 """The rotor's plate: how a torque enters it and leaves it, by differences and by integrals."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy import sparse
@@ -27,7 +29,7 @@ def stepped_bar(plate: float, reach: float, fine: int) -> float:
         flows.append(0.5 * weight.ravel())
         beyond.append(np.broadcast_to(radii[:-1, None] > 1.0 - 1e-9, solid.shape).ravel())
     pairs, flow = np.concatenate(ends, 1), np.concatenate(flows)
-    whole = sparse.coo_matrix(
+    whole: Any = sparse.coo_matrix(
         (np.tile(-flow, 2), (pairs.ravel(), pairs[::-1].ravel())), shape=(at.size, at.size)
     ).tocsr()
     whole += sparse.diags(-np.asarray(whole.sum(axis=1)).ravel())
