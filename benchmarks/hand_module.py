@@ -26,8 +26,8 @@ BEND, BEND_ACROSS, BEND_IN_PLANE = 2.0, 1.1, (4.0 * 4.0**2 - 4.0 - 1.0) / (4.0 *
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
-SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, FOOT_TILT = 0.1, 0.15, 0.6, 1.38
-CORE_FOOT, BORED_FOOT, NEAR_FOOT, HOLDING_SAFETY = 0.733, 0.9, 0.15, 1.25
+SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, BORED_PLATE, FOOT_TILT = 0.1, 0.15, 0.38, 0.2, 1.38
+CORE_FOOT, BORED_FOOT, NEAR_FOOT, HOLDING_SAFETY = 0.796, 1.41, 0.25, 1.25
 WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
 PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
 RADIAL, AXIAL, RUNNING, RIM, HUB_WALL, FOOT, NOTCH = 1e-3, 1e-3, 0.4e-3, 1.5e-3, 3e-3, 6e-3, 12e-3
@@ -265,7 +265,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     felt = BY_SCREWS / (1.0 + math.exp((free - link_deep) / (NEAR_FOOT * CORE)))
     felt += BY_DOWELS / (1.0 + math.exp((free - dowel_deep) / (NEAR_FOOT * CORE)))
     beside_holes = max(2.0 * BOLT_CIRCLE / (1.0 - BY_SCREWS), 2.0 * DOWEL_CIRCLE / (1.0 - BY_DOWELS)) / CORE
-    sharp = CORE_FOOT * (CORE / 1e-3) ** (1.0 / 3.0) * (CORE / ROTOR) ** 0.1
+    sharp = CORE_FOOT * (CORE / 1e-3) ** 0.26 * (CORE / ROTOR) ** 0.137
     worst = max(sharp * (1.0 + BORED_FOOT * felt), beside_holes)
     to_screws, to_dowels = min(link_deep, free + BORE_ENTRY * CORE), min(dowel_deep, free + BORE_ENTRY * CORE)
     both = min(to_screws, to_dowels)
@@ -274,8 +274,11 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     inner, far = INNER + LEDGE, outer - LEDGE
     opened, cut = span - 2.0 * LEDGE / INNER, 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0))
     windows = ARCS * (0.5 * opened * (far**2 - inner**2) - cut)
-    over = 0.5 * (far - inner) / math.sqrt((t / G_FROZEN + PAD / (3.0 * G_PAD)) * G_PAD * PAD)
-    held = polar - (1.0 - math.tanh(over) / over) * ARCS * (0.25 * opened * (far**4 - inner**4) - cut * middle**2)
+    across, along = 0.25 * PI * (far - inner) / PAD, 0.25 * PI * opened * middle / PAD
+    slack = math.log(math.cosh(across)) / across * math.log(math.cosh(along)) / along
+    held = polar - slack * ARCS * (0.25 * opened * (far**4 - inner**4) - cut * middle**2)
+    left = 0.5 * outer**8 * (INNER**-2 - outer**-2) - outer**4 * (outer**2 - INNER**2) + (outer**6 - INNER**6) / 6.0
+    left *= 2.0 / (outer**4 - INNER**4) ** 2
     driven = math.sqrt(ARCS * span / (2.0 * PI))
     hole = 0.5 * MOUNT_HOLE
     sideways = 1.0 / (
@@ -285,8 +288,10 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     lag = (outer - INNER) * math.sqrt((driven / (G_PETG * ROTOR) + web_sheet) / (t / G_FROZEN + PAD / G_PAD))
     support = 1.0 / (
         2.0 * free / (G_PETG * PI * CORE**4)
-        + ((1.0 + PLATE_ENTRY * (ROTOR / CORE) ** 2) / CORE**2 - INNER**-2) / (4.0 * PI * G_PETG * ROTOR)
-        + (INNER**-2 - middle**-2) / driven / (4.0 * PI * G_PETG * ROTOR)
+        + ((1.0 + PLATE_ENTRY * (ROTOR / CORE) ** 2 + BORED_PLATE * felt) / CORE**2 - INNER**-2)
+        / (4.0 * PI * G_PETG * ROTOR)
+        + left / driven / (4.0 * PI * G_PETG * ROTOR)
+        + ROTOR / (3.0 * G_PETG * polar)
         + (middle**-2 - outer**-2) * math.tanh(lag) / lag / driven**2 / (4.0 * PI * G_PETG * (FLOOR - PAD))
         + (outer**-2 - r**-2) / (4.0 * PI * G_PETG * FLOOR)
         + (3.0 - NU_PETG) * math.log(PI * r / SPRINGS / BOSS) / (4.0 * PI * G_PETG * FLOOR * SPRINGS * r**2)

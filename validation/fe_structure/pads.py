@@ -1,14 +1,14 @@
-"""FE of single rubber pads, pressed between a stiff face and one with a slot; prints pads.csv.
+"""FE of single rubber pads, pressed between a stiff face and one with a slot; solves the rows of pads.csv anew.
 
     FE/bin/python validation/fe_structure/pads.py
 
-FE/bin/python has netgen-mesher and ngsolve. Half of each pad, cubic elements, half as large at the slot's edges.
+FE/bin/python has netgen-mesher and ngsolve. The pads' sizes stand in the table; what is found is written into its last
+column. Half of each pad, cubic elements, half as large at the slot's edges.
 """
 
 from __future__ import annotations
 
 import csv
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -52,14 +52,18 @@ def over_three_g(width: float, height: float, thick: float, slot: tuple[float, f
 
 
 def main() -> None:
-    """Print the table with what is found in its last column."""
+    """Write what is found into the table's last column."""
     with TABLE.open(newline="") as file:
         rows = list(csv.DictReader(file))
-    writer = csv.DictWriter(sys.stdout, rows[0], lineterminator="\n")
-    writer.writeheader()
     for row in rows:
         width, height, thick, across, up, poisson = (float(row[name]) for name in list(row)[:-1])
-        writer.writerow({**row, "over_three_g": round(over_three_g(width, height, thick, (across, up), poisson), 3)})
+        found = over_three_g(width, height, thick, (across, up), poisson)
+        print(f"{row['width']} x {row['height']}: {row['over_three_g']} -> {found:.3f}", flush=True)
+        row["over_three_g"] = f"{found:.3f}"
+    with TABLE.open("w", newline="") as file:
+        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 if __name__ == "__main__":

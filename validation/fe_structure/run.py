@@ -7,21 +7,30 @@ parts are exported as STEP, and FE finds the rate of a spring, the stiffness of 
 stresses. Of a study with a front or a comparison, its own optimum. What is in the work folder already is not made
 again. Without a name: all studies that ship. A study that fails keeps its rows; the command then ends with 1. With
 `--check` the table is only held against what is found.
+
+With `--model` nothing is solved: the model's column is told anew, of the designs that stand in the table, and the table
+of README.md is printed.
+
+Several of these commands may run at once, on studies of their own: each holds a lock while it reads both files, puts a
+study's rows in and writes them again.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import csv
+import fcntl
 import json
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import yaml
-from models import LEFT_OUT, Row, case_of, design_rows, fe_values, model_values
+from models import DESIGN, LEFT_OUT, Row, case_of, design_rows, designed, fe_values, model_values
 
 from tvimdesign.cad.fe.exported_parts import export_parts
 from tvimdesign.cad.fe.run_solvers import SOLVERS
@@ -109,10 +118,15 @@ def main() -> None:
     """Solve what is asked for and put its rows in place of those that stood in results.csv."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("studies", nargs="*", metavar="STUDY")
-    parser.add_argument("--fe-python", type=Path, required=True)
+    parser.add_argument("--fe-python", type=Path, default=Path(sys.executable))
     parser.add_argument("--work", type=Path, default=Path("fe_work"))
     parser.add_argument("--check", action="store_true", help="hold what is found against the table, and write nothing")
+    parser.add_argument("--model", action="store_true", help="tell anew what the model says, and solve nothing")
     asked = parser.parse_args()
+    if asked.model:
+        tell_model()
+        print(*worst_first(), sep="\n")
+        return
     failed = []
     shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")} - LEFT_OUT
     for study in asked.studies or sorted(shipped):
@@ -125,6 +139,46 @@ def main() -> None:
             failed.append(f"{study}: {trouble}")
     if failed:
         sys.exit("\n".join(failed))
+
+
+def tell_model() -> None:
+    """Put what today's model says of the designs in results.csv in place of what it said, beside the same FE."""
+    with alone():
+        with RESULTS.open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        told = {}
+        for study in {row["study"] for row in rows}:
+            own = [row for row in rows if row["study"] == study and row["unit"] in DESIGN]
+            varied = {row["quantity"]: designed(row["model"], row["unit"]) for row in own}
+            told |= {(study, name): value for name, (_, value) in model_values(study, varied).items()}
+        fresh = [
+            Row(
+                row["study"], row["quantity"], row["unit"], told[row["study"], row["quantity"]], float(row["fe"])
+            ).cells()
+            if row["fe"]
+            else [row[name] for name in HEADER]
+            for row in rows
+        ]
+        write(fresh)
+
+
+def worst_first() -> list[str]:
+    """Rows of the table in README.md: what model over FE is, the quantity that is farthest off first."""
+    with RESULTS.open(newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["ratio"]]
+    found = []
+    for name in {row["quantity"] for row in rows}:
+        ratios = sorted((float(row["ratio"]), row["study"]) for row in rows if row["quantity"] == name)
+        off, study = max((abs(ratio - 1.0), study) for ratio, study in ratios)
+        words = f"| {name} | {ratios[0][0]:.3f} to {ratios[-1][0]:.3f} | `{study}` | {len(ratios)} |"
+        found.append((off, words))
+    return [words for _, words in sorted(found, reverse=True)]
+
+
+def write(rows: list[list[str]]) -> None:
+    """Put rows into results.csv, sorted."""
+    with RESULTS.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted(rows)])
 
 
 def differing(study: str, fresh: list[Row]) -> list[str]:
@@ -141,12 +195,23 @@ def differing(study: str, fresh: list[Row]) -> list[str]:
 
 def put(study: str, fresh: list[Row], case: dict[str, Any]) -> None:
     """Put a study's rows and case in place of those that stood in results.csv and shipped.yaml."""
-    cases = yaml.safe_load(CASES.read_text()) if CASES.exists() else {}
-    CASES.write_text(yaml.safe_dump({**cases, study: case}, width=160, default_flow_style=None))
-    with RESULTS.open(newline="") as file:
-        kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
-    with RESULTS.open("w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([HEADER, *sorted([*kept, *(row.cells() for row in fresh)])])
+    with alone():
+        cases = yaml.safe_load(CASES.read_text()) if CASES.exists() else {}
+        CASES.write_text(yaml.safe_dump({**cases, study: case}, width=160, default_flow_style=None))
+        with RESULTS.open(newline="") as file:
+            kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
+        write([*kept, *(row.cells() for row in fresh)])
+
+
+@contextlib.contextmanager
+def alone() -> Iterator[None]:
+    """No other process that asks for this goes on meanwhile: the folder is locked."""
+    folder = os.open(HERE, os.O_RDONLY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(folder)
 
 
 if __name__ == "__main__":

@@ -7,21 +7,26 @@ from scipy.integrate import solve_bvp
 from tvimdesign.physics.layers import annular_lap, shear_lag
 
 
-def solved(lap: annular_lap.AnnularLap) -> tuple[float, float, float]:
-    """Rises at both edges over T r_o/J, and the upper sheet's share, of M'' - 3 M'/r = l^2 (M - n), by numbers."""
+def solved(lap: annular_lap.AnnularLap) -> tuple[float, float, float, float]:
+    """Rises at both edges over T r_o/J, the upper sheet's share, and the traction's mean square over an even one's.
+
+    Of M'' - 3 M'/r = l^2 (M - n), by numbers.
+    """
     a, b = lap.inner, lap.outer
 
     def slopes(r: np.ndarray, y: np.ndarray) -> np.ndarray:
-        torque, slope, _ = y
-        return np.vstack([slope, 3.0 * slope / r + lap.lag**2 * (torque - lap.rest), torque**2 / r**3])
+        torque, slope, _, _ = y
+        pulled = 3.0 * slope / r + lap.lag**2 * (torque - lap.rest)
+        return np.vstack([slope, pulled, torque**2 / r**3, slope**2 / r**3])
 
     grid = np.linspace(a, b, 100)
     found = solve_bvp(
-        slopes, lambda at, to: np.array([at[0] - 1.0, to[0], at[2]]), grid, np.ones((3, grid.size)), tol=1e-6
+        slopes, lambda at, to: np.array([at[0] - 1.0, to[0], at[2], at[3]]), grid, np.ones((4, grid.size)), tol=1e-6
     )
     even = 0.25 * (b**4 - a**4) / b
     share = found.sol(b)[2] / (0.5 * (a**-2 - b**-2))
-    return -found.sol(a)[1] * even / a**2, -found.sol(b)[1] * even / b**2, share
+    square = found.sol(b)[3] * 0.25 * (b**4 - a**4)
+    return -found.sol(a)[1] * even / a**2, -found.sol(b)[1] * even / b**2, share, square
 
 
 @pytest.mark.parametrize("rest", [0.0, 0.16, 0.5, 0.9])
@@ -32,11 +37,12 @@ def test_edges_and_sheet_of_a_lap_in_the_round_are_as_its_equation_says(
 ) -> None:
     outer = 27.5e-3
     lap = annular_lap.AnnularLap(reach / (outer - inner), rest, inner, outer)
-    at_inner, at_outer, share = solved(lap)
+    at_inner, at_outer, share, square = solved(lap)
     found = annular_lap.edge_rises(lap)
     assert found[0] == pytest.approx(at_inner, rel=0.04)
     assert found[1] == pytest.approx(at_outer, rel=0.01)
     assert annular_lap.upper_share(lap) == pytest.approx(share, rel=0.01)
+    assert annular_lap.unevenness(lap) == pytest.approx(square, rel=0.03)
 
 
 def test_between_stiff_sheets_the_traction_goes_with_the_radius() -> None:

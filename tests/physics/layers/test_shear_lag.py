@@ -1,8 +1,12 @@
 """Shear lag in a lap joint and over a window: Volkersen's result for like sheets, the equations solved by numbers."""
 
+from typing import Any
+
 import numpy as np
 import pytest
+from scipy import sparse
 from scipy.integrate import solve_bvp
+from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.layers import shear_lag
 
@@ -52,3 +56,42 @@ def test_what_is_borne_over_a_window_agrees_with_its_equation_solved(half: float
 
 def test_a_window_of_no_width_costs_nothing() -> None:
     assert shear_lag.borne_over_window(1e11, 1e-5, 0.0) == pytest.approx(1.0, abs=1e-9)
+
+
+def lost_width(window: float, fine: int) -> float:
+    """How much less a strip of the thickness one passes on for a free stretch of its lower face, by differences.
+
+    Its upper face is moved by one, its lower one held beyond the `window`, from x = 0 where it is symmetrical.
+    """
+    columns, rows = round((window + 3.0) * fine) + 1, fine + 1
+    at = np.arange(columns * rows).reshape(columns, rows)
+    wide, tall = np.ones(columns), np.ones(rows)
+    wide[[0, -1]], tall[[0, -1]] = 0.5, 0.5
+    pairs = np.concatenate(
+        [np.stack([at[:-1].ravel(), at[1:].ravel()]), np.stack([at[:, :-1].ravel(), at[:, 1:].ravel()])], 1
+    )
+    flow = np.concatenate([np.tile(tall, columns - 1), np.repeat(wide, rows - 1)])
+    whole: Any = sparse.coo_matrix(
+        (np.tile(-flow, 2), (pairs.ravel(), pairs[::-1].ravel())), shape=(at.size, at.size)
+    ).tocsr()
+    whole += sparse.diags(-np.asarray(whole.sum(axis=1)).ravel())
+    moved, free = np.zeros(at.size), np.ones(at.size, dtype=bool)
+    moved[at[:, -1]] = 1.0
+    free[at[:, -1]] = False
+    free[at[np.arange(columns) / fine > window - 1e-9, 0]] = False
+    moved[free] = spsolve(whole[free][:, free].tocsc(), -whole[free] @ moved)
+    return (columns - 1) / fine - float(moved @ (whole @ moved))
+
+
+@pytest.mark.parametrize("half", [0.5, 1.0, 2.0, 3.5])
+def test_a_pad_beside_a_window_is_held_as_a_harmonic_function_has_it(half: float) -> None:
+    # The mesh holds up to the last free point, so that its window is half a step narrower: errors fall with the step.
+    coarse, fine = (lost_width(half, count) for count in (20, 40))
+    share = 1.0 - (2.0 * fine - coarse) / half
+    assert shear_lag.held_over_window(1.0, half) == pytest.approx(share, abs=0.004)
+
+
+def test_beside_a_wide_window_a_strip_of_its_own_width_holds_a_pad() -> None:
+    # The fringe of a strip line of no thickness, 2 ln 2/pi of the distance from its plane to the wall beside it.
+    assert 10.0 * shear_lag.held_over_window(1.0, 10.0) == pytest.approx(0.4413, abs=1e-4)
+    assert shear_lag.held_over_window(1.0, 0.0) == pytest.approx(1.0, abs=1e-5)

@@ -46,10 +46,9 @@ def bores(mm: dict[str, float]) -> tuple[structure.Bores, structure.Bores]:
 
 
 def foot_rise(mm: dict[str, float]) -> float:
-    if "vane_count" not in mm:
-        length = mm["link_bottom_level"] - mm["rotor_top_level"]
-        return float(structure.foot_rise_on_plate(mm["core_radius"], length, mm["rotor_thickness"], *bores(mm)))
-    return float(structure.foot_rise_among_vanes(mm["core_radius"], mm["rotor_thickness"]))
+    among = structure.foot_rise_among_vanes if "vane_count" in mm else structure.foot_rise_on_plate
+    length = mm["link_bottom_level"] - mm["rotor_top_level"]
+    return float(among(mm["core_radius"], length, mm["rotor_thickness"], *bores(mm)))
 
 
 BORED = [name for name in (*SHEAR, *SPREAD) if "link_screw_hole" in SHIPPED[name]["mm"]]
@@ -121,15 +120,31 @@ def lap(case: dict[str, Any]) -> tuple[float, float, float]:
 
 def inside(mm: dict[str, float], shear: float) -> float:
     """Plate between the core and the PCL."""
-    return float(structure.plate_stiffness(shear, mm["rotor_thickness"], mm["core_radius"], mm["pcl_inner_radius"]))
+    length = mm["link_bottom_level"] - mm["rotor_top_level"]
+    felt = structure.felt_at_foot(mm["core_radius"], length, *bores(mm)) if "link_screw_hole" in mm else 0.0
+    sheet = mm["rotor_thickness"], mm["core_radius"], mm["pcl_inner_radius"]
+    return float(structure.plate_stiffness(shear, *sheet, felt))
+
+
+def polar_moment(mm: dict[str, float]) -> float:
+    """Polar moment of the arcs [m^4]."""
+    return 0.25 * mm["arc_count"] * mm["arc_span"] * (mm["pcl_outer_radius"] ** 4 - mm["pcl_inner_radius"] ** 4)
+
+
+def above_arcs(mm: dict[str, float], shear: float) -> tuple[float, float]:
+    """Stiffness of the plate above the arcs, turned inner edge against outer, and compliance over its thickness."""
+    sheet = mm["rotor_thickness"], mm["pcl_inner_radius"], mm["pcl_outer_radius"]
+    whole = structure.covered_ring_stiffness(shear, *sheet, coverage(mm))
+    return whole, structure.face_compliance(shear, mm["rotor_thickness"], polar_moment(mm))
 
 
 @pytest.mark.parametrize("name", SHEAR)
 def test_the_plate_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(SHIPPED[name])
-    above = mm["rotor_thickness"], mm["pcl_inner_radius"], middle(mm), coverage(mm)
-    found = structure.series(inside(mm, shear), structure.covered_ring_stiffness(shear, *above))
-    assert found == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.07)
+    whole, over_thickness = above_arcs(mm, shear)
+    above = structure.evenly_relieved(mm["pcl_inner_radius"], mm["pcl_outer_radius"]) / whole + over_thickness
+    found = structure.series(inside(mm, shear), 1.0 / above)
+    assert found == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.06)
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -140,7 +155,7 @@ def test_the_floor_on_its_feet_is_as_stiff_as_in_fe(name: str) -> None:
     lag = shear_lag.lag(*lap(case), mm["pcl_outer_radius"] - mm["pcl_inner_radius"])
     below = structure.ring_under_arcs_stiffness(ring, coverage(mm), lag)
     found = structure.series(below, footed_floor(case))
-    assert found == pytest.approx(case["found"]["housing"], rel=0.085)
+    assert found == pytest.approx(case["found"]["housing"], rel=0.095)  # as structure.footed_floor_stiffness says
 
 
 @pytest.mark.parametrize(("name", "rel"), [("printed_shear", 0.16), ("milled_shear", 0.25)])
@@ -167,15 +182,24 @@ def held_share(case: dict[str, Any], mm: dict[str, float]) -> float:
     return float(1.0 - (1.0 - borne) * window)
 
 
+def held_pads(mm: dict[str, float]) -> float:
+    """Share of the pads' polar moment that holds."""
+    inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
+    span = mm["arc_span"] - 2.0 * ledge / inner
+    halves = 0.5 * (outer - inner) - ledge, 0.5 * span * middle(mm)
+    lost = np.prod([1.0 - shear_lag.held_over_window(mm["peltier_thickness"], half) for half in halves])
+    window = span * ((outer - ledge) ** 4 - (inner + ledge) ** 4) / (mm["arc_span"] * (outer**4 - inner**4))
+    return float(1.0 - lost * window)
+
+
 @pytest.mark.parametrize("name", SHEAR)
 def test_pads_over_windows_add_the_compliance_they_do_in_fe(name: str) -> None:
-    # By themselves they are up to a third too stiff, where ribs between long arcs let the inner ledges follow.
     case = SHIPPED[name]
     mm, _, _ = read(case)
-    polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (mm["pcl_outer_radius"] ** 4 - mm["pcl_inner_radius"] ** 4)
-    even = case["pad_shear_modulus"] * 1e9 * polar / mm["peltier_thickness"]
+    even = case["pad_shear_modulus"] * 1e9 * polar_moment(mm) / mm["peltier_thickness"]
     fe, hub = case["found"]["pad"], case["found"]["hub"]
-    assert hub / (even * held_share(case, mm)) == pytest.approx(hub / fe, abs=0.06)
+    # 0.02, and 0.005 that FE's elements at the windows' edges hold too much (validation/fe_structure).
+    assert hub / (even * held_pads(mm)) == pytest.approx(hub / fe, abs=0.025)
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -186,7 +210,9 @@ def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
     inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
     rise = shear_lag.arc_edge_rise(*lap(case), (inner, outer), held_share(case, mm))
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
-    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.08)
+    # Over pads a hundred times softer the layer spreads what the ledges bear over its own thickness: not in the form.
+    soft = case["pad_shear_modulus"] < 0.01 * case["frozen_shear_modulus"]
+    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.1 if soft else 0.08)
 
 
 def tiled(mm: dict[str, float], less: float = 0.0) -> float:
@@ -209,10 +235,10 @@ def spread_lap(case: dict[str, Any]) -> annular_lap.AnnularLap:
 @pytest.mark.parametrize("name", SPREAD)
 def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(SHIPPED[name])
-    over = mm["rotor_thickness"], mm["pcl_inner_radius"], mm["pcl_outer_radius"], coverage(mm)
-    whole = structure.covered_ring_stiffness(shear, *over)
-    above = whole / annular_lap.upper_share(spread_lap(SHIPPED[name]))
-    assert structure.series(inside(mm, shear), above) == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.04)
+    whole, over_thickness = above_arcs(mm, shear)
+    lap = spread_lap(SHIPPED[name])
+    above = annular_lap.upper_share(lap) / whole + annular_lap.unevenness(lap) * over_thickness
+    assert structure.series(inside(mm, shear), 1.0 / above) == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.04)
 
 
 @pytest.mark.parametrize("name", SPREAD)
@@ -240,7 +266,8 @@ def test_the_floor_below_rigid_modules_is_as_stiff_as_in_fe(name: str) -> None:
     seats = 1.0 / (on_ledge * ledges[0] ** 2), 1.0 / (on_ledge * ledges[1] ** 2)
     below = structure.under_ledges_compliance(seats, 1.0 / ribs, 1.0 / beyond)
     found = 1.0 / (below + 1.0 / footed_floor(case))
-    assert found == pytest.approx(case["found"]["housing"], rel=0.08)
+    # 10 % in `driven_joint`, whose floor a motor opens, and 7 % in `ankle`, whose feet stand inside its edge.
+    assert found == pytest.approx(case["found"]["housing"], rel=0.1)
 
 
 def test_of_two_ledges_the_outer_bears_all_where_nothing_leads_out_from_the_inner() -> None:
@@ -266,8 +293,8 @@ def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     above = structure.ring_stiffness(shear, mm["rotor_thickness"], mm["pcl_inner_radius"], middle(mm))
     rotor = structure.series(inside(mm, shear), above, arm / vane.compliance(hangs, stands, block))
     housing = structure.series(footed_floor(SHIPPED[name]), arm / vane.compliance(stands, hangs, block))
-    assert rotor == pytest.approx(structure.series(fe["plate"], fe["rotor_vanes"]), rel=0.09)
-    assert housing == pytest.approx(structure.series(fe["housing"], fe["housing_vanes"]), rel=0.08)
+    assert rotor == pytest.approx(structure.series(fe["plate"], fe["rotor_vanes"]), rel=0.04)
+    assert housing == pytest.approx(structure.series(fe["housing"], fe["housing_vanes"]), rel=0.065)
 
 
 @pytest.mark.parametrize("name", LINKS)

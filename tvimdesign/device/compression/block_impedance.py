@@ -86,9 +86,17 @@ def housing_vane_thickness(slot_angle: Scalar, pcl_mean_radius: Scalar) -> Scala
 
 
 @quantities.helper()
-def core_foot_rise(core_radius: Scalar, rotor_thickness: Scalar) -> Scalar:
-    """Rise of the core's stress at its foot [1]: among the vanes that hang from its plate."""
-    return structure.foot_rise_among_vanes(core_radius, rotor_thickness)
+def core_foot_rise(
+    core_radius: Scalar,
+    link_bottom_level: Scalar,
+    rotor_top_level: Scalar,
+    rotor_thickness: Scalar,
+    core_screw_bores: structure.Bores,
+    core_dowel_bores: structure.Bores,
+) -> Scalar:
+    """Rise of the core's stress at its foot [1]: among the vanes that hang from its plate, with the link's holes."""
+    length = link_bottom_level - rotor_top_level
+    return structure.foot_rise_among_vanes(core_radius, length, rotor_thickness, core_screw_bores, core_dowel_bores)
 
 
 @quantities.helper()

@@ -97,16 +97,20 @@ def over_arcs_compliance(
     structure_shear_modulus: Scalar,
     backing_depth: Scalar,
     pcl_inner_radius: Scalar,
-    pcl_mean_radius: Scalar,
     pcl_outer_radius: Scalar,
     driven_share: Scalar,
+    layer_polar_moment: Scalar,
 ) -> Scalar:
-    """What the rotor plate gives above the arcs [rad/(N*m)]: to their middle, or as a spreader takes it over."""
-    sheet = structure_shear_modulus, backing_depth, pcl_inner_radius
+    """What the rotor plate gives above the arcs [rad/(N*m)]: as it leads the torque on, and over its thickness.
+
+    The layer relieves it evenly, or as a spreader takes the torque over.
+    """
+    radii = pcl_inner_radius, pcl_outer_radius
+    whole = structure.covered_ring_stiffness(structure_shear_modulus, backing_depth, *radii, driven_share)
+    over_thickness = structure.face_compliance(structure_shear_modulus, backing_depth, layer_polar_moment)
     if lap_on_spreader is None:
-        return 1.0 / structure.covered_ring_stiffness(*sheet, pcl_mean_radius, driven_share)
-    whole = structure.covered_ring_stiffness(*sheet, pcl_outer_radius, driven_share)
-    return annular_lap.upper_share(lap_on_spreader) / whole
+        return structure.evenly_relieved(*radii) / whole + over_thickness
+    return annular_lap.upper_share(lap_on_spreader) / whole + annular_lap.unevenness(lap_on_spreader) * over_thickness
 
 
 @quantities.helper(requires=WITH_TILES)

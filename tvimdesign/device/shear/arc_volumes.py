@@ -59,7 +59,7 @@ def window_section(
     peltier_width: Scalar,
     tile_radius: Scalar,
     arc_count: Scalar,
-    arc_span: Scalar,
+    window_span: Scalar,
     pcl_inner_radius: Scalar,
     pcl_outer_radius: Scalar,
     window_ledge: Scalar,
@@ -69,9 +69,8 @@ def window_section(
     if heater_form != CUT:
         sides = (peltier_width - 2.0 * window_ledge, peltier_length - 2.0 * window_ledge)
         return rectangle_at(*sides, tile_radius, corner_radius).times(heater_count)
-    span = arc_span - 2.0 * window_ledge / pcl_inner_radius
     inner, outer = pcl_inner_radius + window_ledge, pcl_outer_radius - window_ledge
-    return _rounded_sector(span, inner, outer, corner_radius).times(arc_count)
+    return _rounded_sector(window_span, inner, outer, corner_radius).times(arc_count)
 
 
 @quantities.helper()

@@ -41,6 +41,12 @@ def pcl_damping(loss_modulus: Scalar, layer_polar_moment: Scalar, pcl_thickness:
 
 
 @quantities.helper()
+def window_span(arc_span: Scalar, window_ledge: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Angle that the window below an arc takes up [rad]."""
+    return arc_span - 2.0 * window_ledge / pcl_inner_radius
+
+
+@quantities.helper()
 def held_polar_moment(
     heater_form: str,
     layer_polar_moment: Scalar,
@@ -62,6 +68,27 @@ def held_polar_moment(
     sheet = 1.0 / (peltier_shear_modulus * peltier_thickness)
     borne = shear_lag.borne_over_window(per_area, sheet, 0.5 * window_depth)
     return layer_polar_moment - (1.0 - borne) * window_section.polar
+
+
+@quantities.helper()
+def held_pads(
+    heater_form: str,
+    layer_polar_moment: Scalar,
+    window_section: Section,
+    window_depth: Scalar,
+    window_span: Scalar,
+    pcl_mean_radius: Scalar,
+    peltier_thickness: Scalar,
+) -> Scalar:
+    """Polar moment of the pads [m^4] less what gives above the windows, along both rims and both ends of each.
+
+    A spreader bridges the windows.
+    """
+    if heater_form != CUT:
+        return layer_polar_moment
+    halves = 0.5 * window_depth, 0.5 * window_span * pcl_mean_radius
+    lost = [1.0 - shear_lag.held_over_window(peltier_thickness, half) for half in halves]
+    return layer_polar_moment - lost[0] * lost[1] * window_section.polar
 
 
 @quantities.helper(requires=WITH_LINER)

@@ -43,16 +43,16 @@ def pad_compliance(
     heater_form: str,
     peltier_thickness: Scalar,
     peltier_shear_modulus: Scalar,
-    held_polar_moment: Scalar,
+    held_pads: Scalar,
     tile_section: Section,
     spreader_depth: Scalar,
     spreader_shear_modulus: Scalar,
 ) -> Scalar:
     """Compliance of the pads in shear about the axis [rad/(N*m)]: modules, and the spreader on them."""
     if heater_form == CUT:
-        return peltier_thickness / (peltier_shear_modulus * held_polar_moment)
+        return peltier_thickness / (peltier_shear_modulus * held_pads)
     tiles = peltier_thickness / (peltier_shear_modulus * tile_section.polar)
-    return tiles + spreader_depth / (spreader_shear_modulus * held_polar_moment)
+    return tiles + spreader_depth / (spreader_shear_modulus * held_pads)
 
 
 @quantities.helper()

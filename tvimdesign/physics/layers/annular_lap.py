@@ -54,18 +54,31 @@ def edge_rises(lap: AnnularLap) -> tuple[Any, Any]:
 
 def upper_share(lap: AnnularLap) -> Any:
     """Compliance of the upper sheet over that of its ring turned inner edge against outer [1]."""
+    worked = sum(weight * (torque / radius) ** 2 for weight, radius, torque, _ in _nodes(lap))  # it turns by M/r^3
+    return worked * lap.inner**2 / (0.5 * (1.0 - (lap.inner / lap.outer) ** 2))
+
+
+def unevenness(lap: AnnularLap) -> Any:
+    """Mean square of the layer's traction over that of one in proportion to the radius, of the same torque [1]."""
+    worked = sum(weight * (slope / radius) ** 2 for weight, radius, _, slope in _nodes(lap))
+    return worked * (lap.outer**4 - lap.inner**4) / 4.0
+
+
+def _nodes(lap: AnnularLap) -> list[tuple[Any, Any, Any, Any]]:
+    """Weight of dr/r, radius, M/T and its slope [1/m] at nodes between both edges."""
     a, b, rest = lap.inner, lap.outer, lap.rest
     ends = _reach(lap.lag * a), _reach(lap.lag * b)
-    worked = 0.0
-    for node, weight in zip(0.5 * (1.0 + NODES), 0.5 * WEIGHTS, strict=True):
-        way = node * np.log(b / a)
-        radius = a * np.exp(way)
+    whole, found = np.sinh(ends[1] - ends[0]), []
+    for node, weight in zip(0.5 * (1.0 + NODES), 0.5 * WEIGHTS * np.log(b / a), strict=True):
+        radius = a * np.exp(node * np.log(b / a))
         here, slope = _reach(lap.lag * radius), _slope(lap.lag * radius)
-        comes = (radius / a) ** 2 * np.sqrt(_slope(lap.lag * a) / slope) * np.sinh(ends[1] - here)
-        stays = (radius / b) ** 2 * np.sqrt(_slope(lap.lag * b) / slope) * np.sinh(here - ends[0])
-        torque = rest + ((1.0 - rest) * comes - rest * stays) / np.sinh(ends[1] - ends[0])
-        worked = worked + weight * np.log(b / a) * (torque * a / radius) ** 2  # the sheet turns by M/r^3
-    return worked / (0.5 * (1.0 - (a / b) ** 2))
+        came = (1.0 - rest) * (radius / a) ** 2 * np.sqrt(_slope(lap.lag * a) / slope) / whole
+        stays = rest * (radius / b) ** 2 * np.sqrt(_slope(lap.lag * b) / slope) / whole
+        still = came * np.sinh(ends[1] - here) - stays * np.sinh(here - ends[0])
+        falls = (came * np.cosh(ends[1] - here) + stays * np.cosh(here - ends[0])) * slope
+        grows = still * (2.0 - 0.5 * (lap.lag * radius / slope) ** 2)
+        found.append((weight, radius, rest + still, (grows - falls) / radius))
+    return found
 
 
 def _slope(x: Any) -> Any:

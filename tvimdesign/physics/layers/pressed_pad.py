@@ -13,7 +13,7 @@ import numpy as np
 
 from tvimdesign.physics.layers import block
 
-SPREAD = 0.5
+SPREAD = 0.51
 """How far beyond a slot's edge a pad is held, over its thickness; FE of single pads."""
 
 

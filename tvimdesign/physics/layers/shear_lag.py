@@ -55,3 +55,16 @@ def borne_over_window(layer: Any, sheet: Any, half_width: Any) -> Any:
     """
     reach = np.sqrt(layer * sheet * half_width**2 + 1e-12)
     return np.tanh(reach) / reach
+
+
+def held_over_window(thickness: Any, half_width: Any) -> Any:
+    """Share of a pad [1] that is held as if no window were below it, 1 - ln cosh(x)/x, x = pi b/(2 t).
+
+    A pad of the thickness t on the rims of a window 2b wide, sheared along the rims by what is stiff on it, moves as a
+    harmonic function over its section: held below but for the window, which is free. The flow from a strip's upper face
+    to the lower one beyond a free stretch is that to the middle of a strip line of no thickness; a free stretch takes
+    of it what one of the width (2t/pi) ln cosh(x) does. Source: S. B. Cohn, IRE Trans. Microwave
+    Theory Tech. 2 (1954) 52-57, whose fringe 2 ln 2/pi is that of a wide window.
+    """
+    reach = np.sqrt((0.5 * np.pi * half_width / thickness) ** 2 + 1e-12)
+    return 1.0 - (reach + np.log(0.5 + 0.5 * np.exp(-2.0 * reach))) / reach

@@ -14,8 +14,13 @@ FOOT, EDGE = 0.5, 2.0
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
 PRESSED = 0.4
 """Size of elements in a pad that is pressed, over its thickness."""
+WINDOW = 0.125, 0.2
+"""Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]."""
 PAD_GAP = 0.2
 """How far the walls of a pad's pocket stand off it [mm]; they are not bonded to it."""
+OTHER_GAPS = 0.3, 0.25, 0.35
+"""The same where the first leaves an edge shorter than `SLIVER`, which gets no mesh: a wall beside a vane's end."""
+SLIVER = 0.005
 
 
 def tube(inner: float, outer: float, bottom: float, top: float) -> Any:
@@ -102,10 +107,20 @@ def _ring_housing(whole: Any, mm: dict[str, float], pads: list[Any]) -> Any:
     end of that edge, would belong to the vane as well, and a line or a point that is tied bears more than a soft pad.
     """
     far, inside = 500.0, 0.5 * (mm["hub_radius"] + mm["pcl_inner_radius"])
-    housing = whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    plain = whole - tube(0, inside, 0.0, far) - tube(mm["pcl_outer_radius"] + 0.5, far, 0.0, far)
+    housing = plain
+    for gap in (PAD_GAP, *OTHER_GAPS):
+        housing = _with_gaps(plain, pads, gap)
+        if min(float(edge.mass) for edge in housing.edges) > SLIVER:
+            break
+    return housing
+
+
+def _with_gaps(housing: Any, pads: list[Any], gap: float) -> Any:
+    """Housing whose pockets' walls stand off the pads."""
     for pad in pads:
         for sense in (-1, 0, 1):
-            housing -= pad.Move(_along(pad, sense * PAD_GAP) - Vec(0, 0, PAD_GAP))
+            housing -= pad.Move(_along(pad, sense * gap) - Vec(0, 0, gap))
     return housing
 
 
@@ -156,8 +171,12 @@ def _tile_pockets(mm: dict[str, float]) -> list[Any]:
 
 
 def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:
-    """Make elements small where stress is looked at: the core's foot, and the edges of the arcs."""
+    """Make elements small where stress is looked at: the core's foot, and the edges of the arcs.
+
+    And where a window ends below a pad, whose shear has no bound there.
+    """
     top, low, high = mm["rotor_top_level"], -0.01, mm.get("pcl_thickness", -1.0) + 0.01
+    pads = -mm["peltier_thickness"] if "pcl_thickness" in mm and not mm["spreader_depth"] else -np.inf
     for edge in whole.edges:
         box = edge.bounding_box
         flat = box[1].z - box[0].z < 1e-4
@@ -166,8 +185,17 @@ def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:
         if flat and abs(box[0].z - top) < 1e-3 and wide < 2.02 * mm["core_radius"]:
             if np.hypot(centre.x, centre.y) < mm["core_radius"] + 0.01 and wide > 0.5 * mm["core_radius"]:
                 edge.maxh = FOOT * coarser
+        elif flat and abs(box[0].z - pads) < 1e-3 and _beside_window(edge, mm):
+            edge.maxh = max(WINDOW[0] * mm["peltier_thickness"], WINDOW[1]) * coarser
         elif flat and low < box[0].z < high and np.hypot(centre.x, centre.y) > mm["core_radius"] + 0.5:
             edge.maxh = EDGE * coarser
+
+
+def _beside_window(edge: Any, mm: dict[str, float]) -> bool:
+    """Whether a level edge is that of a window below a pad: all of it is a ledge away from the arc's rims."""
+    ends = [np.hypot(point.x, point.y) for point in (edge.start, edge.end)]
+    inner, outer = mm["pcl_inner_radius"] + mm["window_ledge"], mm["pcl_outer_radius"] - mm["window_ledge"]
+    return bool(min(ends) > inner - 0.01 and max(ends) < outer + 0.01)
 
 
 def name_faces(whole: Any, mm: dict[str, float]) -> None:

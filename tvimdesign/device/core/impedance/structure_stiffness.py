@@ -67,11 +67,17 @@ def plate_stiffness(
     structure_shear_modulus: Scalar,
     rotor_thickness: Scalar,
     core_radius: Scalar,
+    link_bottom_level: Scalar,
+    rotor_top_level: Scalar,
+    core_screw_bores: structure.Bores,
+    core_dowel_bores: structure.Bores,
     pcl_inner_radius: Scalar,
     over_arcs_compliance: Scalar,
 ) -> Scalar:
     """Torsional stiffness of the rotor plate from the core to where the PCL takes the torque over."""
-    inside = structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_inner_radius)
+    length = link_bottom_level - rotor_top_level
+    felt = structure.felt_at_foot(core_radius, length, core_screw_bores, core_dowel_bores)
+    inside = structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_inner_radius, felt)
     return 1.0 / (1.0 / inside + over_arcs_compliance)
 
 
