@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from support import ROOT
 
-from tvimdesign.solve.search import optimize
+from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study
 
 FOLDER = ROOT / "validation/fe_structure"
@@ -72,8 +72,8 @@ def test_today_s_optimum_is_the_design_that_fe_looked_at(study: str) -> None:
     read = read_study(ROOT / f"studies/{study}.yaml")
     if not read.vary:
         return
-    best: Any = optimize(read, lambda _: None)
-    inputs = {**{name: float(best.inputs[index]) for name, index in best.model.index.items()}, **best.choices}
+    found = answer(read).design
+    inputs = {**found.values, **found.choices}
     then = MODELS.model_values(study, design_of(study))
     now = MODELS.model_values(study, {name: inputs[name] for name in read.vary})
     for name in ("spring_rate", "hub"):
