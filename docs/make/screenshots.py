@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "docs/pictures"
 ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
 """Draw 3-D without a graphics card; run as root, as in a container."""
-_SIZE = {"width": 1180, "height": 760}
+_SIZE = {"width": 1240, "height": 1000}
 _COLOURS = 128
 PATIENCE = 180_000
 """Milliseconds that a page may take on a busy machine."""

@@ -10,9 +10,20 @@ const CLICK = 5; // px that the pointer may move in a click
 
 const MARGIN = 1.04;
 
-/** The corners of a box. */
-function corners({ min, max }) {
-  return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
+const SAMPLES = 400; // points of a part that the picture is fitted to
+
+/** Points of what is seen below a node, where they stand. A box's corners would stick out of a round module. */
+function points(scene) {
+  /** @type {Vector3[]} */
+  const found = [];
+  scene.updateMatrixWorld(true);
+  scene.traverseVisible((node) => {
+    if (!(node instanceof Mesh)) return;
+    const positions = node.geometry.getAttribute("position");
+    const stride = Math.ceil(positions.count / SAMPLES);
+    for (let i = 0; i < positions.count; i += stride) found.push(new Vector3().fromBufferAttribute(positions, i).applyMatrix4(node.matrixWorld));
+  });
+  return found;
 }
 
 export class Stage {
@@ -76,10 +87,10 @@ export class Stage {
     const right = new Vector3().crossVectors(this.camera.up, away).normalize();
     const up = new Vector3().crossVectors(away, right);
     const high = Math.tan((this.camera.fov * Math.PI) / 360);
-    const reach = Math.max(...corners(box).map((corner) => {
-      const from = corner.sub(middle);
-      return from.dot(away) + Math.max(Math.abs(from.dot(up)) / high, Math.abs(from.dot(right)) / (high * this.camera.aspect));
-    }));
+    const reach = points(this.scene).reduce((farthest, point) => {
+      const from = point.sub(middle);
+      return Math.max(farthest, from.dot(away) + Math.max(Math.abs(from.dot(up)) / high, Math.abs(from.dot(right)) / (high * this.camera.aspect)));
+    }, 1);
     this.controls.target.copy(middle);
     this.camera.position.copy(middle).addScaledVector(away, MARGIN * reach);
     this.controls.update();
