@@ -11,7 +11,7 @@ const CLICK = 5; // px that the pointer may move in a click
 const MARGIN = 1.04;
 const ROUNDS = 3; // of putting the picture's middle on what is seen
 
-const SAMPLES = 400; // points of a part that the picture is fitted to
+const SAMPLES = 4000; // points of a part that the picture is fitted to, at most
 
 /** Points of what is seen below a node, where they stand. A box's corners would stick out of a round module. */
 function points(scene) {
