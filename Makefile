@@ -136,7 +136,8 @@ schema: $(STAMP)  ## write study.schema.json, for editors, from the table
 units: $(STAMP)  ## write the usual units as pint reads them
 	$(BIN)/python -m tvimdesign.base.units
 
-docs: $(STAMP)  ## build the docs site into build/site: strict, links checked, nothing loaded from the network
+SHOTS := docs/pictures/report.png docs/pictures/explorer.png
+docs: $(STAMP) $(SHOTS)  ## build the docs site into build/site: strict, links checked, nothing loaded from the network
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
 	@echo "the site is in build/site: open build/site/index.html"
 
@@ -146,6 +147,10 @@ results/%/report.html: studies/%.yaml $(STAMP)
 
 STUDIES := $(basename $(notdir $(wildcard studies/*.yaml)))
 gallery: $(STUDIES:%=results/%/report.html) docs  ## the docs site with the reports of all shipped studies (an hour)
+
+# The site takes them where they are not there; `make screenshots` takes them anew.
+$(SHOTS) &:
+	$(MAKE) screenshots
 
 screenshots: results/paper_shear/report.html  ## take docs/pictures/report.png and explorer.png in a browser
 	$(BIN)/python docs/make/screenshots.py

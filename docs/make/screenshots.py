@@ -21,8 +21,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "docs/pictures"
 ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
 """Draw 3-D without a graphics card; run as root, as in a container."""
-_SIZE = {"width": 1180, "height": 760}
-_COLOURS = 128
+_SIZE = {"width": 1240, "height": 1000}
+_COLOURS = 256
 PATIENCE = 180_000
 """Milliseconds that a page may take on a busy machine."""
 
@@ -80,7 +80,7 @@ def _page(browser: Browser, address: str) -> Page:
 
 
 def _keep(taken: bytes, name: str) -> None:
-    """Write it with few colours: some 80 kB."""
+    """Write it with few colours: some 50 kB."""
     with Image.open(io.BytesIO(taken)) as shot:
         shot.convert("RGB").quantize(_COLOURS, dither=Image.Dither.NONE).save(PICTURES / name, optimize=True)
 

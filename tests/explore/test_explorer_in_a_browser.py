@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from collections.abc import Callable
@@ -10,15 +11,22 @@ from pathlib import Path
 import axe_playwright_python
 import pytest
 from explored import SMALL, small_study
+from opened_page import Opened
 from playwright.sync_api import Browser
 from served_explorer import Explorer, Served, exploring
 from support import environment
 
-from tvimdesign.report.run.answered_study import answer_study
-from tvimdesign.study.tree import tree_of_file
-
-FRONT = "minimize: {response_time: 1, module_mass: 1}\nfront: {of: [response_time, module_mass], points: 3}"
+WANTED = "minimize: {response_time: 1, module_mass: 1}"
+FRONT = "minimize: {response_time: 1, peak_power: 1}\nfront: {of: [response_time, peak_power], points: 3}"
+CELLS = "(one) => [...one.tBodies[0].rows].map((row) => [...row.cells].map((cell) => cell.innerText))"
+"""Of a table."""
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
+
+
+def run(study: Path, out: Path) -> None:
+    """The command `run`."""
+    words = ["run", str(study), "--out", str(out), "--no-cad", "--no-plots", "--overwrite"]
+    subprocess.run([sys.executable, "-m", "tvimdesign", *words], check=True, env=environment(), capture_output=True)
 
 
 def test_a_requirement_is_dragged_the_optimum_moves_and_what_binds_lights_up(explorer: Explorer) -> None:
@@ -32,6 +40,34 @@ def test_a_requirement_is_dragged_the_optimum_moves_and_what_binds_lights_up(exp
     power.locator(".stands").filter(has_text="binds").wait_for()
     assert current.input_value() != before
     assert page.locator("#limits tr.binds").count() >= 1
+    assert explorer.complaints == []
+
+
+@pytest.mark.slow
+def test_a_slider_dragged_by_the_mouse_is_answered_on_its_way_and_exactly_when_it_is_let_go(explorer: Explorer) -> None:
+    page, power = explorer.page, explorer.knob("peak_power <=")
+    slider, field = power.get_by_role("slider"), power.get_by_role("textbox")
+    explorer.answered(0, "exact")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    assert box
+    least, most, stands = (float(slider.evaluate(f"(one) => one.{what}")) for what in ("min", "max", "value"))
+    x, y = box["x"] + box["width"] * (stands - least) / (most - least), box["y"] + box["height"] / 2
+    before, texts, mouse = explorer.number, [field.input_value()], page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    for share in (0.06, 0.12):
+        mouse.move(x - share * box["width"], y, steps=3)
+        texts.append(field.input_value())
+        explorer.answered(before, "quick")
+        before = explorer.number
+    mouse.up()
+    explorer.answered(before - 1, "exact")
+    watts = [float(text.removeprefix("<=").split()[0]) for text in texts]
+    assert watts == sorted(watts, reverse=True)
+    assert len(set(watts)) == 3
+    assert field.input_value() == texts[-1]
+    assert power.locator(".stands").inner_text().startswith("binds")
     assert explorer.complaints == []
 
 
@@ -71,12 +107,41 @@ def test_a_design_is_pinned_and_a_study_saved_that_run_answers_the_same(explorer
     page.get_by_role("textbox", name="File to save").fill("mine.yaml")
     page.get_by_role("button", name="Save as study").click()
     page.get_by_text("Saved:").wait_for()
-    shown = explorer.knob("pcl_thickness").get_by_role("textbox").first.input_value()
-    design = answer_study(tree_of_file(served.folder / "mine.yaml"), lambda _: None).result.design
-    assert float(shown.split()[0]) == pytest.approx(1e3 * design.values["pcl_thickness"], rel=1e-3)
+    report = page.locator("#report")
+    told = {row[0]: row[1:] for row in report.get_by_role("table").first.evaluate(CELLS)}
+    run(served.folder / "mine.yaml", served.folder / "run")
+    found = Opened(explorer.page.context.new_page())
+    found.page.goto((served.folder / "run/report.html").as_uri())
+    assert {row[0]: row[1:] for row in found.page.get_by_role("table").first.evaluate(CELLS)} == told
+    design = json.loads((served.folder / "run/design.json").read_text("utf-8"))["values"]
+    for name, unit in (("pcl_thickness", 1e-3), ("current", 1.0)):
+        shown = explorer.knob(name).get_by_role("textbox").first.input_value()
+        assert float(shown.split()[0]) * unit == pytest.approx(design[name], rel=5e-4)  # four digits are shown
     assert page.locator("#report section").count() > 3
     page.get_by_role("button", name="Let pin 1 go").click()
     page.locator("#pins-section").wait_for(state="hidden")
+
+
+@pytest.mark.slow
+def test_a_browser_that_is_closed_and_opened_again_goes_on_where_it_was(
+    explorer: Explorer, another: Callable[..., Explorer]
+) -> None:
+    page, number = explorer.page, explorer.number
+    field = explorer.knob("peak_power <=").get_by_role("textbox")
+    before = field.input_value()
+    field.fill("9.3 W")
+    field.press("Enter")
+    explorer.answered(number)
+    page.get_by_role("button", name="Pin", exact=True).click()
+    page.get_by_role("columnheader", name="pin 1").wait_for()
+    page.context.close()
+    again = another()
+    again.shows("peak_power <=", "9.3 W")
+    again.page.get_by_role("columnheader", name="pin 1").wait_for()
+    again.page.get_by_role("button", name="Undo").click()
+    again.shows("peak_power <=", before)
+    again.page.get_by_role("button", name="Let pin 1 go").click()
+    again.page.locator("#pins-section").wait_for(state="hidden")
 
 
 @pytest.mark.slow
@@ -163,9 +228,8 @@ def test_where_nothing_is_feasible_the_page_says_so_and_shows_the_nearest_design
 
 @pytest.mark.slow
 def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browser: Browser, tmp_path: Path) -> None:
-    study = small_study(tmp_path, SMALL.replace("minimize: {response_time: 1, module_mass: 1}", FRONT))
-    run = ["run", str(study), "--out", str(tmp_path / "run"), "--no-cad", "--no-plots"]
-    subprocess.run([sys.executable, "-m", "tvimdesign", *run], check=True, env=environment(), capture_output=True)
+    study = small_study(tmp_path, SMALL.replace(WANTED, FRONT))
+    run(study, tmp_path / "run")
     found = Served(tmp_path / "run", tmp_path / "out")
     found.begin()
     try:
@@ -175,7 +239,7 @@ def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browse
             points.first.wait_for(state="attached")
             page.get_by_text("Points, as buttons").click()
             names = page.locator("#front details button")
-            assert names.count() == points.count() >= 1
+            assert names.count() == points.count() == 3
             before = explorer.number
             points.last.click(force=True)
             page.get_by_text("Variables", exact=True).wait_for()

@@ -26,7 +26,7 @@ require:
   peak_power: "<= 12 W"
   joint_damping@hot: ">= 1 N.m.s/rad"
 minimize: {response_time: 1, module_mass: 1}
-accept: [structure_temperature_margin, peltier_temperature_margin]
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 solver: {cells: 8, starts: 1}
 """
 TOKEN = "a-token-for-tests"

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+import io
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from opened_page import Opened
+from PIL import Image
 from sample_pages import LEG_MOVED, RING
 
 VIEWER = "document.getElementById('figure-solids').viewer"
@@ -59,6 +62,20 @@ def test_the_parts_come_apart_by_their_lifts(solids: Solids) -> None:
     solids.slide("Apart", 0.5)
     assert solids.part("housing", at) == pytest.approx(before["housing"])
     assert solids.part("rotor", at) == pytest.approx(before["rotor"] + 0.5 * 90.0)
+
+
+@pytest.mark.parametrize("view", ["corner", "top", "front"])
+def test_the_module_fills_its_picture_and_is_whole_in_it(solids: Solids, view: str) -> None:
+    solids.figure.get_by_role("combobox", name="View").select_option("below")
+    solids.figure.get_by_role("combobox", name="View").select_option(view)
+    data = base64.b64decode(solids.picture().partition(",")[2])
+    with Image.open(io.BytesIO(data)) as picture:
+        width, height = picture.size
+        box = picture.getchannel("A").getbbox()
+    assert box
+    left, top, right, bottom = box
+    assert min(left, top, width - right, height - bottom) > 0
+    assert max((right - left) / width, (bottom - top) / height) > 0.8
 
 
 def test_a_cut_shows_the_inside(solids: Solids) -> None:

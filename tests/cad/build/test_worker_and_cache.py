@@ -7,6 +7,7 @@ import shutil
 import signal
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -83,6 +84,23 @@ def test_work_is_done_after_what_it_needs_and_kept(run: Run) -> None:
     again = run(STACK, PLATE)
     assert set(again.reused) == {"plate", "stack"}
     assert again.results["plate"].checks == first.results["plate"].checks
+
+
+def test_what_nothing_waits_for_is_begun_last_and_stands_where_the_plan_has_it(tmp_path: Path) -> None:
+    begun: list[str] = []
+    late = replace(STACK, late=True)
+    subject = TrackedDesign(design_of("toy", {}), TITLES)
+    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), begun.append, hands=1)
+    done = workshop.do([PLATE, late, Work(name="layer", do=thickness)])
+    assert begun == ["plate", "layer", "stack"]
+    assert list(done.results) == ["plate", "stack", "layer"]
+
+
+def test_the_files_of_a_part_that_others_wait_for_come_before_its_drawing() -> None:
+    plan = build_plan(dimensions(design_of("toy", {})))
+    needed = {name for work in plan for name in work.needs}
+    assert {work.name for work in plan if work.late}.isdisjoint(needed)
+    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= {work.name for work in plan if work.late}
 
 
 def test_a_change_of_what_was_not_read_does_nothing_again(run: Run) -> None:

@@ -46,7 +46,20 @@ _READ_BACK = 1e-6
 def build_plan(dims: Dimensions) -> list[Work]:
     """All pieces of work for a module."""
     kinds = tuple(MODULES[dims.mode].drawn(dims))
-    parts = [Work(name=kind, do=partial(_part, kind), named=PRODUCTION[kind].drawn) for kind in kinds]
+    parts = [
+        work
+        for kind in kinds
+        for work in (
+            Work(name=kind, do=partial(_part, kind)),
+            Work(
+                name=f"{kind}_for_makers",
+                do=partial(_for_makers, kind),
+                needs=(kind,),
+                named=PRODUCTION[kind].drawn,
+                late=True,
+            ),
+        )
+    ]
     springs = [Work(name=kind, do=partial(_spring, kind)) for kind in SPRINGS]
     clearances = [
         Work(name=f"interference_{index + 1}", do=partial(_clearances, share), needs=kinds)
@@ -74,20 +87,24 @@ def build_plan(dims: Dimensions) -> list[Work]:
 
 
 def _part(kind: str, job: Job) -> list[SolidCheck]:
-    """One part that is drawn: its solid, STEP, and what it is printed or looked at from."""
+    """One part: its solid, which others wait for, and its STEP."""
     solid = drawn_part(job.dims, kind)
     _keep(job.folder / "kept" / _SOLID, solid)
     write_mesh(job.folder / "kept" / _MESH, solid_mesh(solid))
-    what = product(job.design, kind)
-    checks = _step(job.folder, solid, what)
+    return _step(job.folder, solid, product(job.design, kind))
+
+
+def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
+    """What a part is printed, milled or looked at from."""
+    solid, what = _solids(job.needs)[kind], product(job.design, kind)
     if PRODUCTION[kind].drawn:
         asked = drawing_requirements(kind, job.dims, job.design.choices)
         sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
         _write(job.folder, file_names.drawing_dxf(kind), sheet.dxf())
         _write(job.folder, file_names.drawing_pdf(kind), sheet.pdf())
     if PRODUCTION[kind].down == "bought":
-        return [*checks, _bought_mesh(job.folder, solid, kind)]
-    return [*checks, _print(job, kind, solid, what, PRODUCTION[kind])]
+        return [_bought_mesh(job.folder, solid, kind)]
+    return [_print(job, kind, solid, what, PRODUCTION[kind])]
 
 
 def _fixture(kind: str, job: Job) -> list[SolidCheck]:

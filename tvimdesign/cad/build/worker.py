@@ -55,6 +55,8 @@ class Work:
     needs: tuple[str, ...] = ()
     named: bool = False
     """Whether the design's name is written into its files."""
+    late: bool = False
+    """Whether it is begun after all that is not: no other work waits for it."""
 
 
 @dataclass
@@ -104,9 +106,9 @@ class WorkerPool:
         self._context: Any = mp.get_context("fork" if sys.platform == "linux" else "spawn")
 
     def do(self, build_plan: Sequence[Work]) -> Done:
-        """Do all pieces of work, each after those that it needs."""
+        """Do all pieces of work, each after those that it needs; the results stand in the plan's order."""
         done = Done()
-        waiting, running = list(build_plan), list[_Running]()
+        waiting, running = sorted(build_plan, key=lambda work: work.late), list[_Running]()
         try:
             while waiting or running:
                 waiting = self._start(waiting, running, done)

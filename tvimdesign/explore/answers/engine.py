@@ -25,7 +25,7 @@ from tvimdesign.solve.optimizer.parametric_optimizer import Moved, ParametricOpt
 from tvimdesign.solve.optimizer.statuses import OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import Keep, optimize
-from tvimdesign.study import Options, Study, given, read_tree
+from tvimdesign.study import Options, Range, Study, given, read_tree
 from tvimdesign.study.tree import StudyTree
 
 Stage: TypeAlias = Literal["quick", "exact", "confirmed", "report"]
@@ -86,7 +86,7 @@ class Engine:
         if study.profile.pieces():
             return Answer({"status": WAITS})
         study = study.model_copy(update={"robust": None}) if study.robust and study.robust.share else study
-        moved = self._optimum(study)
+        moved = self._optimum(study, state)
         if not moved.converged:
             return Answer({"status": "no optimum near the last one; the search from every start follows"})
         self._last = moved
@@ -101,11 +101,16 @@ class Engine:
         assert self._problem is not None
         return int(self._problem.optimizer.model.index[name])
 
-    def _optimum(self, study: Study) -> Moved:
+    def _optimum(self, study: Study, state: State) -> Moved:
+        """The optimum near the last one, or near the hand: a result is opened with the design that was found."""
         if self._problem is None or not self._problem.fits(study):
             self._problem, self._last = ParametricOptimizer(study), None
-        last = self._last.run if self._last else None
-        return self._problem.solve(study, last, self._reference(study, self._problem))
+        reference = self._reference(study, self._problem)
+        if self._last:
+            return self._problem.solve(study, self._last.run, reference)
+        hand, start = given(self._read(tree_of(self._base, state, "evaluate"))), given(study)
+        at = {name: float(hand[name]) for name, one in study.vary.items() if isinstance(one, Range)}
+        return self._problem.solve(study, None, reference, at if any(at[name] != start[name] for name in at) else None)
 
     def _reference(self, study: Study, problem: ParametricOptimizer) -> dict[str, float]:
         """What is minimised at the study's own start, where that is another than the one that was built."""

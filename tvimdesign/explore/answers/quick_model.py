@@ -25,8 +25,7 @@ from tvimdesign.study import Study, given
 Array = NDArray[np.float64]
 Curves = dict[str, dict[str, list[float]]]
 
-_STEPS = Steps(of_pace=10, in_window=4, close=4, first=0.125)
-_FREEZING = Steps(of_pace=28, in_window=4, close=4, first=0.125)
+_STEPS = Steps(of_pace=28, in_window=4, close=4, first=0.125)
 """Two thirds of the steps that tolerances take, at most: half the time, and times within 0.2 % still (a test)."""
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")
@@ -110,7 +109,7 @@ class QuickModel:
     def _compile(self) -> None:
         moving = [name for name in self.model.names if name != "rotor_cells"]
         try:
-            kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS, _FREEZING, _STEPS)
+            kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS, _STEPS, _STEPS)
             pace = self._pace
             if pace is not None:
                 kernel.course(np.delete(self.model.start, self._fixed), pace)  # compiled when first called

@@ -34,7 +34,7 @@ const undo = button("Undo", () => send({ kind: "undo" }));
 const redo = button("Redo", () => send({ kind: "redo" }));
 const parts = button("Make CAD", () => send({ kind: "cad" }));
 const confirm = button("Search every start", () => send({ kind: "confirm" }));
-const pin = button("Pin", () => send({ kind: "pin", name: `${state.pins.length + 1}` }));
+const pin = button("Pin", () => send({ kind: "pin", name: `${1 + Math.max(0, ...state.pins.map(({ name }) => Number(name) || 0))}` }));
 const file = make("input", { type: "text", value: "study.yaml", "aria-label": "File to save the study as", size: 14 });
 const save = button("Save as study", () => send({ kind: "save", file: file.value }));
 const told = make("span", { role: "status", "aria-live": "polite", id: "told" });

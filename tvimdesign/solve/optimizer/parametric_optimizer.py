@@ -55,9 +55,16 @@ class ParametricOptimizer:
         """Whether nothing but numbers differs from the study that was built."""
         return _shape(study) == self._shape
 
-    def solve(self, study: Study, last: Run | None = None, reference: Mapping[str, float] | None = None) -> Moved:
+    def solve(
+        self,
+        study: Study,
+        last: Run | None = None,
+        reference: Mapping[str, float] | None = None,
+        near: Mapping[str, float] | None = None,
+    ) -> Moved:
         """The optimum of a study, from the `last` one; what is minimised is divided by `reference`.
 
+        Where there is no last one it is looked for from the variables `near` [SI], and then from the study's start.
         Limits that nothing free can change are no part of the problem, and whoever asks has to look after them.
         """
         optimizer = self._moved(study, reference)
@@ -66,17 +73,22 @@ class ParametricOptimizer:
         ranges = {name: one for name, one in study.vary.items() if isinstance(one, Range) and name not in own}
         within = {name: (one.lower, one.upper) for name, one in ranges.items()}
         goal = Objective(study.minimize)
+        if last is None and near:
+            begin = self._clipped(near, optimizer, ranges)
+            run = optimizer.solve(within, objective=goal, begin=begin, beginning="near")
+            if run.start.converged:
+                return Moved(run, self._binding(run, optimizer), _ends(run, optimizer))
         run = optimizer.solve(within, last, objective=goal)
         if last is not None and not run.start.converged:
-            begin = self._clipped(last, optimizer, ranges)
+            begin = self._clipped(last.start.end, optimizer, ranges)
             run = optimizer.solve(within, objective=goal, begin=begin, beginning="near")
         return Moved(run, self._binding(run, optimizer), _ends(run, optimizer))
 
     @staticmethod
-    def _clipped(last: Run, optimizer: Optimizer, ranges: Mapping[str, Range]) -> Array:
-        """An optimum within the ranges of now: where to begin that is too far from it for its multipliers."""
+    def _clipped(at: Mapping[str, float], optimizer: Optimizer, ranges: Mapping[str, Range]) -> Array:
+        """A design within the ranges of now, to begin at without an optimum's multipliers."""
         begin = optimizer.model.start.copy()
-        for name, value in last.start.end.items():
+        for name, value in at.items():
             ends = ranges.get(name)
             begin[optimizer.model.index[name]] = min(max(value, ends.lower), ends.upper) if ends else value
         return begin

@@ -9,10 +9,22 @@ const TURN = 0.12; // rad a key
 const CLICK = 5; // px that the pointer may move in a click
 
 const MARGIN = 1.04;
+const ROUNDS = 3; // of putting the picture's middle on what is seen
 
-/** The corners of a box. */
-function corners({ min, max }) {
-  return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
+const SAMPLES = 4000; // points of a part that the picture is fitted to, at most
+
+/** Points of what is seen below a node, where they stand. A box's corners would stick out of a round module. */
+function points(scene) {
+  /** @type {Vector3[]} */
+  const found = [];
+  scene.updateMatrixWorld(true);
+  scene.traverseVisible((node) => {
+    if (!(node instanceof Mesh)) return;
+    const positions = node.geometry.getAttribute("position");
+    const stride = Math.ceil(positions.count / SAMPLES);
+    for (let i = 0; i < positions.count; i += stride) found.push(new Vector3().fromBufferAttribute(positions, i).applyMatrix4(node.matrixWorld));
+  });
+  return found;
 }
 
 export class Stage {
@@ -67,21 +79,30 @@ export class Stage {
     this.drawNow();
   }
 
-  /** Look from a direction, or on from the one of now, so that everything that is seen is in the picture. */
+  /** Look from a direction, or on from the one of now, so that everything that is seen is in the picture, and fills it. */
   look(view) {
-    const box = this.bounds();
-    const middle = box.getCenter(new Vector3());
+    const middle = this.bounds().getCenter(new Vector3());
     const away = view ? new Vector3(...VIEWS[view]) : this.camera.position.clone().sub(this.controls.target);
     away.normalize();
     const right = new Vector3().crossVectors(this.camera.up, away).normalize();
     const up = new Vector3().crossVectors(away, right);
     const high = Math.tan((this.camera.fov * Math.PI) / 360);
-    const reach = Math.max(...corners(box).map((corner) => {
-      const from = corner.sub(middle);
-      return from.dot(away) + Math.max(Math.abs(from.dot(up)) / high, Math.abs(from.dot(right)) / (high * this.camera.aspect));
-    }));
+    const axes = [{ axis: up, half: high }, { axis: right, half: high * this.camera.aspect }];
+    const seen = points(this.scene);
+    let reach = 1;
+    for (let round = 0; round < ROUNDS; round += 1) {
+      const from = seen.map((point) => point.clone().sub(middle));
+      reach = MARGIN * from.reduce((farthest, one) => Math.max(farthest, ...axes.map(({ axis, half }) => one.dot(away) + Math.abs(one.dot(axis)) / half)), 1);
+      if (round === ROUNDS - 1) break;
+      // What is near is drawn larger: the middle of the box is not the middle of the picture.
+      for (const { axis } of axes) {
+        const at = from.map((one) => one.dot(axis) / (reach - one.dot(away)));
+        const [low, top] = at.reduce(([least, most], one) => [Math.min(least, one), Math.max(most, one)], [0, 0]);
+        middle.addScaledVector(axis, 0.5 * (low + top) * reach);
+      }
+    }
     this.controls.target.copy(middle);
-    this.camera.position.copy(middle).addScaledVector(away, MARGIN * reach);
+    this.camera.position.copy(middle).addScaledVector(away, reach);
     this.controls.update();
     this.renew();
   }

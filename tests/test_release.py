@@ -1,0 +1,71 @@
+"""What a release is made of says one thing: pyproject.toml, the conda recipe, the container, the check and the page."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+
+import yaml
+from support import ROOT
+
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+RECIPE = yaml.safe_load((ROOT / "release/conda/recipe.yaml").read_text("utf-8"))
+OF_CONDA = {"matplotlib": "matplotlib-base"}
+"""Names of packages that conda-forge has under another: there matplotlib brings Qt, and the base does not."""
+
+
+def _split(needed: str) -> tuple[str, str]:
+    """Name and range of versions."""
+    found = re.fullmatch(r"([A-Za-z0-9_.-]+?)\s*([<>=!~].*)?", needed)
+    assert found, needed
+    return found[1], (found[2] or "").replace(" ", "")
+
+
+def test_the_recipe_needs_what_the_package_needs() -> None:
+    project = PROJECT["project"]
+    wanted = {OF_CONDA.get(name, name): versions for name, versions in map(_split, project["dependencies"])}
+    run = dict(map(_split, RECIPE["requirements"]["run"]))
+    assert run == {**wanted, "python": project["requires-python"]}
+    host = dict(map(_split, RECIPE["requirements"]["host"]))
+    built_with = dict(map(_split, PROJECT["build-system"]["requires"]))
+    assert host == {**built_with, "python": project["requires-python"], "pip": ""}
+
+
+def test_the_version_is_one() -> None:
+    version = PROJECT["project"]["version"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+    package = (ROOT / "tvimdesign/__init__.py").read_text("utf-8")
+    assert RECIPE["context"]["version"] == version
+    assert str(citation["version"]) == version
+    assert f'__version__ = "{version}"' in package
+    assert RECIPE["source"]["path"].startswith("../../dist/")
+    assert RECIPE["about"]["license"] == PROJECT["project"]["license"]
+
+
+def test_each_extra_that_is_told_of_is_checked_from_the_wheel() -> None:
+    extras = set(PROJECT["project"]["optional-dependencies"]) - {"dev", "docs", "bench"}
+    page = (ROOT / "docs/install.md").read_text("utf-8")
+    assert set(re.findall(r"^\| `pip install 'tvimdesign\[(\w+)\]'`", page, re.M)) == extras
+    check = (ROOT / "release/check_wheel.py").read_text("utf-8")
+    checked = re.search(r"^CHECKS.*?\{(.*?)\}", check, re.M | re.S)
+    assert checked
+    assert set(re.findall(r'"(\w+)":', checked[1])) == extras
+
+
+def test_the_container_takes_an_interpreter_and_extras_that_there_are() -> None:
+    text = (ROOT / "Containerfile").read_text("utf-8")
+    versions = {one.rsplit(" ", 1)[1] for one in PROJECT["project"]["classifiers"] if ":: Python ::" in one}
+    base = re.search(r"^FROM python:([\d.]+)-slim$", text, re.M)
+    extras = re.search(r"\)\[([\w,]+)\]\"", text)
+    assert base
+    assert base[1] in versions
+    assert extras
+    assert set(extras[1].split(",")) <= set(PROJECT["project"]["optional-dependencies"])
+
+
+def test_interpreters_that_are_told_of_are_those_of_the_package() -> None:
+    versions = [one.rsplit(" ", 1)[1] for one in PROJECT["project"]["classifiers"] if ":: Python ::" in one]
+    page = (ROOT / "docs/install.md").read_text("utf-8")
+    told = re.search(r"Python ([\d., and]+) are tested", page)
+    assert told
+    assert re.findall(r"\d\.\d+", told[1]) == versions
