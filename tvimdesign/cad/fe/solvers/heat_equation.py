@@ -80,10 +80,11 @@ _SIDES = tuple((axis, side) for axis in range(3) for side in (0, 1))
 
 
 def _outside(name: str, air: str) -> str:
-    """Kind of a face of a part to some air. In a slot the cold sides alone lose heat, through its one opening."""
+    """Kind of a face of a part to some air. In a slot the cold sides alone lose heat, through its one opening; the
+    housing loses it outside, not to the room it closes."""
     if air == "chamber":
         return "chamber"
-    if air == "slot" and name == "housing":
+    if air in ("slot", "room") and name == "housing":
         return "none"
     kinds = {"layer": "inner", "rotor": "rotor", "link": "rotor", "key": "inner", "housing": "housing", "cold": "cold"}
     return kinds.get(name, "none")

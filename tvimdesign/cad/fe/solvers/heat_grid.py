@@ -118,7 +118,7 @@ def _around_an_arc(mm: dict[str, float], coarser: float) -> Grid:
         0.3 * core, coarser, (core, 2, 0.8), (clear, 1, 1.0), (mm["hub_radius"], 1, 1.0),
         (mm["melt_lip_inner_radius"], 3, 0.65), (inner, 3, 0.65), (inner, 0, 1.0),
         (inner + ledge, 3, 1.3), (outer - ledge, 4, 1.0), (outer, 3, 1 / 1.3), (outer, 0, 1.0),
-        (mm["rotor_radius"], 3, 1.4), (mm["housing_outer_radius"], 4, 1.5),
+        (mm["rotor_radius"], 3, 1.4), (mm["housing_inner_radius"], 4, 1.5), (mm["housing_outer_radius"], 1, 1.0),
     )  # fmt: skip
     end = half - ledge / inner
     around = lines(0.0, coarser, (end, 4, 0.8), (half, 3, 0.75), (half, 0, 1.0), (np.pi / mm["arc_count"], 4, 1.5))
@@ -142,7 +142,7 @@ def _around_a_vane(mm: dict[str, float], coarser: float) -> Grid:
     along = lines(
         0.3 * core, coarser, (core, 2, 0.8), (clear, 1, 1.0), (mm["hub_radius"], 1, 1.0), (inner, 2, 1.0),
         (mm["slot_inner_radius"], 3, 1.3), (mm["slot_outer_radius"], 4, 1.0), (outer, 3, 1 / 1.3),
-        (mm["rotor_radius"], 4, 1.4), (mm["housing_outer_radius"], 4, 1.6),
+        (mm["rotor_radius"], 4, 1.4), (mm["housing_inner_radius"], 4, 1.6), (mm["housing_outer_radius"], 1, 1.0),
     )  # fmt: skip
     pad = np.arcsin(mm["pad_depth"] / inner)
     vane, face = 0.5 * mm["rotor_vane_angle"], face_angle(mm)
@@ -237,12 +237,15 @@ def _closed(grid: Grid, found: Any) -> Any:
 
 
 def enclosed(grid: Grid, names: NDArray[np.str_]) -> NDArray[np.str_]:
-    """What air is that no cell has: the `chamber` around blocks that stand, their vanes' `slot`, else the ambient's."""
+    """What air is that no cell has: the `chamber` around blocks that stand, their vanes' `slot`, the `room` of the
+    springs within the housing's wall, else the ambient's."""
     found, mm = np.full(names.shape, "", dtype="U7"), grid.mm
-    if not grid.upright:
-        return found
     r, a = grid.along.middles[:, None, None], grid.around.middles[None, :, None]
     z = grid.up.middles[None, None, :]
+    room = (z > 0.0) & (r < mm["housing_inner_radius"]) & np.ones_like(a, dtype=bool)
+    found[(names == "") & room] = "room"
+    if not grid.upright:
+        return found
     slot = (r > mm["slot_inner_radius"]) & (r < mm["slot_outer_radius"]) & (z < mm["slot_top_level"])
     chamber = (z > 0.0) & (z < mm["rotor_bottom_level"]) & (r > mm["hub_radius"]) & (r < mm["rotor_radius"])
     found[(names == "") & chamber & np.ones_like(a, dtype=bool)] = "chamber"
