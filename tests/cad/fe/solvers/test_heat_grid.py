@@ -10,10 +10,19 @@ import pytest
 
 VANE = {
     "pcl_inner_radius": 13.0, "pcl_outer_radius": 24.0, "core_radius": 8.0, "seat_radius": 8.4, "hub_radius": 11.4,
-    "slot_inner_radius": 15.75, "slot_outer_radius": 21.25, "rotor_radius": 32.3, "housing_outer_radius": 70.0,
+    "slot_inner_radius": 15.75, "slot_outer_radius": 21.25, "rotor_radius": 32.3,
+    "housing_inner_radius": 67.0, "housing_outer_radius": 70.0,
     "pad_depth": 1.5, "rotor_vane_angle": 0.216, "block_angle": 0.216, "vane_count": 6.0, "rotor_bottom_level": 12.8,
     "vane_height": 12.4, "floor_thickness": 4.0, "slot_top_level": 10.4, "rotor_top_level": 16.8,
-    "link_bottom_level": 28.6, "spreader_depth": 0.0,
+    "link_bottom_level": 28.6, "spreader_depth": 0.0, "hub_top_level": 12.8,
+}  # fmt: skip
+ARC = {
+    "pcl_inner_radius": 17.4, "pcl_outer_radius": 29.7, "core_radius": 7.4, "seat_radius": 12.0, "hub_radius": 14.0,
+    "melt_lip_inner_radius": 15.9, "melt_lip_height": 2.9, "running_clearance": 0.1, "hub_top_level": 2.9,
+    "rotor_bottom_level": 3.0, "rotor_top_level": 7.0, "link_bottom_level": 14.5, "rotor_radius": 31.2,
+    "housing_inner_radius": 51.3, "housing_outer_radius": 54.3,
+    "window_ledge": 2.0, "arc_span": 1.4, "arc_count": 4.0, "spring_count": 4.0,
+    "pad_depth": 3.7, "spreader_depth": 0.5, "floor_thickness": 6.5,
 }  # fmt: skip
 
 
@@ -74,3 +83,46 @@ def test_a_cell_is_of_the_part_its_middle_is_in() -> None:
     assert set(found[:, :, levels < 0.0].ravel()) == {"housing"}
     assert set(found[:, :, (levels > 12.8) & (levels < 16.8)].ravel()) == {"rotor"}
     assert set(found[:, :, (levels > 0.0) & (levels < 12.8)].ravel()) == {"", "air"}
+
+
+def test_lips_and_hub_stand_a_clearance_away_from_what_they_face() -> None:
+    # A plate from 3 mm on whose lips reach down to 0.1 mm above the floor; the hub ends 0.1 mm below the plate.
+    far, surfaces = 200.0, {}
+    for name, low, high in (("housing", -6.5, 0.0), ("rotor", 0.1, 7.0)):
+        surfaces[f"{name}.points"], surfaces[f"{name}.triangles"] = box((-far, -far, low), (far, far, high))
+    grid = heat_grid.grid_of(ARC, 1.92)
+    found = heat_grid.materials_of(grid, surfaces)
+    lips = (grid.along.middles > ARC["melt_lip_inner_radius"]) & (grid.along.middles < ARC["pcl_inner_radius"])
+    levels = grid.up.middles
+    assert set(found[lips][:, :, (levels > 0.0) & (levels < 0.1)].ravel()) == {"air"}
+    assert np.any((levels > ARC["hub_top_level"]) & (levels < ARC["rotor_bottom_level"]))
+    for name in ("hub_radius", "housing_inner_radius", "housing_outer_radius"):
+        assert np.any(grid.along.ends == ARC[name])
+
+
+def test_a_pad_stands_on_its_seat_through_a_contact() -> None:
+    grid = heat_grid.grid_of(VANE, 1.6)
+    low = VANE["rotor_bottom_level"] - VANE["vane_height"]
+    sheets = grid.up.ends[:-1][grid.up.sheets]
+    assert sheets == pytest.approx([low])
+    assert heat_grid._sheet("housing", "hot") == "edge"
+    # Clearances are as wide as drawn: what contacts add to them is a hundredth.
+    assert 0.02 * low > heat_grid.THIN
+
+
+def test_the_air_around_blocks_is_shut_in_and_that_of_a_slot_is_its_own() -> None:
+    grid = heat_grid.grid_of(VANE, 1.0)
+    names = np.full((len(grid.along.middles), len(grid.around.middles), len(grid.up.middles)), "", dtype="U20")
+    found = heat_grid.enclosed(grid, names)
+    r, a, z = grid.along.middles, grid.around.middles, grid.up.middles
+    inside = (r > VANE["slot_inner_radius"]) & (r < VANE["slot_outer_radius"])
+    behind = a > heat_grid.face_angle(VANE)
+    assert set(found[np.ix_(inside, behind, z < VANE["slot_top_level"])].ravel()) == {"slot"}
+    assert set(found[np.ix_(inside, ~behind, (z > 0.0) & (z < VANE["rotor_bottom_level"]))].ravel()) == {"chamber"}
+    beyond = (r > VANE["rotor_radius"]) & (r < VANE["housing_inner_radius"])
+    assert set(found[beyond][:, :, z > 0.0].ravel()) == {"room"}
+    assert set(found[r > VANE["housing_inner_radius"]].ravel()) == {""}
+    # Arcs lie in gaps whose air is drawn.
+    arcs = heat_grid.grid_of(ARC, 1.0)
+    shape = [len(one.middles) for one in (arcs.along, arcs.around, arcs.up)]
+    assert set(heat_grid.enclosed(arcs, np.full(shape, "", dtype="U20")).ravel()) == {"", "room"}

@@ -39,7 +39,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     grid = heat_grid.grid_of(mm, SPARSE * coarser)
     names = heat_grid.materials_of(grid, np.load(folder / "surfaces.npz"))
     points = grid.points()
-    found = heat_equation.meshed(points, names)
+    found = heat_equation.meshed(points, names, heat_grid.enclosed(grid, names))
     course = Course(inputs, found, Heated(values, found, grid, inputs["choices"].get("cold_side") == "sink"))
     layer = heat_samples.Layer(grid, found, points)
     drawn = {"drawn_layer": layer.volume / _designed(values, mm, "layer"),
@@ -114,6 +114,7 @@ class Course:
             by.guess.vec.data = by.now.vec
             self._settle(time)
             self._warm_sink(float(length))
+            self._warm_chamber()
             states.append(by.now.vec.FV().NumPy().copy())
         return np.concatenate([[0.0], np.cumsum(lengths)]), np.array(states)
 
@@ -135,6 +136,13 @@ class Course:
             return float(self.values["current"])
         currents = self.profile["currents"]
         return float(np.interp(time, np.linspace(0.0, self.profile["duration"], len(currents)), currents))
+
+    def _warm_chamber(self) -> None:
+        """The air that is shut in gives what it takes: it is as warm as the mean of the faces around it."""
+        by, faces = self.heated_by, self.heated_by.mesh.Boundaries("chamber")
+        area = ng.Integrate(1.0, by.mesh, ng.BND, definedon=faces)
+        if area > 0.0:
+            by.chamber.Set(ng.Integrate(by.now, by.mesh, ng.BND, definedon=faces) / area)
 
     def _warm_sink(self, length: float) -> None:
         """The sink at the cold sides takes their heat, and gives its own to the air."""

@@ -18,8 +18,11 @@ WELL = 100.0
 """Conductivity of a pad's sides through their thickness [W/m K]."""
 ALONG_PADS = 6.0
 """Of pads in their plane, where the design has none: in compression; assumed, as in shear by default."""
-OUTSIDE = ("inner", "rotor", "housing", "cold", "none")
-"""Faces to the air: of polymer, of rotor and link, of the housing, of the pads' cold sides, and those of no flow."""
+EDGE_CONTACT = 150.0
+"""Between the rim of a pad and what it stands on or leans against [W/m2 K], where the design has none: likewise."""
+OUTSIDE = ("inner", "rotor", "housing", "cold", "none", "chamber")
+"""Faces to the air: of polymer, of rotor and link, of the housing, of the pads' cold sides, those of no flow, and those
+to the air that is shut in around blocks."""
 
 
 class Meshed(NamedTuple):
@@ -32,8 +35,8 @@ class Meshed(NamedTuple):
     """Numbers of the corners by index, -1 where there is none."""
 
 
-def meshed(points: Any, names: Any) -> Meshed:
-    """Hexahedra of all named cells, with named faces to the air."""
+def meshed(points: Any, names: Any, enclosed: Any) -> Meshed:
+    """Hexahedra of all named cells, with named faces to the air; `enclosed` says which air is shut in."""
     mesh = Mesh(dim=3)
     materials = sorted(set(names.ravel()) - {""})
     for number, name in enumerate(OUTSIDE, 1):
@@ -51,7 +54,7 @@ def meshed(points: Any, names: Any) -> Meshed:
         return numbers[i, j, k]
 
     cells = defaultdict(list)
-    around = np.pad(names, 1, constant_values="outside")
+    around, shut = np.pad(names, 1, constant_values="outside"), np.pad(enclosed, 1)
     for i, j, k in np.argwhere(names != ""):
         name = names[i, j, k]
         low, high = ([corner(i + a, j + b, k + c) for a, b in _SQUARE] for c in (0, 1))
@@ -67,7 +70,7 @@ def meshed(points: Any, names: Any) -> Meshed:
                     place[axis] += side
                     place[(axis + 1) % 3] += a
                     place[(axis + 2) % 3] += b
-                kind = "none" if plane else _outside(name)
+                kind = "none" if plane else _outside(name, shut[tuple(beyond)])
                 mesh.Add(Element2D(OUTSIDE.index(kind) + 1, [corner(*place) for place in four]))
     return Meshed(ng.Mesh(mesh), {name: np.array(own).T for name, own in cells.items()}, corners)
 
@@ -76,7 +79,13 @@ _SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
 _SIDES = tuple((axis, side) for axis in range(3) for side in (0, 1))
 
 
-def _outside(name: str) -> str:
+def _outside(name: str, air: str) -> str:
+    """Kind of a face of a part to some air. In a slot the cold sides alone lose heat, through its one opening; the
+    housing loses it outside, not to the room it closes."""
+    if air == "chamber":
+        return "chamber"
+    if air in ("slot", "room") and name == "housing":
+        return "none"
     kinds = {"layer": "inner", "rotor": "rotor", "link": "rotor", "key": "inner", "housing": "housing", "cold": "cold"}
     return kinds.get(name, "none")
 
@@ -98,7 +107,7 @@ class Heated:
         self.step, self.current = ng.Parameter(1.0), ng.Parameter(0.0)
         self.weights = [ng.Parameter(one) for one in (1.0, 1.0, 0.0)]
         """Of the heat content now, a step ago and two steps ago."""
-        self.sink = ng.Parameter(values["ambient_temperature"] - KELVIN)
+        self.sink, self.chamber = (ng.Parameter(values["ambient_temperature"] - KELVIN) for _ in range(2))
         t, v = self.space.TnT()
         new, old, older = self.weights
         content = new * self.heat(t) - old * self.heat(self.before) + older * self.heat(self.last)
@@ -177,7 +186,7 @@ class Heated:
         thin = heat_grid.THIN * 1e-3
         sheets = {"near": c["hot_contact"] * thin, "far": c["rotor_contact"] * thin,
                   "spread": c.get("spreader_contact", 1.0) * thin,
-                  "edge": c.get("pad_edge_contact", 1.0) * thin}  # fmt: skip
+                  "edge": c.get("pad_edge_contact", EDGE_CONTACT) * thin}  # fmt: skip
         legs = c["peltier_conductance"] / c["peltier_area"] * (1.0 - 2.0 * heat_grid.PAD_FILM) * self._pad_depth()
         beside = c.get("pad_conductivity", ALONG_PADS)
         through = {"hot": WELL, "legs": legs, "cold": WELL}
@@ -213,3 +222,5 @@ class Heated:
                 continue
             radiated = c["surface_emissivity"] * STEFAN_BOLTZMANN * ((t + KELVIN) ** 4 - air**4)
             self.form += (c[f"{kind}_coefficient"] * (t + KELVIN - air) + radiated) * v * ng.ds(name)
+        shut = c["housing_coefficient"] + 4.0 * c["surface_emissivity"] * STEFAN_BOLTZMANN * air**3
+        self.form += shut * (t - self.chamber) * v * ng.ds("chamber")

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-THIN = 5e-2
-"""Thickness of the sheets that stand for contacts [mm]."""
+THIN = 5e-3
+"""Thickness of the sheets that stand for contacts [mm]: clearances and layers are that much thicker at each."""
 PAD_FILM = 1.0 / 12.0
 """Thickness of each side of a pad, over the pad's; assumed. The legs are between them."""
 PADS = ("hot", "legs", "cold")
@@ -115,9 +115,10 @@ def _around_an_arc(mm: dict[str, float], coarser: float) -> Grid:
     )  # fmt: skip
     core, clear = mm["core_radius"], max(mm["seat_radius"], mm["core_radius"] + 0.1)
     along = lines(
-        0.3 * core, coarser, (core, 2, 0.8), (clear, 1, 1.0), (inner, 4, 0.65), (inner, 0, 1.0),
+        0.3 * core, coarser, (core, 2, 0.8), (clear, 1, 1.0), (mm["hub_radius"], 1, 1.0),
+        (mm["melt_lip_inner_radius"], 3, 0.65), (inner, 3, 0.65), (inner, 0, 1.0),
         (inner + ledge, 3, 1.3), (outer - ledge, 4, 1.0), (outer, 3, 1 / 1.3), (outer, 0, 1.0),
-        (mm["rotor_radius"], 3, 1.4), (mm["housing_outer_radius"], 4, 1.5),
+        (mm["rotor_radius"], 3, 1.4), (mm["housing_inner_radius"], 4, 1.5), (mm["housing_outer_radius"], 1, 1.0),
     )  # fmt: skip
     end = half - ledge / inner
     around = lines(0.0, coarser, (end, 4, 0.8), (half, 3, 0.75), (half, 0, 1.0), (np.pi / mm["arc_count"], 4, 1.5))
@@ -125,9 +126,11 @@ def _around_an_arc(mm: dict[str, float], coarser: float) -> Grid:
     film, low = PAD_FILM * pad, -mm["pad_depth"]
     spreader = [(-sheet, 0, 1.0), (0.0, 2, 1.0)] if sheet else []
     top = mm["rotor_bottom_level"]
+    hub = min(mm["hub_top_level"], top)
+    lips = [(mm["running_clearance"], 1, 1.0)] if mm["melt_lip_height"] else []
     up = lines(
         -mm["floor_thickness"], coarser, (low, 3, 0.7), (low + film, 1, 1.0), (-sheet - film, 3, 1.0), (-sheet, 1, 1.0),
-        *spreader, (0.0, 0, 1.0), (top, 6, 1.0), (top, 0, 1.0), (mm["rotor_top_level"], 5, 1.3),
+        *spreader, (0.0, 0, 1.0), *lips, (hub, 6, 1.0), (top, 1, 1.0), (top, 0, 1.0), (mm["rotor_top_level"], 5, 1.3),
         (mm["link_bottom_level"], 3, 1.5), (mm["link_bottom_level"] + 1.0, 1, 1.0),
     )  # fmt: skip
     return Grid(along, around, up, np.pi / mm["spring_count"], mm)
@@ -139,7 +142,7 @@ def _around_a_vane(mm: dict[str, float], coarser: float) -> Grid:
     along = lines(
         0.3 * core, coarser, (core, 2, 0.8), (clear, 1, 1.0), (mm["hub_radius"], 1, 1.0), (inner, 2, 1.0),
         (mm["slot_inner_radius"], 3, 1.3), (mm["slot_outer_radius"], 4, 1.0), (outer, 3, 1 / 1.3),
-        (mm["rotor_radius"], 4, 1.4), (mm["housing_outer_radius"], 4, 1.6),
+        (mm["rotor_radius"], 4, 1.4), (mm["housing_inner_radius"], 4, 1.6), (mm["housing_outer_radius"], 1, 1.0),
     )  # fmt: skip
     pad = np.arcsin(mm["pad_depth"] / inner)
     vane, face = 0.5 * mm["rotor_vane_angle"], face_angle(mm)
@@ -151,9 +154,9 @@ def _around_a_vane(mm: dict[str, float], coarser: float) -> Grid:
     low, high = mm["rotor_bottom_level"] - mm["vane_height"], mm["vane_height"]
     middle, top = 0.5 * (low + high), mm["rotor_bottom_level"]
     up = lines(
-        -mm["floor_thickness"], coarser, (0.0, 4, 0.7), (low, 1, 1.0), (middle, 4, 1.3), (mm["slot_top_level"], 3, 0.8),
-        (high, 2, 0.8), (top, 1, 1.0), (mm["rotor_top_level"], 4, 1.4), (mm["link_bottom_level"], 3, 1.5),
-        (mm["link_bottom_level"] + 1.0, 1, 1.0),
+        -mm["floor_thickness"], coarser, (0.0, 4, 0.7), (low, 1, 1.0), (low, 0, 1.0), (middle, 4, 1.3),
+        (mm["slot_top_level"], 3, 0.8), (high, 2, 0.8), (min(mm["hub_top_level"], top), 1, 1.0), (top, 1, 1.0),
+        (mm["rotor_top_level"], 4, 1.4), (mm["link_bottom_level"], 3, 1.5), (mm["link_bottom_level"] + 1.0, 1, 1.0),
     )  # fmt: skip
     return Grid(along, around, up, 0.0, mm)
 
@@ -231,6 +234,23 @@ def _closed(grid: Grid, found: Any) -> Any:
     covered = (found[:, :, floor] == "housing")[:, :, None]
     ring = (r > mm["pcl_inner_radius"]) & (r < mm["pcl_outer_radius"])
     return between & ring & covered & ((z < mm["rotor_bottom_level"] - mm["vane_height"]) | (z > mm["vane_height"]))
+
+
+def enclosed(grid: Grid, names: NDArray[np.str_]) -> NDArray[np.str_]:
+    """What air is that no cell has: the `chamber` around blocks that stand, their vanes' `slot`, the `room` of the
+    springs within the housing's wall, else the ambient's."""
+    found, mm = np.full(names.shape, "", dtype="U7"), grid.mm
+    r, a = grid.along.middles[:, None, None], grid.around.middles[None, :, None]
+    z = grid.up.middles[None, None, :]
+    room = (z > 0.0) & (r < mm["housing_inner_radius"]) & np.ones_like(a, dtype=bool)
+    found[(names == "") & room] = "room"
+    if not grid.upright:
+        return found
+    slot = (r > mm["slot_inner_radius"]) & (r < mm["slot_outer_radius"]) & (z < mm["slot_top_level"])
+    chamber = (z > 0.0) & (z < mm["rotor_bottom_level"]) & (r > mm["hub_radius"]) & (r < mm["rotor_radius"])
+    found[(names == "") & chamber & np.ones_like(a, dtype=bool)] = "chamber"
+    found[(names == "") & slot & (a > face_angle(mm))] = "slot"
+    return found
 
 
 def _with_sheets(grid: Grid, found: Any) -> Any:
