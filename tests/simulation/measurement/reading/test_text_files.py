@@ -92,13 +92,17 @@ def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
         ("time [s];angle [deg]\n0;1\n1;15e308\n2;3\n", r"data.csv:3: column 2: '15e308' is no number"),
         ("time [s];angle\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle', has no unit"),
         ("time [s];angle [mm]\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle \[mm\]': 'mm' is no unit of angle"),
+        (
+            "time [s];angle [deg];temperature [K]\n0;1;0\n1;2;300\n2;3;300\n",
+            r"column 3, .*: 0 K is not above absolute zero",
+        ),
     ],
 )
 def test_a_column_that_is_wrong_stops_who_needs_it_and_nobody_else(tmp_path: Path, text: str, said: str) -> None:
     block = read(tmp_path, text).blocks[0]
     assert block.complete(["time"]) == 3
     with pytest.raises(InputError, match=said):
-        block.complete(["time", "angle"])
+        block.complete(["time", "angle", "temperature"])
 
 
 @pytest.mark.parametrize(

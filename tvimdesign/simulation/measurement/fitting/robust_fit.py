@@ -24,8 +24,8 @@ _EXACT, _MOST_STEPS = 1e-9, 100
 _ROUGH, _FEW_STEPS = 1e-6, 8
 _SETTLED = 1e-3
 _LEAST_NOISE = 1e-9
-_WILDEST = 1e60
-"""Residual over noise whose powers still are numbers."""
+_LARGEST = 1e120
+"""Residual whose square, or whose share of a small one, still is a number."""
 
 
 @dataclass(frozen=True)
@@ -71,12 +71,8 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
         raise InputError(
             "the equations give no number at the start of the fit; look at units and ranges of the columns"
         )
+    _refuse_wild(residuals, start)
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
-    farthest = float(np.max(np.abs(residuals.at(start) * weights_of(residuals, noise))))
-    if farthest > _WILDEST:
-        raise InputError(
-            f"a value is {farthest:.0e} times the scatter of the others away from them; look for a wrong number"
-        )
     inner = start
     for _ in range(_PASSES):
         inner = solved(residuals, inner, noise)
@@ -88,6 +84,15 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
             break
     inner = solved(residuals, inner, noise)
     return RobustFit(inner, noise, cost(residuals, inner, noise))
+
+
+def _refuse_wild(residuals: Residuals, start: Array) -> None:
+    """Raise InputError where a residual is so large that its square, or it over the others, is no number."""
+    sizes = np.abs(residuals.at(start))
+    for part in residuals.parts:
+        farthest, usual = float(np.max(sizes[part])), float(np.median(sizes[part]))
+        if farthest > _LARGEST or farthest / _LARGEST**0.5 > usual > 0.0:
+            raise InputError(f"a value is {farthest:.0e} away from the others; look for a wrong number")
 
 
 def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None = None) -> Array:

@@ -173,6 +173,8 @@ def _column(at: int, one: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Co
         values = found[0] + found[1] * np.array(numbers, dtype=float)
     if np.any(np.isinf(values)) or np.all(np.isnan(values)):
         raise InputError(f"{where}: a value is too large, or none is a number")
+    if one.quantity.endswith("temperature") and np.nanmin(values) <= 0.0:
+        raise InputError(f"{where}: {np.nanmin(values):g} K is not above absolute zero; look at the column's unit")
     return Column(one.quantity, one.text, one.unit, values)
 
 

@@ -40,7 +40,7 @@ def tests_of(block: Block, settings: Settings) -> list[MeltTest]:
 def oscillation(block: Block) -> list[Array]:
     """Angular frequency [rad/s], G', G'' [Pa] and, where there is one, temperature [K]; rows above zero."""
     which = "angular_frequency" if "angular_frequency" in block.columns else "frequency"
-    extra = ["temperature"] if "temperature" in block.columns else []
+    extra = ["temperature"] if block.complete(["temperature"]) else []
     frequency, storage, loss, *rest = rows_of(block, [which, "storage_modulus", "loss_modulus", *extra])
     good = (frequency > 0.0) & (storage > 0.0) & (loss > 0.0)
     omega = frequency * (1.0 if which == "angular_frequency" else 2.0 * np.pi)

@@ -50,7 +50,7 @@ def temperature_of(block: Block, settings: Settings) -> float:
 
     Not a number where nobody says it: tests at one temperature have a spectrum all the same.
     """
-    if "temperature" in block.columns:
+    if block.complete(["temperature"]):
         return float(np.nanmean(block.values("temperature")))
     said = block.number("temperature")
     temperature = settings.get("temperature", said)
