@@ -23,8 +23,9 @@ FLOOR = (0, 1, 2)
 """Places of the floor's bodies below the blocks, from its upper face on."""
 WALLS = (3, 4, 5)
 """The housing's vanes, from the pads on."""
-RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, 9, 10
-BELOW_PADS, ABOVE_PADS, HOUSING = (11, 12, 13), 14, 15
+RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, (9, 10, 11), (12, 13, 14)
+"""The last two below and above the housing's vanes, from the pads on."""
+BELOW_PADS, ABOVE_PADS, HOUSING = (15, 16, 17), 18, 19
 """The floor's bodies below the pads, from its upper face on; beside the plate's lower one, which is above the
 blocks."""
 ABOVE_VANES, ABOVE = 0, (1, 2, 3)
@@ -94,11 +95,18 @@ def around_pads(
         bodies[-1] = bodies[-1]._replace(surface=whole.surface)
     wall = (pcl_area - cold_area) * (1.0 + running_clearance / block_height) * wall_depth * structure_heat_capacity
     walls = [Body(share * wall, lumps.NOWHERE) for share in STRIP]
-    rim, within, above_walls = plate_around
+    below_walls = _divided(below[3])
     above_pads = Body(STRIP[0] * pads * ring_width * rotor_thickness * structure_heat_capacity, lumps.NOWHERE)
-    parts = (*blocks, *walls, *below[2:], *below_pads)
+    parts = (*blocks, *walls, below[2], *below_walls, *below_pads)
     rest = lumps.less(housing_rest, parts, np.pi * housing_inner_radius**2 - ring_width * sum(depths))
-    return (*blocks, *walls, rim, within, *below[2:], above_walls, *below_pads, above_pads, rest)
+    rim, within, *above_walls = plate_around
+    return (*blocks, *walls, rim, within, below[2], *below_walls, *above_walls, *below_pads, above_pads, rest)
+
+
+def _divided(whole: Body) -> list[Body]:
+    """A strip that is heated at its edge, in three bodies from there on (`lumps.STRIP`)."""
+    surface = whole.surface
+    return [Body(share * whole.capacity, surface._replace(area=share * surface.area)) for share in STRIP]
 
 
 @quantities.helper()
@@ -128,10 +136,11 @@ def plate_around(
     )
     volumes = (rim, within, above_walls * rotor_thickness)
     behind = (None, None, rotor_thickness / 3.0 / structure_conductivity)
-    return tuple(
+    without, inside, above = (
         Body(volume * structure_heat_capacity, in_air._replace(area=area, behind=way))
         for volume, area, way in zip(volumes, areas, behind, strict=True)
     )
+    return (without, inside, *_divided(above))
 
 
 @quantities.helper()
@@ -158,10 +167,11 @@ def floor_links(
     blocks, sheet = heated_length - pads, structure_conductivity * floor_thickness * ring_width
     out = 2.0 * np.pi * structure_conductivity * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
     out = out / (heated_length + plate_depth + wall_depth)
-    to_walls = sheet / (0.25 * pads + wall_depth / 3.0)
+    to_walls = sheet / (0.25 * pads + WAYS[0] * wall_depth)
     to_vanes, to_pads, across = lumps.heated_between(sheet / blocks, 3.0 * sheet / plate_depth, 4.0 * sheet / pads)
     found = []
-    for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, BELOW_WALLS, to_walls)):
+    first = BELOW_WALLS[0]
+    for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, first, to_walls)):
         down = structure_conductivity * depth * ring_width / floor_thickness
         found += [_link(row[i - 1], row[i], down / way) for i, way in enumerate(WAYS[1:], 1)]
         for place, share in zip(row, STRIP, strict=True):
@@ -169,9 +179,11 @@ def floor_links(
     for block, pad, share in zip(FLOOR, BELOW_PADS, STRIP, strict=True):
         found += [_link(block, pad, share * to_pads), _link(pad, BELOW_VANES, share * across)]
     found.append(_link(BELOW_VANES, HOUSING, out * plate_depth))
-    found.append(_link(BELOW_WALLS, HOUSING, out * wall_depth))
+    found += [_link(i, HOUSING, share * out * wall_depth) for i, share in zip(BELOW_WALLS, STRIP, strict=True)]
     inwards = structure_conductivity * (pcl_area - cold_area) / wall_depth
-    return (*found, *(_link(i - 1, i, inwards / way) for i, way in zip(WALLS[1:], WAYS[1:], strict=True)))
+    for strip, across in ((WALLS, inwards), (BELOW_WALLS, sheet / wall_depth)):
+        found += [_link(i - 1, i, across / way) for i, way in zip(strip[1:], WAYS[1:], strict=True)]
+    return tuple(found)
 
 
 def _link(first: int, second: int, conductance: Scalar) -> Link:
@@ -292,7 +304,8 @@ def shares_above(heated_length: Scalar, plate_depth: Scalar, wall_depth: Scalar)
     """Bodies of the rotor plate above the ring, and each one's share of it."""
     ring = heated_length + plate_depth + wall_depth
     heated = [(("beside", i), share * heated_length / ring) for i, share in zip(ABOVE, STRIP, strict=True)]
-    return (("beside", ABOVE_VANES), plate_depth / ring), *heated, (("around", ABOVE_WALLS), wall_depth / ring)
+    walls = [(("around", i), share * wall_depth / ring) for i, share in zip(ABOVE_WALLS, STRIP, strict=True)]
+    return (("beside", ABOVE_VANES), plate_depth / ring), *heated, *walls
 
 
 @quantities.helper()
@@ -301,6 +314,7 @@ def plate_links(
     ways_along: tuple[Scalar, ...],
     shares_above: tuple[tuple[Place, Scalar], ...],
     heated_length: Scalar,
+    wall_depth: Scalar,
     pads_share: Scalar,
     core_and_link: lumps.Lump,
     rotor_thickness: Scalar,
@@ -314,7 +328,9 @@ def plate_links(
     inwards = [Link(place, core, share * core_and_link.conductance)
                for place, share in shares_above if place != ("beside", ABOVE[-1])]  # fmt: skip
     upwards = structure_conductivity * ring_width * pads_share * heated_length / (WAYS[1] * rotor_thickness)
-    return (*along, *inwards, Link(("around", ABOVE_PADS), ("beside", ABOVE[1]), upwards))
+    beyond = structure_conductivity * rotor_thickness * ring_width / wall_depth
+    walls = [_link(i - 1, i, beyond / way) for i, way in zip(ABOVE_WALLS[1:], WAYS[1:], strict=True)]
+    return (*along, *inwards, *walls, Link(("around", ABOVE_PADS), ("beside", ABOVE[1]), upwards))
 
 
 @quantities.helper()
@@ -327,7 +343,8 @@ def core_share(shares_above: tuple[tuple[Place, Scalar], ...]) -> Scalar:
 def plate_losses(
     around_pads: tuple[Body, ...],
     ring_width: Scalar,
-    ways_along: tuple[Scalar, ...],
+    heated_length: Scalar,
+    wall_depth: Scalar,
     shares_above: tuple[tuple[Place, Scalar], ...],
     core_radius: Scalar,
     pcl_inner_radius: Scalar,
@@ -342,9 +359,13 @@ def plate_losses(
 
     What ends free has its mean temperature a third of the way to its end.
     """
-    along = structure_conductivity * rotor_thickness * ring_width * ways_along[1]
+    sheet = structure_conductivity * rotor_thickness * ring_width
+    along = sheet / (0.25 * heated_length + WAYS[0] * wall_depth)
+    walls = [around_pads[i].surface for i in ABOVE_WALLS]
+    air = sum(one.area * lumps.surface_coefficient(one, ambient_temperature, ambient_temperature) for one in walls)
+    onward = lumps.in_series(sheet / ((1.0 / 3.0 - WAYS[0]) * wall_depth), air)
     found = [
-        _onward(Link(("beside", i), ("around", ABOVE_WALLS), share * along), around_pads, ambient_temperature, share)
+        lumps.Loss(Link(("beside", i), ("around", ABOVE_WALLS[0]), share * along), share * onward)
         for i, share in zip(ABOVE, STRIP, strict=True)
     ]
     around = 2.0 * np.pi * structure_conductivity * rotor_thickness
@@ -357,7 +378,7 @@ def plate_losses(
     return tuple(found)
 
 
-def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar = 1.0) -> lumps.Loss:
+def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar) -> lumps.Loss:
     """A link to a body that loses a share of its heat to the air behind it."""
     surface = bodies[link.second[1]].surface
     return lumps.Loss(link, share * surface.area * lumps.surface_coefficient(surface, ambient, ambient))

@@ -70,10 +70,11 @@ def vane_links(
     below = whole * _into(k * ring_width, wall_depth, floor_thickness)
     above = lumps.in_series(_into(k * ring_width, wall_depth, rotor_thickness), through_clearance * area)
     to_floor, to_plate, across = lumps.heated_between(k * whole * area / block_height, below, above)
-    floor, plate = ("around", BELOW_WALLS), ("around", ABOVE_WALLS)
-    for i, share in zip(WALLS, STRIP, strict=True):
-        found += [Link(("around", i), floor, share * to_floor), Link(("around", i), plate, share * to_plate)]
-    return (*found, Link(floor, plate, across))
+    for places in zip(WALLS, BELOW_WALLS, ABOVE_WALLS, STRIP, strict=True):
+        wall, floor, plate = (("around", i) for i in places[:3])
+        ways = ((wall, floor, to_floor), (wall, plate, to_plate), (floor, plate, across))
+        found += [Link(first, second, places[3] * conductance) for first, second, conductance in ways]
+    return tuple(found)
 
 
 def _into(sheet: Scalar, width: Scalar, depth: Scalar) -> Scalar:
