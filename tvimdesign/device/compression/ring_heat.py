@@ -7,6 +7,8 @@ three bodies from its upper face on, as is the rotor plate above them; the floor
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
@@ -169,7 +171,12 @@ def floor_links(
     out = out / (heated_length + plate_depth + wall_depth)
     to_walls = sheet / (0.25 * pads + WAYS[0] * wall_depth)
     to_vanes, to_pads, across = lumps.heated_between(sheet / blocks, 3.0 * sheet / plate_depth, 4.0 * sheet / pads)
+    turned = lumps.uneven_way(wall_depth / floor_thickness) * floor_thickness
+    uneven_walls = sheet / (0.25 * pads + turned)
+    turned = lumps.uneven_way(plate_depth / floor_thickness) * floor_thickness
+    uneven_vanes = lumps.heated_between(sheet / blocks, sheet / turned, 4.0 * sheet / pads)[0]
     found = []
+    found += [*_evened(FLOOR, uneven_vanes - to_vanes), *_evened(BELOW_PADS, uneven_walls - to_walls)]
     first = BELOW_WALLS[0]
     for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, first, to_walls)):
         down = structure_conductivity * depth * ring_width / floor_thickness
@@ -184,6 +191,14 @@ def floor_links(
     for strip, across in ((WALLS, inwards), (BELOW_WALLS, sheet / wall_depth)):
         found += [_link(i - 1, i, across / way) for i, way in zip(strip[1:], WAYS[1:], strict=True)]
     return tuple(found)
+
+
+def _evened(row: tuple[int, ...], conductance: Scalar) -> list[Link]:
+    """Links among bodies of a row that leave what it gives by its mean, and take a conductance from what each gives by
+    its difference from that: c (T_mean - T_i) to each for its share."""
+    shares = dict(zip(row, STRIP, strict=True))
+    pairs = itertools.combinations(row, 2)
+    return [_link(one, other, shares[one] * shares[other] * conductance) for one, other in pairs]
 
 
 def _link(first: int, second: int, conductance: Scalar) -> Link:

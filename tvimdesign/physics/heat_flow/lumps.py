@@ -303,6 +303,15 @@ def way_in_fin(slenderness: Any) -> Any:
     return 1.0 / (slenderness * np.tanh(slenderness)) - slenderness**-2.0
 
 
+def uneven_way(slenderness: Any) -> Any:
+    """Way into a strip for what differs over its height from the mean there, over that height [1]: 1/(pi tanh(pi r)).
+
+    The first cosine over the height h, cos(pi y/h), falls as cosh(pi x/h) to the strip's other end at w = r h, which no
+    heat passes (by separation of variables, Carslaw and Jaeger, ch. V).
+    """
+    return 1.0 / (np.pi * np.tanh(np.pi * slenderness))
+
+
 def heated_between(across: Any, first: Any, second: Any) -> tuple[Any, Any, Any]:
     """Conductances [W/K] from the mean of an evenly heated slab to what is behind either face, and between these.
 
