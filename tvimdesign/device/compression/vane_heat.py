@@ -36,7 +36,8 @@ def vane_ways(
     ring_width: Scalar,
     plate_depth: Scalar,
     rotor_vanes: Section,
-    vane_height: Scalar,
+    running_clearance: Scalar,
+    block_height: Scalar,
     rotor_thickness: Scalar,
     floor_thickness: Scalar,
     structure_conductivity: Scalar,
@@ -46,7 +47,9 @@ def vane_ways(
     k, area = structure_conductivity, ring_width * plate_depth
     above, below = (_into(k * ring_width, plate_depth, depth) for depth in (rotor_thickness, floor_thickness))
     below = lumps.in_series(below, through_clearance * area)
-    return lumps.heated_between(k * rotor_vanes.area / vane_height, above, below)
+    # The vane stands beside the clearance before it meets the plate.
+    above = lumps.in_series(above, k * rotor_vanes.area / running_clearance)
+    return lumps.heated_between(k * rotor_vanes.area / block_height, above, below)
 
 
 @quantities.helper()
