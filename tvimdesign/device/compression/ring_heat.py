@@ -206,6 +206,15 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 
 @quantities.helper()
+def slope_share(block_depth: Scalar, plate_depth: Scalar, pads_share: Scalar, heated_length: Scalar) -> Scalar:
+    """What lies below or above a block of the way from that of a pad to that of a vane, where heat passes on [1].
+
+    Ways to their mean temperatures as in `floor_links`.
+    """
+    return block_depth / (block_depth + plate_depth / 3.0 + 0.25 * pads_share * heated_length)
+
+
+@quantities.helper()
 def pad_height(heater_form: str, block_height: Scalar, peltier_width: Scalar) -> Scalar:
     """Height of what heats a block [m]: its pad, or tiles that stand at its lower edge."""
     return block_height if heater_form == CUT else peltier_width
@@ -234,6 +243,7 @@ def stack_links(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
     pcl_melting: polymer.Melting,
+    slope_share: Scalar,
     plate_links: tuple[Link, ...],
     vane_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
@@ -248,6 +258,7 @@ def stack_links(
     """
     blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS))
     to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
+    sloping = {blocks[0]: (pads[0], ("around", BELOW_VANES)), blocks[1]: (pads[1], ("beside", ABOVE_VANES))}
     found = []
     above = running_clearance + block_height - pad_height
     of_pads = (LEGS, pad_rows * peltier_thickness, pads, (running_clearance, above))
@@ -261,6 +272,7 @@ def stack_links(
             through = lumps.behind(gap, walls, ambient_temperature)
             if place == ("layer", 0):
                 through = lumps.straightened(through, pcl_melting.end, ambient_temperature)
+                through = through._replace(slope=lumps.Slope(*sloping[face], slope_share))
             found.append(through)
     lost = sum(lumps.link_conductance(one, pcl_melting.end, ambient_temperature) for one in found if one.first == LEGS)
     along = air_conductivity * 2.0 / 3.0 * running_clearance * ring_width / peltier_thickness

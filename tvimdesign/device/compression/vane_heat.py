@@ -59,6 +59,7 @@ def vane_links(
     cold_area: Scalar,
     ring_width: Scalar,
     wall_depth: Scalar,
+    running_clearance: Scalar,
     block_height: Scalar,
     floor_thickness: Scalar,
     rotor_thickness: Scalar,
@@ -70,7 +71,7 @@ def vane_links(
     found = [Link(("plate", 0), floor, vane_ways[1]), Link(plate, floor, vane_ways[2])]
     k, area = structure_conductivity, ring_width * wall_depth
     whole = (pcl_area - cold_area) / pcl_area
-    below = whole * _into(k * ring_width, wall_depth, floor_thickness)
+    below = whole * lumps.in_series(_into(k * ring_width, wall_depth, floor_thickness), k * area / running_clearance)
     above = lumps.in_series(_into(k * ring_width, wall_depth, rotor_thickness), through_clearance * area)
     to_floor, to_plate, across = lumps.heated_between(k * whole * area / block_height, below, above)
     for places in zip(WALLS, BELOW_WALLS, ABOVE_WALLS, STRIP, strict=True):

@@ -80,6 +80,15 @@ Place = tuple[str, int]
 `around`, and which."""
 
 
+class Slope(NamedTuple):
+    """How much warmer what the layer faces is at the layer's near end than at its far one, evenly between them."""
+
+    warm: Place
+    cool: Place
+    share: Any
+    """Of what `warm` is warmer than `cool` [1]."""
+
+
 class Link(NamedTuple):
     """What conducts, and radiates, between two places; `layer` and `plate` give heat evenly over their depth."""
 
@@ -91,6 +100,8 @@ class Link(NamedTuple):
     """Area times exchange factor 1/(1/e + 1/e - 1) [m^2]."""
     of_layer: Any = None
     """Share of its heat [1] that the layer gives in place of `first`; none where not given."""
+    slope: Slope | None = None
+    """Of the second end along the layer, which is the first; even where not given."""
 
 
 def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
@@ -157,7 +168,17 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
             given = link.of_layer * link_heat(link, at[group][i], at[link.second[0]][link.second[1]])
             found[group][i] = found[group][i] + given
             found["layer"][0] = found["layer"][0] - given * _falling(count)
+        if link.slope is not None:
+            count = len(divided["layer"])
+            conductance = link_conductance(link, at["layer"][0], at[link.second[0]][link.second[1]])
+            found["layer"][0] = found["layer"][0] + conductance / count * risen(link.slope, at, count)
     return found
+
+
+def risen(slope: Slope, places: Mapping[str, Any], count: int) -> Any:
+    """How much warmer than its mean what a layer of so many cells faces is before each of them [K]."""
+    (group, i), (other, k) = slope.warm, slope.cool
+    return slope.share * (places[group][i] - places[other][k]) * (0.5 - (np.arange(count) + 0.5) / count)
 
 
 def _falling(count: int) -> Any:
