@@ -92,12 +92,12 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = found["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
-    # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane of 3.9 mm heated all along
-    # is a third of its height away; in the rotor plate heat turns to the side.
+    # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane's heated 3.5 mm is a third of
+    # them away, with 0.4 mm beside the clearance before the plate; in the plate heat turns to the side.
     airless = {**squeezed, "air_conductivity": 1e-9, "surface_emissivity": 1e-9}
     tight = TABLE.evaluate(airless, ["stack", "rotor_thickness"])
     thickness = tight["rotor_thickness"]
-    root = 0.24 * 6 * 14e-3 * 5e-3 / (3.9e-3 / 3.0)
+    root = 0.24 * 6 * 14e-3 * 5e-3 / (3.5e-3 / 3.0 + 0.4e-3)
     above = 0.24 * 12 * 14e-3 / lumps.ledge_ways(2.5e-3 / thickness)[0]
     assert tight["stack"].beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / above), rel=1e-6)
     # 0.4 mm of the vanes stand beside the clearance above the blocks.
@@ -113,7 +113,7 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     assert stack.plate_surface.coefficient == 0.0
     vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
-    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, ABOVE_WALLS, ABOVE_PADS))
+    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, *ABOVE_WALLS, ABOVE_PADS))
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 

@@ -35,7 +35,11 @@ def moment_now(
 
 @quantities.helper(instant=True)
 def row_shifts(
-    stack_profile: heat.Profile, stack: heat.Stack, block_height: Scalar, block_depth: Scalar, ring_width: Scalar,
+    stack_profile: heat.Profile,
+    stack: heat.Stack,
+    block_height: Scalar,
+    block_depth: Scalar,
+    ring_width: Scalar,
     pcl_conductivity_melt: Scalar,
 ) -> list[Scalar]:
     """How much warmer than their mean a block's slices are [K], in rows from its lower face to its upper one."""
@@ -47,8 +51,10 @@ def row_shifts(
             lost.append(link.conductance / (ring_width * block_depth) * (stack_profile.cells - face))
     depths = (np.arange(count) + 0.5) / count
     across = 0.5 * block_height / pcl_conductivity_melt
-    return [-across * rows.below_mean(2.0 * place - 1.0, depths, 2.0 * block_depth / block_height, lost)
-            for place in rows.PLACES]
+    return [
+        -across * rows.below_mean(2.0 * place - 1.0, depths, 2.0 * block_depth / block_height, lost)
+        for place in rows.PLACES
+    ]
 
 
 @quantities.helper(instant=True)

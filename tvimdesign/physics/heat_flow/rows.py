@@ -15,7 +15,7 @@ from tvimdesign.physics.heat_flow.columns import PLACES, SHARES
 
 __all__ = ["PLACES", "SHARES", "below_mean"]
 
-TERMS = 3
+TERMS = 6
 
 
 def below_mean(place: float, depths: Any, slenderness: Any, lost: Sequence[Any]) -> Any:
