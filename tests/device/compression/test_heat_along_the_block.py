@@ -92,8 +92,8 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = found["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
-    # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane's heated 3.5 mm is a third of
-    # them away, with 0.4 mm beside the clearance before the plate; in the plate heat turns to the side.
+    # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane's heated 3.5 mm is a third
+    # of these away, and 0.4 mm beside the clearance come before the plate, where heat turns to the side.
     airless = {**squeezed, "air_conductivity": 1e-9, "surface_emissivity": 1e-9}
     tight = TABLE.evaluate(airless, ["stack", "rotor_thickness"])
     thickness = tight["rotor_thickness"]
