@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.sparse import diags, eye, kron
+from scipy.sparse import eye, kron
 from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.heat_flow import lumps, rows
@@ -19,7 +19,7 @@ def conduction(count: int, length: float, first: float, last: float) -> Array:
     """Conduction along a row of cells; at either end 2 where it is held at 0, 0 where nothing passes."""
     diagonal = np.full(count, 2.0)
     diagonal[0], diagonal[-1] = 1.0 + first, 1.0 + last
-    return diags([diagonal, -np.ones(count - 1), -np.ones(count - 1)], [0, 1, -1]) * (count / length) ** 2
+    return (np.diag(diagonal) - np.eye(count, k=1) - np.eye(count, k=-1)) * (count / length) ** 2
 
 
 @pytest.mark.parametrize("slenderness", [0.8, 2.0, 6.0])
