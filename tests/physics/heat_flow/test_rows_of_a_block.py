@@ -56,8 +56,8 @@ def test_what_is_uneven_over_the_height_of_a_strip_passes_its_edge_as_in_two_dim
 def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat() -> None:
     # A face at 40 K that is 6 K warmer at the layer's near end than at its far one: 42, 40, 38 K before three cells.
     cells = np.array([90.0, 70.0, 50.0])
-    slope = Slope(("around", 1), ("around", 2), 0.5)
+    slope = Slope(((("around", 1), 0.25), (("around", 3), 0.75)), ("around", 2), 0.5)
     link = Link(("layer", 0), ("around", 0), 3.0, slope=slope)
-    found = lumps.linked([link], {"around": np.array([40.0, 47.0, 35.0])}, {"layer": cells})
+    found = lumps.linked([link], {"around": np.array([40.0, 50.0, 35.0, 46.0])}, {"layer": cells})
     assert found["layer"][0] == pytest.approx(np.array([42.0, 40.0, 38.0]) - cells)
-    assert found["around"] == pytest.approx([90.0, 0.0, 0.0])
+    assert found["around"] == pytest.approx([90.0, 0.0, 0.0, 0.0])

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.compression.block_impedance import blocks_moment
+from tvimdesign.device.compression.ring_heat import ABOVE, FLOOR
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -45,10 +46,12 @@ def row_shifts(
     """How much warmer than their mean a block's slices are [K], in rows from its lower face to its upper one."""
     count, places = len(stack_profile.cells), stack_profile._asdict()
     lost = []
-    for link in stack.links:
+    for faced in (("around", FLOOR[0]), ("beside", ABOVE[0])):
+        (link,) = (one for one in stack.links if (one.first, one.second) == (("layer", 0), faced))
+        face = places[faced[0]][faced[1]]
         if link.slope is not None:
-            face = places[link.second[0]][link.second[1]] + lumps.risen(link.slope, places, count)
-            lost.append(link.conductance / (ring_width * block_depth) * (stack_profile.cells - face))
+            face = face + lumps.risen(link.slope, places, count)
+        lost.append(link.conductance / (ring_width * block_depth) * (stack_profile.cells - face))
     depths = (np.arange(count) + 0.5) / count
     across = 0.5 * block_height / pcl_conductivity_melt
     return [

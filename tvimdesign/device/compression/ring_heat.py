@@ -209,7 +209,7 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 @quantities.helper()
 def slope_share(block_depth: Scalar, plate_depth: Scalar, pads_share: Scalar, heated_length: Scalar) -> Scalar:
-    """What lies below or above a block of the way from that of a pad to that of a vane, where heat passes on [1].
+    """What lies below a block of the way from the floor below a pad to that below a vane, where heat passes on [1].
 
     Ways to their mean temperatures as in `floor_links`.
     """
@@ -260,7 +260,8 @@ def stack_links(
     """
     blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS))
     to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
-    sloping = {blocks[0]: (pads[0], ("around", BELOW_VANES)), blocks[1]: (pads[1], ("beside", ABOVE_VANES))}
+    below_pads = tuple((("around", i), share) for i, share in zip(BELOW_PADS, STRIP, strict=True))
+    sloping = {blocks[0]: lumps.Slope(below_pads, ("around", BELOW_VANES), slope_share)}
     found = []
     above = running_clearance + block_height - pad_height
     of_pads = (LEGS, pad_rows * peltier_thickness, pads, (running_clearance, above))
@@ -274,7 +275,7 @@ def stack_links(
             through = lumps.behind(gap, walls, ambient_temperature)
             if place == ("layer", 0):
                 through = lumps.straightened(through, pcl_melting.end, ambient_temperature)
-                through = through._replace(slope=lumps.Slope(*sloping[face], slope_share))
+                through = through._replace(slope=sloping.get(face))
             found.append(through)
     lost = sum(lumps.link_conductance(one, pcl_melting.end, ambient_temperature) for one in found if one.first == LEGS)
     along = air_conductivity * 2.0 / 3.0 * running_clearance * ring_width / peltier_thickness

@@ -83,10 +83,11 @@ Place = tuple[str, int]
 class Slope(NamedTuple):
     """How much warmer what the layer faces is at the layer's near end than at its far one, evenly between them."""
 
-    warm: Place
+    warm: tuple[tuple[Place, Any], ...]
+    """Places and the share of each in a mean [1]."""
     cool: Place
     share: Any
-    """Of what `warm` is warmer than `cool` [1]."""
+    """Of what the mean of `warm` is warmer than `cool` [1]."""
 
 
 class Link(NamedTuple):
@@ -177,8 +178,8 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
 
 def risen(slope: Slope, places: Mapping[str, Any], count: int) -> Any:
     """How much warmer than its mean what a layer of so many cells faces is before each of them [K]."""
-    (group, i), (other, k) = slope.warm, slope.cool
-    return slope.share * (places[group][i] - places[other][k]) * (0.5 - (np.arange(count) + 0.5) / count)
+    warm, (group, k) = sum(share * places[of][i] for (of, i), share in slope.warm), slope.cool
+    return slope.share * (warm - places[group][k]) * (0.5 - (np.arange(count) + 0.5) / count)
 
 
 def _falling(count: int) -> Any:
