@@ -8,7 +8,15 @@ from stiff_when_warm import STIFF_WHEN_WARM
 from support import ROOT, fine
 
 from tvimdesign.device import table_for
-from tvimdesign.device.compression.ring_heat import ABOVE_PADS, ABOVE_WALLS, HOUSING, RIM, WITHIN
+from tvimdesign.device.compression.ring_heat import (
+    ABOVE_PADS,
+    ABOVE_WALLS,
+    BELOW_PADS,
+    BELOW_WALLS,
+    HOUSING,
+    RIM,
+    WITHIN,
+)
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
@@ -115,6 +123,21 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
     around = sum(stack.around[place].capacity for place in (RIM, WITHIN, *ABOVE_WALLS, ABOVE_PADS))
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
+
+
+def test_floor_below_pads_gives_by_its_mean_and_what_its_depths_differ_by_the_way_of_a_cosine(
+    squeezed: dict[str, Any],
+) -> None:
+    found = TABLE.evaluate(squeezed, ["stack", "wall_depth"])
+    deep, wall, pad, wide = squeezed["floor_thickness"], found["wall_depth"], squeezed["peltier_thickness"], 12 * 14e-3
+    links = {(link.first, link.second): link.conductance for link in found["stack"].links}
+    upper, _, lower = (("around", place) for place in BELOW_PADS)
+    # 0.029 of the vane's depth from its edge is what is next to the pads; 0.087 and 0.666 are shares of the depth.
+    even = 0.24 * wide * deep / (0.25 * pad + 0.029 * wall)
+    uneven = 0.24 * wide * deep / (0.25 * pad + deep / np.pi / np.tanh(np.pi * wall / deep))
+    assert links[lower, ("around", BELOW_WALLS[0])] == pytest.approx(0.666 * even, rel=1e-9)
+    # Bodies that differ from their mean by d give (even - uneven) d less for their share: they conduct so much less.
+    assert links[upper, lower] == pytest.approx(0.087 * 0.666 * (uneven - even), rel=1e-9)
 
 
 def test_cold_sides_are_open_where_the_slots_are(squeezed: dict[str, Any]) -> None:
