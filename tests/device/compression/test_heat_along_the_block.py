@@ -8,7 +8,15 @@ from stiff_when_warm import STIFF_WHEN_WARM
 from support import ROOT, fine
 
 from tvimdesign.device import table_for
-from tvimdesign.device.compression.ring_heat import ABOVE_PADS, ABOVE_WALLS, HOUSING, RIM, WITHIN
+from tvimdesign.device.compression.ring_heat import (
+    ABOVE_PADS,
+    ABOVE_WALLS,
+    BELOW_PADS,
+    BELOW_WALLS,
+    HOUSING,
+    RIM,
+    WITHIN,
+)
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
@@ -92,12 +100,12 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     found = TABLE.evaluate(squeezed, ["stack", "rotor_mass", "link_mass", "retainer_mass"])
     stack = found["stack"]
     assert stack.plate_thickness == pytest.approx(2.5e-3, rel=1e-12)  # half of a vane of 5 mm
-    # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane of 3.9 mm heated all along
-    # is a third of its height away; in the rotor plate heat turns to the side.
+    # Six roots of 14 by 5 mm. Where no heat passes the clearance below, the mean of a vane's heated 3.5 mm is a third
+    # of these away, and 0.4 mm beside the clearance come before the plate, where heat turns to the side.
     airless = {**squeezed, "air_conductivity": 1e-9, "surface_emissivity": 1e-9}
     tight = TABLE.evaluate(airless, ["stack", "rotor_thickness"])
     thickness = tight["rotor_thickness"]
-    root = 0.24 * 6 * 14e-3 * 5e-3 / (3.9e-3 / 3.0)
+    root = 0.24 * 6 * 14e-3 * 5e-3 / (3.5e-3 / 3.0 + 0.4e-3)
     above = 0.24 * 12 * 14e-3 / lumps.ledge_ways(2.5e-3 / thickness)[0]
     assert tight["stack"].beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / above), rel=1e-6)
     # 0.4 mm of the vanes stand beside the clearance above the blocks.
@@ -113,8 +121,23 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     assert stack.plate_surface.coefficient == 0.0
     vanes = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     parts = found["rotor_mass"] + found["link_mass"] + found["retainer_mass"]
-    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, ABOVE_WALLS, ABOVE_PADS))
+    around = sum(stack.around[place].capacity for place in (RIM, WITHIN, *ABOVE_WALLS, ABOVE_PADS))
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
+
+
+def test_floor_below_pads_gives_by_its_mean_and_what_its_depths_differ_by_the_way_of_a_cosine(
+    squeezed: dict[str, Any],
+) -> None:
+    found = TABLE.evaluate(squeezed, ["stack", "wall_depth"])
+    deep, wall, pad, wide = squeezed["floor_thickness"], found["wall_depth"], squeezed["peltier_thickness"], 12 * 14e-3
+    links = {(link.first, link.second): link.conductance for link in found["stack"].links}
+    upper, _, lower = (("around", place) for place in BELOW_PADS)
+    # 0.029 of the vane's depth from its edge is what is next to the pads; 0.087 and 0.666 are shares of the depth.
+    even = 0.24 * wide * deep / (0.25 * pad + 0.029 * wall)
+    uneven = 0.24 * wide * deep / (0.25 * pad + deep / np.pi / np.tanh(np.pi * wall / deep))
+    assert links[lower, ("around", BELOW_WALLS[0])] == pytest.approx(0.666 * even, rel=1e-9)
+    # Bodies that differ from their mean by d give (even - uneven) d less for their share: they conduct so much less.
+    assert links[upper, lower] == pytest.approx(0.087 * 0.666 * (uneven - even), rel=1e-9)
 
 
 def test_cold_sides_are_open_where_the_slots_are(squeezed: dict[str, Any]) -> None:

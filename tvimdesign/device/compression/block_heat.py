@@ -9,12 +9,14 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.compression.block_impedance import blocks_moment
+from tvimdesign.device.compression.ring_heat import ABOVE, FLOOR
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import heat, lumps, rows
 from tvimdesign.physics.layers import film, layer
+from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
@@ -33,9 +35,48 @@ def moment_now(
 
 
 @quantities.helper(instant=True)
-def layer_moduli(slice_moduli: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of a block [Pa], its slices in series."""
-    return layer.series_modulus(*slice_moduli)
+def row_shifts(
+    stack_profile: heat.Profile,
+    stack: heat.Stack,
+    block_height: Scalar,
+    block_depth: Scalar,
+    ring_width: Scalar,
+    pcl_conductivity_melt: Scalar,
+) -> list[Scalar]:
+    """How much warmer than their mean a block's slices are [K], in rows from its lower face to its upper one."""
+    count, places = len(stack_profile.cells), stack_profile._asdict()
+    lost = []
+    for faced in (("around", FLOOR[0]), ("beside", ABOVE[0])):
+        (link,) = (one for one in stack.links if (one.first, one.second) == (("layer", 0), faced))
+        face = places[faced[0]][faced[1]]
+        if link.slope is not None:
+            face = face + lumps.risen(link.slope, places, count)
+        lost.append(link.conductance / (ring_width * block_depth) * (stack_profile.cells - face))
+    depths = (np.arange(count) + 0.5) / count
+    across = 0.5 * block_height / pcl_conductivity_melt
+    return [
+        -across * rows.below_mean(2.0 * place - 1.0, depths, 2.0 * block_depth / block_height, lost)
+        for place in rows.PLACES
+    ]
+
+
+@quantities.helper(instant=True)
+def layer_moduli(
+    stack_profile: heat.Profile,
+    stack_now: heat.Stack,
+    slice_moduli: tuple[Scalar, Scalar],
+    row_shifts: list[Scalar],
+    pcl_rheology: polymer.AnyRheology,
+    frequency_now: Scalar,
+) -> tuple[Scalar, Scalar]:
+    """Storage and loss modulus of a block [Pa]: its slices in series, and while it melts its rows side by side."""
+    if stack_now.freezing is not None:
+        return layer.series_modulus(*slice_moduli)
+    found = []
+    for shift in row_shifts:
+        cells, fractions = polymer.melting_at(stack_profile.cells + shift, stack_now.melting)
+        found.append(layer.series_modulus(*polymer.moduli(cells, fractions, 2.0 * np.pi * frequency_now, pcl_rheology)))
+    return layer.side_by_side(found, rows.SHARES)
 
 
 @quantities.helper()

@@ -2,10 +2,13 @@
 
 Blocks, pads and rotor vanes face floor and rotor plate through the still air of the running clearances, and the housing
 through the chamber within and without. The pads lean against the housing's vanes. The floor below blocks and pads is
-three bodies from its upper face on, as is the rotor plate above them; the floor below the vanes is one.
+three bodies from its upper face on, as is the rotor plate above them; the floor below the rotor's vanes is one. Floor
+and plate at the housing's vanes are three in a row from the pads on, as these are.
 """
 
 from __future__ import annotations
+
+import itertools
 
 import numpy as np
 
@@ -23,8 +26,9 @@ FLOOR = (0, 1, 2)
 """Places of the floor's bodies below the blocks, from its upper face on."""
 WALLS = (3, 4, 5)
 """The housing's vanes, from the pads on."""
-RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, 9, 10
-BELOW_PADS, ABOVE_PADS, HOUSING = (11, 12, 13), 14, 15
+RIM, WITHIN, BELOW_VANES, BELOW_WALLS, ABOVE_WALLS = 6, 7, 8, (9, 10, 11), (12, 13, 14)
+"""The last two below and above the housing's vanes, from the pads on."""
+BELOW_PADS, ABOVE_PADS, HOUSING = (15, 16, 17), 18, 19
 """The floor's bodies below the pads, from its upper face on; beside the plate's lower one, which is above the
 blocks."""
 ABOVE_VANES, ABOVE = 0, (1, 2, 3)
@@ -94,11 +98,18 @@ def around_pads(
         bodies[-1] = bodies[-1]._replace(surface=whole.surface)
     wall = (pcl_area - cold_area) * (1.0 + running_clearance / block_height) * wall_depth * structure_heat_capacity
     walls = [Body(share * wall, lumps.NOWHERE) for share in STRIP]
-    rim, within, above_walls = plate_around
+    below_walls = _divided(below[3])
     above_pads = Body(STRIP[0] * pads * ring_width * rotor_thickness * structure_heat_capacity, lumps.NOWHERE)
-    parts = (*blocks, *walls, *below[2:], *below_pads)
+    parts = (*blocks, *walls, below[2], *below_walls, *below_pads)
     rest = lumps.less(housing_rest, parts, np.pi * housing_inner_radius**2 - ring_width * sum(depths))
-    return (*blocks, *walls, rim, within, *below[2:], above_walls, *below_pads, above_pads, rest)
+    rim, within, *above_walls = plate_around
+    return (*blocks, *walls, rim, within, below[2], *below_walls, *above_walls, *below_pads, above_pads, rest)
+
+
+def _divided(whole: Body) -> list[Body]:
+    """A strip that is heated at its edge, in three bodies from there on (`lumps.STRIP`)."""
+    surface = whole.surface
+    return [Body(share * whole.capacity, surface._replace(area=share * surface.area)) for share in STRIP]
 
 
 @quantities.helper()
@@ -128,10 +139,11 @@ def plate_around(
     )
     volumes = (rim, within, above_walls * rotor_thickness)
     behind = (None, None, rotor_thickness / 3.0 / structure_conductivity)
-    return tuple(
+    without, inside, above = (
         Body(volume * structure_heat_capacity, in_air._replace(area=area, behind=way))
         for volume, area, way in zip(volumes, areas, behind, strict=True)
     )
+    return (without, inside, *_divided(above))
 
 
 @quantities.helper()
@@ -152,16 +164,23 @@ def floor_links(
 
     Heat goes along the ring from below the pads through what is below the blocks, which loses or takes heat evenly on
     the way. What is below pads has its mean temperature a quarter of its length from either end (a sixth where both
-    ends take as much, a third where one takes all), what is heated at its end a third of its length away.
+    ends take as much, a third where one takes all), what is heated at its end a third of its length away. What a body
+    of a row differs from its row's mean takes the way of a cosine over the depth (`lumps.uneven_way`).
     """
     pads = pads_share * heated_length
     blocks, sheet = heated_length - pads, structure_conductivity * floor_thickness * ring_width
     out = 2.0 * np.pi * structure_conductivity * floor_thickness / np.log(housing_inner_radius / pcl_outer_radius)
     out = out / (heated_length + plate_depth + wall_depth)
-    to_walls = sheet / (0.25 * pads + wall_depth / 3.0)
+    to_walls = sheet / (0.25 * pads + WAYS[0] * wall_depth)
     to_vanes, to_pads, across = lumps.heated_between(sheet / blocks, 3.0 * sheet / plate_depth, 4.0 * sheet / pads)
+    turned = lumps.uneven_way(wall_depth / floor_thickness) * floor_thickness
+    uneven_walls = sheet / (0.25 * pads + turned)
+    turned = lumps.uneven_way(plate_depth / floor_thickness) * floor_thickness
+    uneven_vanes = lumps.heated_between(sheet / blocks, sheet / turned, 4.0 * sheet / pads)[0]
     found = []
-    for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, BELOW_WALLS, to_walls)):
+    found += [*_evened(FLOOR, uneven_vanes - to_vanes), *_evened(BELOW_PADS, uneven_walls - to_walls)]
+    first = BELOW_WALLS[0]
+    for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, first, to_walls)):
         down = structure_conductivity * depth * ring_width / floor_thickness
         found += [_link(row[i - 1], row[i], down / way) for i, way in enumerate(WAYS[1:], 1)]
         for place, share in zip(row, STRIP, strict=True):
@@ -169,13 +188,32 @@ def floor_links(
     for block, pad, share in zip(FLOOR, BELOW_PADS, STRIP, strict=True):
         found += [_link(block, pad, share * to_pads), _link(pad, BELOW_VANES, share * across)]
     found.append(_link(BELOW_VANES, HOUSING, out * plate_depth))
-    found.append(_link(BELOW_WALLS, HOUSING, out * wall_depth))
+    found += [_link(i, HOUSING, share * out * wall_depth) for i, share in zip(BELOW_WALLS, STRIP, strict=True)]
     inwards = structure_conductivity * (pcl_area - cold_area) / wall_depth
-    return (*found, *(_link(i - 1, i, inwards / way) for i, way in zip(WALLS[1:], WAYS[1:], strict=True)))
+    for strip, across in ((WALLS, inwards), (BELOW_WALLS, sheet / wall_depth)):
+        found += [_link(i - 1, i, across / way) for i, way in zip(strip[1:], WAYS[1:], strict=True)]
+    return tuple(found)
+
+
+def _evened(row: tuple[int, ...], conductance: Scalar) -> list[Link]:
+    """Links among bodies of a row that leave what it gives by its mean, and take a conductance from what each gives by
+    its difference from that: c (T_mean - T_i) to each for its share."""
+    shares = dict(zip(row, STRIP, strict=True))
+    pairs = itertools.combinations(row, 2)
+    return [_link(one, other, shares[one] * shares[other] * conductance) for one, other in pairs]
 
 
 def _link(first: int, second: int, conductance: Scalar) -> Link:
     return Link(("around", first), ("around", second), conductance)
+
+
+@quantities.helper()
+def slope_share(block_depth: Scalar, plate_depth: Scalar, pads_share: Scalar, heated_length: Scalar) -> Scalar:
+    """What lies below a block of the way from the floor below a pad to that below a vane, where heat passes on [1].
+
+    Ways to their mean temperatures as in `floor_links`.
+    """
+    return block_depth / (block_depth + plate_depth / 3.0 + 0.25 * pads_share * heated_length)
 
 
 @quantities.helper()
@@ -207,6 +245,7 @@ def stack_links(
     structure_conductivity: Scalar,
     ambient_temperature: Scalar,
     pcl_melting: polymer.Melting,
+    slope_share: Scalar,
     plate_links: tuple[Link, ...],
     vane_links: tuple[Link, ...],
 ) -> tuple[Link, ...]:
@@ -221,6 +260,8 @@ def stack_links(
     """
     blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS))
     to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
+    below_pads = tuple((("around", i), share) for i, share in zip(BELOW_PADS, STRIP, strict=True))
+    sloping = {blocks[0]: lumps.Slope(below_pads, ("around", BELOW_VANES), slope_share)}
     found = []
     above = running_clearance + block_height - pad_height
     of_pads = (LEGS, pad_rows * peltier_thickness, pads, (running_clearance, above))
@@ -234,6 +275,7 @@ def stack_links(
             through = lumps.behind(gap, walls, ambient_temperature)
             if place == ("layer", 0):
                 through = lumps.straightened(through, pcl_melting.end, ambient_temperature)
+                through = through._replace(slope=sloping.get(face))
             found.append(through)
     lost = sum(lumps.link_conductance(one, pcl_melting.end, ambient_temperature) for one in found if one.first == LEGS)
     along = air_conductivity * 2.0 / 3.0 * running_clearance * ring_width / peltier_thickness
@@ -285,79 +327,3 @@ def side_links(
         Link(("cold", 0), ("around", WALLS[0]), into_walls),
         *spreader_links,
     )
-
-
-@quantities.helper()
-def shares_above(heated_length: Scalar, plate_depth: Scalar, wall_depth: Scalar) -> tuple[tuple[Place, Scalar], ...]:
-    """Bodies of the rotor plate above the ring, and each one's share of it."""
-    ring = heated_length + plate_depth + wall_depth
-    heated = [(("beside", i), share * heated_length / ring) for i, share in zip(ABOVE, STRIP, strict=True)]
-    return (("beside", ABOVE_VANES), plate_depth / ring), *heated, (("around", ABOVE_WALLS), wall_depth / ring)
-
-
-@quantities.helper()
-def plate_links(
-    ring_width: Scalar,
-    ways_along: tuple[Scalar, ...],
-    shares_above: tuple[tuple[Place, Scalar], ...],
-    heated_length: Scalar,
-    pads_share: Scalar,
-    core_and_link: lumps.Lump,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-) -> tuple[Link, ...]:
-    """From the rotor plate above the rotor's vanes to what is beside it, but its lowest tenth, which is next in the
-    chain; and to the core from all but the upper one above blocks and pads, after which the core is next."""
-    to_heated = structure_conductivity * rotor_thickness * ring_width * ways_along[0]
-    vanes, core = ("beside", ABOVE_VANES), ("beside", ABOVE[-1] + 1)
-    along = [Link(vanes, ("beside", i), share * to_heated) for i, share in zip(ABOVE[1:], STRIP[1:], strict=True)]
-    inwards = [Link(place, core, share * core_and_link.conductance)
-               for place, share in shares_above if place != ("beside", ABOVE[-1])]  # fmt: skip
-    upwards = structure_conductivity * ring_width * pads_share * heated_length / (WAYS[1] * rotor_thickness)
-    return (*along, *inwards, Link(("around", ABOVE_PADS), ("beside", ABOVE[1]), upwards))
-
-
-@quantities.helper()
-def core_share(shares_above: tuple[tuple[Place, Scalar], ...]) -> Scalar:
-    """What of the conductance to the core begins at the last body of the rotor plate."""
-    return dict(shares_above)["beside", ABOVE[-1]]
-
-
-@quantities.helper()
-def plate_losses(
-    around_pads: tuple[Body, ...],
-    ring_width: Scalar,
-    ways_along: tuple[Scalar, ...],
-    shares_above: tuple[tuple[Place, Scalar], ...],
-    core_radius: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    rotor_radius: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-    ambient_temperature: Scalar,
-) -> tuple[lumps.Loss, ...]:
-    """From the rotor plate above blocks and pads to what is above the housing's vanes, and from all of it above the
-    ring to what is without and within; and the air there.
-
-    What ends free has its mean temperature a third of the way to its end.
-    """
-    along = structure_conductivity * rotor_thickness * ring_width * ways_along[1]
-    found = [
-        _onward(Link(("beside", i), ("around", ABOVE_WALLS), share * along), around_pads, ambient_temperature, share)
-        for i, share in zip(ABOVE, STRIP, strict=True)
-    ]
-    around = 2.0 * np.pi * structure_conductivity * rotor_thickness
-    without = around / np.log(1.0 + (rotor_radius - pcl_outer_radius) / (3.0 * pcl_outer_radius))
-    within = -around / np.log(1.0 - (pcl_inner_radius - core_radius) / (3.0 * pcl_inner_radius))
-    for beyond, conductance in ((RIM, without), (WITHIN, within)):
-        for place, share in shares_above:
-            link = Link(place, ("around", beyond), share * conductance)
-            found.append(_onward(link, around_pads, ambient_temperature, share))
-    return tuple(found)
-
-
-def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar = 1.0) -> lumps.Loss:
-    """A link to a body that loses a share of its heat to the air behind it."""
-    surface = bodies[link.second[1]].surface
-    return lumps.Loss(link, share * surface.area * lumps.surface_coefficient(surface, ambient, ambient))

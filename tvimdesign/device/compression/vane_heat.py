@@ -36,7 +36,8 @@ def vane_ways(
     ring_width: Scalar,
     plate_depth: Scalar,
     rotor_vanes: Section,
-    vane_height: Scalar,
+    running_clearance: Scalar,
+    block_height: Scalar,
     rotor_thickness: Scalar,
     floor_thickness: Scalar,
     structure_conductivity: Scalar,
@@ -46,7 +47,9 @@ def vane_ways(
     k, area = structure_conductivity, ring_width * plate_depth
     above, below = (_into(k * ring_width, plate_depth, depth) for depth in (rotor_thickness, floor_thickness))
     below = lumps.in_series(below, through_clearance * area)
-    return lumps.heated_between(k * rotor_vanes.area / vane_height, above, below)
+    # The vane stands beside the clearance before it meets the plate.
+    above = lumps.in_series(above, k * rotor_vanes.area / running_clearance)
+    return lumps.heated_between(k * rotor_vanes.area / block_height, above, below)
 
 
 @quantities.helper()
@@ -56,6 +59,7 @@ def vane_links(
     cold_area: Scalar,
     ring_width: Scalar,
     wall_depth: Scalar,
+    running_clearance: Scalar,
     block_height: Scalar,
     floor_thickness: Scalar,
     rotor_thickness: Scalar,
@@ -67,13 +71,14 @@ def vane_links(
     found = [Link(("plate", 0), floor, vane_ways[1]), Link(plate, floor, vane_ways[2])]
     k, area = structure_conductivity, ring_width * wall_depth
     whole = (pcl_area - cold_area) / pcl_area
-    below = whole * _into(k * ring_width, wall_depth, floor_thickness)
+    below = whole * lumps.in_series(_into(k * ring_width, wall_depth, floor_thickness), k * area / running_clearance)
     above = lumps.in_series(_into(k * ring_width, wall_depth, rotor_thickness), through_clearance * area)
     to_floor, to_plate, across = lumps.heated_between(k * whole * area / block_height, below, above)
-    floor, plate = ("around", BELOW_WALLS), ("around", ABOVE_WALLS)
-    for i, share in zip(WALLS, STRIP, strict=True):
-        found += [Link(("around", i), floor, share * to_floor), Link(("around", i), plate, share * to_plate)]
-    return (*found, Link(floor, plate, across))
+    for places in zip(WALLS, BELOW_WALLS, ABOVE_WALLS, STRIP, strict=True):
+        wall, floor, plate = (("around", i) for i in places[:3])
+        ways = ((wall, floor, to_floor), (wall, plate, to_plate), (floor, plate, across))
+        found += [Link(first, second, places[3] * conductance) for first, second, conductance in ways]
+    return tuple(found)
 
 
 def _into(sheet: Scalar, width: Scalar, depth: Scalar) -> Scalar:

@@ -80,6 +80,16 @@ Place = tuple[str, int]
 `around`, and which."""
 
 
+class Slope(NamedTuple):
+    """How much warmer what the layer faces is at the layer's near end than at its far one, evenly between them."""
+
+    warm: tuple[tuple[Place, Any], ...]
+    """Places and the share of each in a mean [1]."""
+    cool: Place
+    share: Any
+    """Of what the mean of `warm` is warmer than `cool` [1]."""
+
+
 class Link(NamedTuple):
     """What conducts, and radiates, between two places; `layer` and `plate` give heat evenly over their depth."""
 
@@ -91,6 +101,8 @@ class Link(NamedTuple):
     """Area times exchange factor 1/(1/e + 1/e - 1) [m^2]."""
     of_layer: Any = None
     """Share of its heat [1] that the layer gives in place of `first`; none where not given."""
+    slope: Slope | None = None
+    """Of the second end along the layer, which is the first; even where not given."""
 
 
 def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
@@ -157,7 +169,17 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
             given = link.of_layer * link_heat(link, at[group][i], at[link.second[0]][link.second[1]])
             found[group][i] = found[group][i] + given
             found["layer"][0] = found["layer"][0] - given * _falling(count)
+        if link.slope is not None:
+            count = len(divided["layer"])
+            conductance = link_conductance(link, at["layer"][0], at[link.second[0]][link.second[1]])
+            found["layer"][0] = found["layer"][0] + conductance / count * risen(link.slope, at, count)
     return found
+
+
+def risen(slope: Slope, places: Mapping[str, Any], count: int) -> Any:
+    """How much warmer than its mean what a layer of so many cells faces is before each of them [K]."""
+    warm, (group, k) = sum(share * places[of][i] for (of, i), share in slope.warm), slope.cool
+    return slope.share * (warm - places[group][k]) * (0.5 - (np.arange(count) + 0.5) / count)
 
 
 def _falling(count: int) -> Any:
@@ -301,6 +323,15 @@ def way_in_fin(slenderness: Any) -> Any:
     profile cosh is coth x/x - 1/x^2 from the root, x = w (h/k t)^(1/2); a third where the face feeds it evenly.
     """
     return 1.0 / (slenderness * np.tanh(slenderness)) - slenderness**-2.0
+
+
+def uneven_way(slenderness: Any) -> Any:
+    """Way into a strip for what differs over its height from the mean there, over that height [1]: 1/(pi tanh(pi r)).
+
+    The first cosine over the height h, cos(pi y/h), falls as cosh(pi x/h) to the strip's other end at w = r h, which no
+    heat passes (by separation of variables, Carslaw and Jaeger, ch. V).
+    """
+    return 1.0 / (np.pi * np.tanh(np.pi * slenderness))
 
 
 def heated_between(across: Any, first: Any, second: Any) -> tuple[Any, Any, Any]:
