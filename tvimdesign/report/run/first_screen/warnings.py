@@ -76,12 +76,13 @@ def _of_the_search(answer: StudyResult) -> Iterator[Warned]:
         return
     if solution.out_of_time is not None:
         yield _other("out_of_time", seconds=duration(solution.out_of_time))
-    best, *others = solution.distinct_optima()
+    distinct = solution.distinct_optima()  # none where only a search from elsewhere ended in an optimum
+    best, others = distinct[:1], distinct[1:]
     if others:
         count = sum(solution.reached(start) for start in others)
         yield _other(
             "another_optimum", count=str(count), all=str(len(solution.free_starts)),
-            objective=f"{others[0].objective:.5g}", best=f"{best.objective:.5g}",
+            objective=f"{others[0].objective:.5g}", best=f"{best[0].objective:.5g}",
         )  # fmt: skip
     for line in endings(solution.free_starts):
         yield _other("not_converged", line=line)
