@@ -226,11 +226,11 @@ class Problem:
     def elements(self, phase: str) -> int:
         """Count of a phase's elements: no less than asked for, and the corners of its current lie between them.
 
-        A freezing layer whose edge runs through the cells wants more.
+        A freezing layer whose edge runs through the cells wants more: twice as many where its current is free, as that has corners enough.
         """
-        asked = self._elements * (FREEZING if self.model.phases[phase].phase.history else 1.0)
         pieces = next((current.pieces for current in self.free_currents if current.phase == phase), 1)
-        return pieces * math.ceil(asked / pieces)
+        more = (FREEZING if pieces == 1 else 2.0) if self.model.phases[phase].phase.history else 1.0
+        return pieces * math.ceil(self._elements * more / pieces)
 
     def currents_at_nodes(self, phase: str, inputs: Any) -> Any:
         """Current [A] of a phase at its nodes: one where it is constant."""
