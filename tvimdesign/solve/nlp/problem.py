@@ -226,7 +226,8 @@ class Problem:
     def elements(self, phase: str) -> int:
         """Count of a phase's elements: no less than asked for, and the corners of its current lie between them.
 
-        A freezing layer whose edge runs through the cells wants more: twice as many where its current is free, as that has corners enough.
+        A freezing layer whose edge runs through the cells wants more; twice as many where its current is free, as the
+        current's corners divide its time already.
         """
         pieces = next((current.pieces for current in self.free_currents if current.phase == phase), 1)
         more = (FREEZING if pieces == 1 else 2.0) if self.model.phases[phase].phase.history else 1.0
