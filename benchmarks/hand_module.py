@@ -88,7 +88,7 @@ def _moduli(kelvin: float) -> tuple[float, float]:
 
 (COLD_STORAGE, COLD_LOSS), (HOT_STORAGE, HOT_LOSS) = _moduli(303.15), _moduli(373.15)
 
-OUTPUTS, RESIDUALS, HEAT = 3, 43, 60
+OUTPUTS, RESIDUALS, HEAT = 3, 44, 60
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
 switch.
@@ -386,11 +386,12 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     g[35] = -(span * INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
     g[36] = -(outer - INNER - 2.0 * LEDGE - 2.1 * CORNER) / 0.01
     g[37] = -(POCKET_RATIO * (outer - INNER - 2.0 * LEDGE) - web) / 0.01
-    g[38] = -(2.0 * post - FEATURE_LEAST) / 0.01
-    g[39] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
-    g[40] = -(middle - CUTOUT_RADIUS - RETAINER_RADIUS) / 0.01
-    g[41] = -(t + FLOOR - WALL_LEAST) / 0.01
-    g[42] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
+    g[38] = -(POCKET_RATIO * (pin_at - 0.5 * PIN - CORE) - pin_top + plate_top) / 0.01
+    g[39] = -(2.0 * post - FEATURE_LEAST) / 0.01
+    g[40] = -(link_bottom - t - dowel_deep - WALL_LEAST) / 0.01
+    g[41] = -(middle - CUTOUT_RADIUS - RETAINER_RADIUS) / 0.01
+    g[42] = -(t + FLOOR - WALL_LEAST) / 0.01
+    g[43] = -(POCKET_RATIO * (inside - r - post) - end - 0.5 * d) / 0.01
     # what the switch needs: current, area, layer, pads, windows; thirteen bodies, edges, links
     heat[0], heat[1], heat[2], heat[3] = x[7], area, t, area / PAD_AREA
     heat[4], heat[5] = PAD_MASS / (PAD_AREA * PAD) * pads * C_PAD, windows

@@ -112,7 +112,7 @@ def test_stiffening_converges_with_the_square_of_the_cell(
         found.append([values[name] for name in names])
     changes = np.abs(np.diff(found, axis=0))
     orders = np.log2(changes[:-1] / changes[1:])
-    if (design, cooling) == ("sink", 0.8):
+    if design == "sink":
         # On the melting curve the joint is stiff here just as the last cell passes the end of the melting range, where
         # the curve has a corner: the order is uneven from cell to cell, and two on the whole.
         curve = names.index("equilibrium_stiffening_time")

@@ -187,7 +187,11 @@ class FrictionCourse:
             return True
         if np.isfinite(turns) and len(turns_of(self._from[1] @ np.column_stack(self.columns))) >= turns:
             return True
-        return self.phase.sliding is Sliding.STUCK and self.branch_energy() <= enough
+        return self._spent() or (self.phase.sliding is Sliding.STUCK and self.branch_energy() <= enough)
+
+    def _spent(self) -> bool:
+        """Whether a link that creeps has nothing left that drives it: it does so as long as rounding lets it."""
+        return self.phase.sliding.creeping and self.branch_energy() <= 0.0
 
     def branch_energy(self) -> float:
         """Energy that is not in the springs [J]: what may still drive the link on."""
@@ -211,7 +215,7 @@ class FrictionCourse:
             energy=self._plant.energy(states[0], states[1], inner, touching),
             stretches=stretches_of(self.durations),
         )
-        rest = float(states[0, -1]) if self.phase.sliding is Sliding.STUCK else None
+        rest = float(states[0, -1]) if self.phase.sliding is Sliding.STUCK or self._spent() else None
         return OneSided(moved, np.array(touching) > 0.0, tuple(self.events), rest)
 
     def _across(self, step: float) -> None:

@@ -12,9 +12,9 @@ from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study_text
 
 LEFT = ["structure_stiffness", "core_stiffness", "plate_stiffness", "floor_stiffness", "core_radius",
-        "pcl_inner_radius", "pcl_mean_radius", "held_polar_moment", "driven_share", "joint_stiffness@hot",
-        "joint_damping@hot", "pcl_stiffness@hot", "pcl_damping@hot", "spring_stiffness", "part_temperatures@hot",
-        "plate_temperature@hot", "core_temperature@hot", "hot_structure_share"]  # fmt: skip
+        "pcl_inner_radius", "pcl_outer_radius", "layer_polar_moment", "pad_compliance", "driven_share",
+        "joint_stiffness@hot", "joint_damping@hot", "pcl_stiffness@hot", "pcl_damping@hot", "spring_stiffness",
+        "part_temperatures@hot", "plate_temperature@hot", "core_temperature@hot", "hot_structure_share"]  # fmt: skip
 
 
 def inputs_of(mode: str, **module: str) -> dict[str, Any]:
@@ -33,18 +33,22 @@ def test_hot_joint_is_put_together_from_parts_as_warm_as_they_are() -> None:
     table, given = table_for("shear"), inputs_of("shear")
     found = table.evaluate(given, LEFT)
     warm = found["part_temperatures@hot"]
-    # The plate under torque: the ring above the arcs, from their inner rim on, and all of it further in.
-    shear_modulus = 2.1e9 / (2.0 * 1.38)
-    inner, mean = found["pcl_inner_radius"], found["pcl_mean_radius"]
-    above = (inner**-2 - mean**-2) / (4.0 * np.pi * shear_modulus * given["rotor_thickness"])
+    # The plate under torque: the ring above the arcs, which the layer relieves in proportion to the radius and drives
+    # on one face, and all of it further in.
+    shear_modulus, thick = 2.1e9 / (2.0 * 1.38), given["rotor_thickness"]
+    inner, outer = found["pcl_inner_radius"], found["pcl_outer_radius"]
+    radius = np.linspace(inner, outer, 20001)
+    left = (outer**4 - radius**4) / (outer**4 - inner**4)
+    above = np.trapezoid(left**2 / radius**3, radius) / (2.0 * np.pi * shear_modulus * thick)
     above /= np.sqrt(found["driven_share"])
+    above += thick / (3.0 * shear_modulus * found["layer_polar_moment"])
     slices = np.mean([star(t - 273.15) for t in warm.plate])
     whole = (
         1.0 / found["core_stiffness"] / star(warm.core - 273.15)
         + (1.0 / found["plate_stiffness"] - above) / star(warm.beside - 273.15)
         + above / slices
         + 1.0 / found["floor_stiffness"] / star(22.0)
-        + 1.5e-3 / (100e6 * found["held_polar_moment"]) / (1.0 + 0.04j)
+        + found["pad_compliance"] / (1.0 + 0.04j)
     )
     layer = complex(found["pcl_stiffness@hot"], 2.0 * np.pi * found["pcl_damping@hot"])
     joint = found["spring_stiffness"] + 1.0 / (1.0 / layer + whole)
