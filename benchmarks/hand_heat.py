@@ -14,25 +14,19 @@ from hand_chain import BODIES, CELLS, CHAIN, PLATE, TOUCH
 from hand_module import (
     AMBIENT,
     BLACK,
-    C_MELT,
     C_PETG,
-    C_SOLID,
     EMISSIVITY,
     FLOOR,
-    H_MELTS,
-    H_MOLTEN,
     K_MELT,
     K_PETG,
     K_SOLID,
-    MELTS,
-    MOLTEN,
     PAD,
     RHO_PCL,
     RHO_PETG,
     ROTOR,
-    ROUNDING,
     Array,
 )
+from hand_polymer import C_MELT, C_SOLID, H_MELTS, H_MOLTEN, MELTS, MOLTEN, ROUNDING
 from numba import njit
 
 COLD_WALL, LEDGE, CORNER = 4, 10, 11

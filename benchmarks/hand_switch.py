@@ -12,7 +12,8 @@ import math
 import numpy as np
 from hand_chain import CELLS, CHAIN, ROWS, STATES, factor, solve
 from hand_heat import RESISTANCE, SEEBECK, jacobian, phases, rates
-from hand_module import AMBIENT, C_MELT, C_SOLID, H_MOLTEN, MOLTEN, RHO_PCL, Array
+from hand_module import AMBIENT, RHO_PCL, Array
+from hand_polymer import C_MELT, C_SOLID, H_MOLTEN, MOLTEN
 from numba import njit
 
 FREE = 8

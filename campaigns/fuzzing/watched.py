@@ -61,12 +61,18 @@ class _Watch:
 
     @contextmanager
     def within(self, folder: Path | None) -> Iterator[list[str]]:
-        """What is changed outside a folder meanwhile; anywhere where there is none."""
+        """What is changed outside a folder meanwhile; anywhere where there is none.
+
+        A module imported meanwhile for the first time leaves no bytecode: that is the interpreter's, not the input's.
+        """
+        bytecode = sys.dont_write_bytecode
+        sys.dont_write_bytecode = True
         self.folder, self.found, self.on = folder, [], True
         try:
             yield self.found
         finally:
             self.on = False
+            sys.dont_write_bytecode = bytecode
 
 
 _WATCH: list[_Watch] = []

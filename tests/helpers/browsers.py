@@ -17,7 +17,7 @@ ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-san
 def browser() -> Iterator[Browser]:
     """Chromium of the system; ended with each module, as its event loop stands in the way of the server's tests."""
     if CHROMIUM is None:
-        pytest.skip("install chromium: no browser here to open a page in")  # no wheel brings one; .ci/run installs it
+        pytest.skip("install chromium")  # no wheel brings a browser; .ci/run installs one and fails without
     with sync_playwright() as play:
         started = play.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
         yield started

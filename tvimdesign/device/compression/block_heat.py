@@ -72,11 +72,8 @@ def layer_moduli(
     """Storage and loss modulus of a block [Pa]: its slices in series, and while it melts its rows side by side."""
     if stack_now.freezing is not None:
         return layer.series_modulus(*slice_moduli)
-    found = []
-    for shift in row_shifts:
-        cells, fractions = polymer.melting_at(stack_profile.cells + shift, stack_now.melting)
-        found.append(layer.series_modulus(*polymer.moduli(cells, fractions, 2.0 * np.pi * frequency_now, pcl_rheology)))
-    return layer.side_by_side(found, rows.SHARES)
+    warm = [stack_profile.cells + shift for shift in row_shifts]
+    return layer.melting_modulus(warm, rows.SHARES, stack_now.melting, 2.0 * np.pi * frequency_now, pcl_rheology)
 
 
 @quantities.helper()

@@ -86,8 +86,5 @@ def layer_moduli(
     """
     if stack_now.freezing is not None:
         return layer.series_modulus(*slice_moduli)
-    found = []
-    for shift in column_shifts:
-        cells, fractions = polymer.melting_at(stack_profile.cells + shift, stack_now.melting)
-        found.append(layer.series_modulus(*polymer.moduli(cells, fractions, 2.0 * np.pi * frequency_now, pcl_rheology)))
-    return layer.side_by_side(found, columns.SHARES)
+    warm = [stack_profile.cells + shift for shift in column_shifts]
+    return layer.melting_modulus(warm, columns.SHARES, stack_now.melting, 2.0 * np.pi * frequency_now, pcl_rheology)

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.physics.polymers import polymer
+
 
 def series_modulus(storage: Any, loss: Any) -> tuple[Any, Any]:
     """Storage and loss modulus [Pa] of equally thick slices that carry one shear stress: 1/G* = mean of 1/G*_i.
@@ -28,6 +30,24 @@ def side_by_side(columns: Sequence[tuple[Any, Any]], shares: Sequence[float]) ->
         sum(share * one for share, one in zip(shares, parts, strict=True)) for parts in zip(*columns, strict=True)
     )
     return storage, loss
+
+
+def melting_modulus(
+    columns: Sequence[Any],
+    shares: Sequence[float],
+    melting: polymer.Melting,
+    angular_frequency: Any,
+    rheology: polymer.AnyRheology,
+) -> tuple[Any, Any]:
+    """Storage and loss modulus [Pa] of a layer that melts: columns side by side by their shares, of slices in series.
+
+    `columns` holds the temperatures [K] of each column's slices, which are on the melting curve there.
+    """
+    found = []
+    for temperatures in columns:
+        cells, fractions = polymer.melting_at(temperatures, melting)
+        found.append(series_modulus(*polymer.moduli(cells, fractions, angular_frequency, rheology)))
+    return side_by_side(found, shares)
 
 
 def series_stiffness(stiffness: Any, loss_stiffness: Any, support: Any, support_loss: Any = 0.0) -> tuple[Any, Any]:
