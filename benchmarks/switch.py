@@ -82,9 +82,9 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
 
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
-        shifts = layer_columns.column_shifts(now, stack, layer_columns.edge_drops(now, stack, **edges), **columns)
+        warm = layer_columns.layer_temperatures(now, stack, layer_columns.edge_drops(now, stack, **edges), **columns)
         slices = polymer.moduli(now.cells, now.fractions, omega, rheology)
-        moduli = layer_columns.layer_moduli(now, stack, slices, shifts, rheology, numbers["frequency@hot"])
+        moduli = thermal_stack.layer_moduli(stack, slices, warm, rheology, numbers["frequency@hot"])
         support = warm_structure.in_series(parts, warm_structure.parts_now(now), law, numbers["clamped_loss_factor"])
         stiffness = thermal_stack.layer_stiffness_now(moduli, moment, numbers["pcl_thickness"])
         branch = thermal_stack.branch_now(stiffness, support)

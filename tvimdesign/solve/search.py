@@ -58,6 +58,8 @@ def optimize(
     for relaxation in trees:
         if not (free and deadline.passed):
             free += [(relaxation, run) for run in relaxation.starts(1 if hopeless else None)]
+    for relaxation in trees:
+        free += [(relaxation, run) for run in relaxation.from_other_records(trees)]
     choosing: Choosing | None = None
     if listed:
         choosing, found = _choose(trees, building.exact(), combinations, study.solver)

@@ -40,6 +40,19 @@ def test_temperature_inverts_enthalpy_away_from_the_corners(celsius: float) -> N
     assert polymer.temperature(enthalpy, MELTING) == pytest.approx(CELSIUS + celsius, abs=0.01)
 
 
+@given(heat=st.floats(-2e5, 6e5))
+def test_the_solid_fraction_at_a_temperature_is_that_of_the_curve_corners_included(heat: float) -> None:
+    temperature, fraction = polymer.temperature(heat, MELTING), polymer.solid_fraction(heat, MELTING)
+    assert polymer.fraction_at(temperature, MELTING) == pytest.approx(fraction, abs=1e-5)
+
+
+@pytest.mark.parametrize("celsius", [50.0, 65.0])
+def test_the_solid_fraction_at_a_temperature_has_no_kink_where_melting_starts_or_ends(celsius: float) -> None:
+    step, places = 1e-3, CELSIUS + celsius + 0.25 * np.linspace(-1.0, 1.0, 51)
+    slopes = (polymer.fraction_at(places + step, MELTING) - polymer.fraction_at(places - step, MELTING)) / (2.0 * step)
+    assert np.max(np.abs(np.diff(slopes))) < 0.05 * np.max(np.abs(slopes))
+
+
 def test_sharp_corners_are_the_limit_of_rounded_ones() -> None:
     sharp = MELTING._replace(smoothing=1e-3)
     for celsius in (49.9, 50.1, 64.9, 65.1):

@@ -14,9 +14,8 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import heat, lumps, rows
-from tvimdesign.physics.layers import film, layer
-from tvimdesign.physics.polymers import polymer
+from tvimdesign.physics.heat_flow import columns, heat, lumps, rows
+from tvimdesign.physics.layers import film
 
 quantities = QuantityGroup(shared.group)
 
@@ -35,7 +34,7 @@ def moment_now(
 
 
 @quantities.helper(instant=True)
-def row_shifts(
+def layer_temperatures(
     stack_profile: heat.Profile,
     stack: heat.Stack,
     block_height: Scalar,
@@ -43,7 +42,7 @@ def row_shifts(
     ring_width: Scalar,
     pcl_conductivity_melt: Scalar,
 ) -> list[Scalar]:
-    """How much warmer than their mean a block's slices are [K], in rows from its lower face to its upper one."""
+    """Temperatures of a block's slices [K], in rows from its lower face to its upper one."""
     count, places = len(stack_profile.cells), stack_profile._asdict()
     lost = []
     for faced in (("around", FLOOR[0]), ("beside", ABOVE[0])):
@@ -55,25 +54,10 @@ def row_shifts(
     depths = (np.arange(count) + 0.5) / count
     across = 0.5 * block_height / pcl_conductivity_melt
     return [
-        -across * rows.below_mean(2.0 * place - 1.0, depths, 2.0 * block_depth / block_height, lost)
-        for place in rows.PLACES
+        stack_profile.cells
+        - across * rows.below_mean(2.0 * place - 1.0, depths, 2.0 * block_depth / block_height, lost)
+        for place in columns.PLACES
     ]
-
-
-@quantities.helper(instant=True)
-def layer_moduli(
-    stack_profile: heat.Profile,
-    stack_now: heat.Stack,
-    slice_moduli: tuple[Scalar, Scalar],
-    row_shifts: list[Scalar],
-    pcl_rheology: polymer.AnyRheology,
-    frequency_now: Scalar,
-) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of a block [Pa]: its slices in series, and while it melts its rows side by side."""
-    if stack_now.freezing is not None:
-        return layer.series_modulus(*slice_moduli)
-    warm = [stack_profile.cells + shift for shift in row_shifts]
-    return layer.melting_modulus(warm, rows.SHARES, stack_now.melting, 2.0 * np.pi * frequency_now, pcl_rheology)
 
 
 @quantities.helper()

@@ -10,8 +10,6 @@ from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import columns, heat, peltier
-from tvimdesign.physics.layers import layer
-from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
@@ -40,7 +38,7 @@ def edge_drops(
 
 
 @quantities.helper(instant=True)
-def column_shifts(
+def layer_temperatures(
     stack_profile: heat.Profile,
     stack: heat.Stack,
     edge_drops: tuple[Scalar, Scalar],
@@ -51,7 +49,7 @@ def column_shifts(
     pcl_depth: Scalar,
     pcl_conductivity_melt: Scalar,
 ) -> list[Scalar]:
-    """How much warmer than their mean the layer's slices are [K], in columns from the middle of an arc to its edge.
+    """Temperatures of the layer's slices [K], in columns from the middle of an arc to its edge.
 
     The hot side's edge is colder, and so is the plate's; between them the layer falls evenly. At its free side it gives
     heat to the gap.
@@ -67,24 +65,5 @@ def column_shifts(
     for place in columns.PLACES:
         near, far = pads * columns.fed_evenly(place), plate * columns.in_sheet(place, plate_slenderness)
         end = excess * columns.at_end(place, heights, width, slot)
-        found.append(-(near + (far - near) * share + end))
+        found.append(stack_profile.cells - (near + (far - near) * share + end))
     return found
-
-
-@quantities.helper(instant=True)
-def layer_moduli(
-    stack_profile: heat.Profile,
-    stack_now: heat.Stack,
-    slice_moduli: tuple[Scalar, Scalar],
-    column_shifts: list[Scalar],
-    pcl_rheology: polymer.AnyRheology,
-    frequency_now: Scalar,
-) -> tuple[Scalar, Scalar]:
-    """Storage and loss modulus of the layer [Pa]: its slices in series, and while it melts its columns side by side.
-
-    A layer that freezes has one history at each depth.
-    """
-    if stack_now.freezing is not None:
-        return layer.series_modulus(*slice_moduli)
-    warm = [stack_profile.cells + shift for shift in column_shifts]
-    return layer.melting_modulus(warm, columns.SHARES, stack_now.melting, 2.0 * np.pi * frequency_now, pcl_rheology)

@@ -11,10 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow.columns import PLACES, SHARES
-
-__all__ = ["PLACES", "SHARES", "below_mean"]
-
 TERMS = 6
 
 

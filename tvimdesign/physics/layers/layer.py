@@ -45,8 +45,8 @@ def melting_modulus(
     """
     found = []
     for temperatures in columns:
-        cells, fractions = polymer.melting_at(temperatures, melting)
-        found.append(series_modulus(*polymer.moduli(cells, fractions, angular_frequency, rheology)))
+        fractions = polymer.fraction_at(temperatures, melting)
+        found.append(series_modulus(*polymer.moduli(temperatures, fractions, angular_frequency, rheology)))
     return side_by_side(found, shares)
 
 

@@ -69,12 +69,16 @@ def ramp(distance: Any, smoothing: Any) -> Any:
 def temperature(enthalpy: Any, melting: Melting) -> Any:
     """Temperature of specific enthalpy [K]: three straight pieces with rounded corners [V]."""
     h1, h2 = melting.enthalpy_start, melting.enthalpy_end
-    solid = 1.0 / melting.specific_heat_solid
-    middle = (melting.end - melting.start) / (h2 - h1)
-    melt = 1.0 / melting.specific_heat_melt
+    solid, middle, melt = _slopes(melting)
     rise = (middle - solid) * ramp(enthalpy - h1, melting.smoothing)
     rise += (melt - middle) * ramp(enthalpy - h2, melting.smoothing)
     return ZERO_CELSIUS + solid * enthalpy + rise
+
+
+def _slopes(melting: Melting) -> tuple[Any, Any, Any]:
+    """How far the temperature rises with enthalpy before, in and behind the melting window [K kg/J]."""
+    middle = (melting.end - melting.start) / (melting.enthalpy_end - melting.enthalpy_start)
+    return 1.0 / melting.specific_heat_solid, middle, 1.0 / melting.specific_heat_melt
 
 
 def solid_fraction(enthalpy: Any, melting: Melting) -> Any:
@@ -94,10 +98,18 @@ def enthalpy(temperature_kelvin: Any, melting: Melting) -> Any:
     return melting.specific_heat_solid * below + (h2 - h1) / window * inside + melting.specific_heat_melt * above
 
 
-def melting_at(temperature_kelvin: Any, melting: Melting) -> tuple[Any, Any]:
-    """Temperature [K] and solid fraction on the melting curve at a temperature, with its rounded corners."""
-    heat = enthalpy(temperature_kelvin, melting)
-    return temperature(heat, melting), solid_fraction(heat, melting)
+def fraction_at(temperature_kelvin: Any, melting: Melting) -> Any:
+    """Share that is frozen at a temperature on the melting curve with its rounded corners [1], smooth everywhere.
+
+    `temperature` turned round in closed form: a corner between the slopes a and b [K kg/J] that is rounded over the
+    enthalpy z is one rounded over the temperature z sqrt(a b). The other corner's rounding is left out, a few mK of it.
+    """
+    slopes = _slopes(melting)
+    heat = melting.specific_heat_solid * (temperature_kelvin - ZERO_CELSIUS)
+    for corner, before, after in zip((melting.start, melting.end), slopes[:-1], slopes[1:], strict=True):
+        width = melting.smoothing * np.sqrt(before * after)
+        heat = heat + (1.0 / after - 1.0 / before) * ramp(temperature_kelvin - corner, width)
+    return solid_fraction(heat, melting)
 
 
 class SolidModulus(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
@@ -75,6 +75,28 @@ class Relaxation:
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
         runs = NeighboringOptima(self.optimizer).improve(runs)
+        self._take(runs)
+        return runs
+
+    def from_other_records(self, others: Iterable[Relaxation]) -> list[Run]:
+        """A run from the best optimum with other records, where no start came to one with these.
+
+        Without an optimum every box of sizes is searched, from where the starts broke their limits least.
+        """
+        best = min((run for other in others for run in other.optima), key=order, default=None)
+        if self.optima or best is None or self.optimizer.deadline.passed:
+            return []
+        begin, index = self.optimizer.model.start.copy(), self.optimizer.model.index
+        for free in self.optimizer.free:
+            if free.name in best.start.end:
+                begin[index[free.name]] = min(max(best.start.end[free.name], free.lower), free.upper)
+        run = self._from_one_of_each(self._mixed(begin, {}))
+        if run.start.converged:
+            self._take([run])
+        return [run]
+
+    def _take(self, runs: list[Run]) -> None:
+        """Keep what different optima some runs came to, or where they ended if they came to none."""
         for run in runs:
             run.start = replace(run.start, choices=dict(self.records), relaxed=bool(self.sizes.names))
         for run in sorted((run for run in runs if run.start.converged), key=order):
@@ -83,7 +105,6 @@ class Relaxation:
                 self.optima.append(run)
         self._ends = [] if self.optima else runs
         self._sort_records()
-        return runs
 
     def _from_one_of_each(self, begin: Array) -> Run:
         """The best design from a start, with the records that it has most of first, and then with all of them.

@@ -272,7 +272,7 @@ class Problem:
             if any(row.name in needed for row in phase.steadies):
                 unknowns = ca.MX.sym(f"balance_{name}", phase.state_size + 1)
                 state, profile = unknowns[:-1], unknowns[-1]
-                gap = phase.watch([phase.phase.ends])(state, profile, inputs)
+                gap = phase.watch_in_parts([phase.phase.ends])(state, profile, inputs)
                 equations = ca.vertcat(phase.rates(state, profile, inputs), gap)
                 balances.append(Balance(phase=name, unknowns=unknowns, equations=equations))
         return balances

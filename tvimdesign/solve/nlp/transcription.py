@@ -116,7 +116,7 @@ def phase_block(
     slopes = ca.mtimes(every, _differences(len(lengths)))
     rates = at_each(phase, phase.rates, states, currents[:, 1:], inputs)
     steps = ca.horzcat(*(ca.repmat(length, 1, ORDER) for length in lengths))
-    gap = phase.watch([event])(states[:, -1], currents[:, -1], inputs)
+    gap = phase.watch_in_parts([event])(states[:, -1], currents[:, -1], inputs)
     return Block(
         event=event,
         phase=phase,
@@ -149,4 +149,4 @@ def at_each(phase: PhaseFunctions, function: Any, states: Any, currents: Any, in
 def guess(trajectory: Trajectory, elements: int, ramp: tuple[int, float] = (0, 0.0)) -> Array:
     """Values for a block's states from a simulated trajectory, one column a point, with the ramp drawn in."""
     times = moments(elements, trajectory.times[-1], ramp)
-    return trajectory.at(times / times[-1])
+    return trajectory.at(times / (times[-1] or 1.0))

@@ -65,14 +65,14 @@ class Multistart:
     def points(self) -> Iterator[Array]:
         """Inputs to start from: the study's own, then others spread between the bounds, seeded.
 
-        From a point whose switch never ends the solver mostly gets stuck there, so such points are passed over; the
-        study's own is replaced by the first other one.
+        From a point whose switch never ends, or takes no time, the solver mostly gets stuck there, so such points are
+        passed over; the study's own is replaced by the first other one.
         """
         points = unit_points(self.options.starts, len(self.problem.free), self.options.seed)
         if self.trial(self.model.start) is not None:
             yield self.model.start
         else:
-            self.progress("the switch of the study's own start never ends: starting elsewhere")
+            self.progress("the switch of the study's own start never ends, or takes no time: starting elsewhere")
             self.passed_over["switch never ends"] += 1
             yield self._ending_point(points)
         for _ in range(self.options.starts - 1):
@@ -119,10 +119,10 @@ class Multistart:
         return all(np.all(np.asarray(block.phase.lumps(inputs)) > 0.0) for block in self.problem.blocks)
 
     def trial(self, inputs: Array) -> Cycle | None:
-        """The switch at a point, None where it does not end."""
+        """The switch at a point, None where it does not end, or is over before it begins: that tells nothing of it."""
         try:
             known = inputs is self.model.start
             cycle = self.cycle if known else self.problem.simulated(self.simulator, inputs)
         except SimulationError:
             return None
-        return cycle if all(np.isfinite(cycle.values[event]) for event in self.problem.events) else None
+        return cycle if all(0.0 < cycle.values[event] < np.inf for event in self.problem.events) else None

@@ -1,0 +1,41 @@
+"""Records whose own start comes to no design are begun at the best design with other records."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from support import ROOT
+
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
+from tvimdesign.solve.discrete.record_families import families_of
+from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.discrete.trees import Trees
+from tvimdesign.solve.nlp.deadline import Deadline
+from tvimdesign.study import read_study
+
+
+@pytest.fixture(scope="module")
+def trees() -> list[Relaxation]:
+    study = read_study(ROOT / "studies" / "rigid_modules.yaml")
+    sizes = discrete_sizes(study, study.table)
+    return Trees(study, None, lambda _: None, (), Deadline(600.0), sizes).of(families_of(study))
+
+
+@pytest.mark.slow
+def test_both_modules_come_to_an_optimum_from_their_own_starts(trees: list[Relaxation]) -> None:
+    """A mixed start whose joint is soft before it is heated was no place to begin from."""
+    for tree in trees:
+        tree.starts()
+        assert tree.optima
+
+
+@pytest.mark.slow
+def test_records_without_an_optimum_are_begun_at_the_others_optimum(trees: list[Relaxation]) -> None:
+    first, last = trees[0], replace(trees[-1])
+    if not first.optima:
+        first.starts()
+    (run,) = last.from_other_records(trees[:-1])
+    assert run.start.converged
+    assert last.optima == [run]
+    assert last.from_other_records(trees[:-1]) == []
