@@ -93,9 +93,11 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
     """The shear module from the middle of an arc through its edge; the layer's face at the pads is y = 0."""
     w, top, pad = c["half_width"], c["layer_depth"], c["pad_depth"]
     film, slot, inside = FILM * pad, c["air_conductivity"] / c["pad_edge_contact"], c["window_share"] * w
-    under = -SHEET - pad
-    heights = [(under + film, "cold"), (-SHEET - film, "legs"), (-SHEET, "hot"), (0.0, "near"), (top, "layer"),
-               (top + SHEET, "far")]  # fmt: skip
+    spread, tile = c["spreader_depth"], c["tile_share"] * w
+    hot = -SHEET - (spread + SHEET if spread else 0.0)
+    under = hot - pad
+    heights = [(under + film, "cold"), (hot - film, "legs"), (hot, "hot"), (top, "layer"), (top + SHEET, "far")]
+    heights[3:3] = [(hot + SHEET, "joint"), (-SHEET, "spreader"), (0.0, "near")] if spread else [(0.0, "near")]
 
     def what(x: float, y: float) -> str | None:
         if y > top + SHEET:
@@ -104,15 +106,19 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
             return "air" if y > 0.0 else "slot" if y > under and x < w + slot else "floor"
         if y < under:
             return "ledge" if x > inside else None
-        return next(name for height, name in heights if y < height)
+        beside = spread and x > tile and y < hot + SHEET
+        return "beside tiles" if beside else next(name for height, name in heights if y < height)
 
-    rim, wide = 0.2 * slot, 0.12 * w
-    x = graded([(0.0, wide), (inside, 0.1 * min(w - inside, 5.0 * slot)), (w, rim), (w + slot, rim),
+    rim, wide, thin, deep = 0.2 * slot, 0.12 * w, 0.25 * film, 0.06 * top
+    bend = 0.1 * min(w - inside, 5.0 * slot)
+    tiled = [(tile, bend)] if spread and inside < tile < w else []
+    x = graded([(0.0, wide), (inside, bend), *tiled, (w, rim), (w + slot, rim),
                 (w + c["beside"], 0.15 * c["beside"])], fine)  # fmt: skip
-    thin, deep = 0.25 * film, 0.06 * top
+    sheets = [(hot + SHEET, 0.2 * spread), (-SHEET, 0.2 * spread)] if spread else []
     y = graded([(-c["floor_depth"], 0.2 * (c["floor_depth"] + under)), (under, thin), (under + film, 2.0 * thin),
-                (-SHEET - film, thin), (-SHEET, thin), (0.0, rim), (0.1 * top, deep), (0.9 * top, deep), (top, 0.5 * deep),
-                (top + SHEET, deep), (top + SHEET + c["plate_depth"], 0.3 * c["plate_depth"])], fine)  # fmt: skip
+                (hot - film, thin), (hot, thin), *sheets, (0.0, rim), (0.1 * top, deep), (0.9 * top, deep),
+                (top, 0.5 * deep), (top + SHEET, deep), (top + SHEET + c["plate_depth"], 0.3 * c["plate_depth"])],
+               fine)  # fmt: skip
     return Drawing(x, y, what, _strip_s_materials(c), c["current"] ** 2 * c["resistance"],
                    c["seebeck"] * c["current"], film, pad - 2.0 * film, c["ambient"], _strip_s_exchanges(c, inside),
                    [Body(c["core_capacity"]),
@@ -124,12 +130,15 @@ def _strip_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     solid = Material(c["structure_conductivity"], c["structure_conductivity"], c["structure_heat_capacity"])
     heat, legs = c["pad_heat_capacity"] / c["pad_depth"], (1.0 - 2.0 * FILM) * c["pad_depth"]
     side = Material(c["pad_conductivity"], 100.0, heat)
-    air = c["air_conductivity"]
+    air, exchange = c["air_conductivity"], c["emissivity"] / (2.0 - c["emissivity"])
+    spread = Material(c["spreader_conductivity"], c["spreader_conductivity"], c["spreader_heat_capacity"])
     return {
         "plate": solid, "floor": solid, "ledge": solid, "hot": side, "cold": side,
         "legs": Material(c["pad_conductivity"], c["conductance"] * legs, heat),
         "near": Material(1e-9, c["hot_contact"] * SHEET), "far": Material(1e-9, c["rotor_contact"] * SHEET),
-        "air": Material(air, air, 0.0, c["gap"] * c["emissivity"] / (2.0 - c["emissivity"])), "slot": Material(air, air),
+        "air": Material(air, air, 0.0, c["gap"] * exchange), "slot": Material(air, air), "spreader": spread,
+        "joint": Material(1e-9, c["spreader_contact"] * SHEET),
+        "beside tiles": Material(air, air, 0.0, c["pad_depth"] * exchange),
     }  # fmt: skip
 
 
@@ -152,12 +161,14 @@ def ring(c: Mapping[str, float], fine: float) -> Drawing:
     x = 0 is the middle of the rotor's vane, y = 0 the floor's face.
     """
     gap, height, pad = c["running_clearance"], c["block_height"], c["peltier_thickness"]
-    film, vane = FILM * pad, 0.5 * c["vane_thickness"]
-    block, end = vane + SHEET + c["block_depth"], pi * c["pcl_mean_radius"] / c["vane_count"] + 2.0 * SHEET
-    hot = block + SHEET
+    film, vane, spread = FILM * pad, 0.5 * c["vane_thickness"], c["spreader_depth"]
+    block, more = vane + SHEET + c["block_depth"], spread + SHEET if spread else 0.0
+    hot, end = block + SHEET + more, pi * c["pcl_mean_radius"] / c["vane_count"] + 2.0 * SHEET + more - spread
     low, high, plate = gap, gap + height, 2.0 * gap + height
-    places = [(vane + SHEET, "far"), (block, "layer"), (hot, "near"), (hot + film, "hot"), (hot + pad - film, "legs"),
-              (hot + pad, "cold")]  # fmt: skip
+    tile = low + height * c["heated_area"] / c["pcl_area"]
+    places = [(vane + SHEET, "far"), (block, "layer"), (block + SHEET, "near"), (hot + film, "hot"),
+              (hot + pad - film, "legs"), (hot + pad, "cold")]  # fmt: skip
+    places[3:3] = [(hot - SHEET, "spreader"), (hot, "joint")] if spread else []
 
     def what(x: float, y: float) -> str:
         if y < 0.0 or y > plate:
@@ -165,15 +176,20 @@ def ring(c: Mapping[str, float], fine: float) -> Drawing:
         if x < vane:
             return "vane" if y > low else "air"
         if x > hot + pad:
-            return "air" if y > high else "wall"
-        return "air" if y < low or y > high else next(name for place, name in places if x < place)
+            return "air" if y > high else "upper wall" if spread and y > tile else "wall"
+        if y < low or y > high:
+            return "air"
+        beside = spread and y > tile and x > hot - SHEET
+        return "beside tiles" if beside else next(name for place, name in places if x < place)
 
     deep, thin, crowd = 0.06 * c["block_depth"], 0.5 * film, 0.25 * gap
-    x = graded([(0.0, 0.3 * vane), (vane, 0.5 * deep), (vane + SHEET, 0.5 * deep), (block, 0.3 * deep), (hot, thin),
-                (hot + film, thin), (hot + pad - film, thin), (hot + pad, thin), (end, 0.3 * (end - hot - pad))],
+    sheets = [(block + SHEET, 0.2 * spread), (hot - SHEET, 0.2 * spread)] if spread else []
+    rows = [(0.5 * (low + tile), 0.08 * height), (tile, crowd)] if spread and tile < high else []
+    x = graded([(0.0, 0.3 * vane), (vane, 0.5 * deep), (vane + SHEET, 0.5 * deep), (block, 0.3 * deep), *sheets,
+                (hot, thin), (hot + film, thin), (hot + pad - film, thin), (hot + pad, thin), (end, 0.3 * (end - hot - pad))],
                fine)  # fmt: skip
     y = graded([(-c["floor_thickness"], 0.3 * c["floor_thickness"]), (0.0, crowd), (low, crowd),
-                (0.5 * (low + high), 0.08 * height), (high, crowd), (plate, crowd),
+                *(rows or [(0.5 * (low + high), 0.08 * height)]), (high, crowd), (plate, crowd),
                 (plate + c["rotor_thickness"], 0.3 * c["rotor_thickness"])], fine)  # fmt: skip
     area = c["peltier_area"]
     current = c["current"] / c["heater_strings"]
@@ -187,12 +203,22 @@ def _ring_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     whole = 1.0 - c["cold_area"] / c["heated_area"]
     pad = c["peltier_mass"] * c["peltier_specific_heat"] / (c["heated_area"] * c["peltier_thickness"])
     legs = c["peltier_conductance"] / c["peltier_area"] * (1.0 - 2.0 * FILM) * c["peltier_thickness"]
-    air, shine = c["air_conductivity"], c["running_clearance"] * c["surface_emissivity"] / (2.0 - c["surface_emissivity"])
+    air, shine = (
+        c["air_conductivity"],
+        c["running_clearance"] * c["surface_emissivity"] / (2.0 - c["surface_emissivity"]),
+    )
     solid, side = Material(k, k, heat), Material(100.0, c["pad_conductivity"], pad)
+    warm, cool = c["melting_end"] + KELVIN, c["ambient"] + KELVIN
+    # The gap behind a spreader lies along the ring; it radiates there as between the melt and what is cold.
+    behind = c["peltier_thickness"] * shine / c["running_clearance"] * SIGMA * (warm**2 + cool**2) * (warm + cool)
+    metal = c["spreader_conductivity"]
     return {
         "floor": solid, "plate": solid, "vane": solid, "wall": Material(whole * k, whole * k, whole * heat),
         "hot": side, "cold": side, "legs": Material(legs, c["pad_conductivity"], pad), "air": Material(air, air, 0.0, shine),
         "near": Material(c["hot_contact"] * SHEET, 1e-9), "far": Material(c["rotor_contact"] * SHEET, 1e-9),
+        "upper wall": solid, "beside tiles": Material(air + behind, air),
+        "spreader": Material(metal, metal, c["spreader_density"] * c["spreader_specific_heat"]),
+        "joint": Material(c["spreader_contact"] * SHEET, 1e-9),
     }  # fmt: skip
 
 
@@ -206,8 +232,12 @@ def _ring_s_exchanges(c: Mapping[str, float]) -> tuple[list[Exchange], list[Body
     middle = pi * inner**2
     rim = max(pi * rotor**2 - wide * length - middle, 1e-6)
     vane = length - 0.5 * c["vane_thickness"] - c["block_depth"] - c["peltier_thickness"]
-    walls = (1.0 - c["cold_area"] / c["heated_area"]) * heat * vane * (c["running_clearance"] + c["block_height"])
-    housing = (c["housing_mass"] * c["structure_specific_heat"] / wide - length * floor * heat - walls)
+    vane -= c["spreader_depth"]
+    whole = 1.0 - c["cold_area"] / c["heated_area"]
+    low, height = c["running_clearance"], c["block_height"]
+    tiled = height * (c["heated_area"] / c["pcl_area"] if c["spreader_depth"] else 1.0)
+    walls = heat * vane * (whole * (low + tiled) + height - tiled)
+    housing = c["housing_mass"] * c["structure_specific_heat"] / wide - length * floor * heat - walls
     air = c["rotor_coefficient"], c["housing_coefficient"]
     bodies = [
         Body(c["core_capacity"] / wide),
@@ -226,11 +256,13 @@ def _ring_s_exchanges(c: Mapping[str, float]) -> tuple[list[Exchange], list[Body
         Exchange("x:cold>wall", shown * c["cold_coefficient"], shown * shine),
         Exchange("y:plate>", air[0], shine), Exchange("y:>floor", air[1], shine),
         *(Exchange(name, g / (wide * length * depth[name]), 0.0, body, True) for name, g, body in spread),
-        *(Exchange(name, sides, 0.0, 2, True) for name in ("layer", "hot", "legs", "cold", "vane")),
+        *(Exchange(name, sides, 0.0, 2, True) for name in ("layer", "spreader", "hot", "legs", "cold", "vane")),
     ]  # fmt: skip
     if c["sink_contact"]:
         found[0] = Exchange("x:cold>wall", shown * c["sink_contact"], 0.0, 4)
-        bodies.append(Body(c["sink_capacity"] / wide, c["sink_surface"] / wide, c["sink_coefficient"], c["sink_emissivity"]))
+        bodies.append(
+            Body(c["sink_capacity"] / wide, c["sink_surface"] / wide, c["sink_coefficient"], c["sink_emissivity"])
+        )
     return found, bodies
 
 

@@ -85,7 +85,7 @@ def ring_of(model: DeviceFunctions, values: Mapping[str, Any]) -> dict[str, floa
                 "sink_surface": sink.surface.area, "sink_coefficient": sink.surface.coefficient,
                 "sink_emissivity": sink.surface.emissivity}  # fmt: skip
     own = {"ambient": values["ambient_temperature"] - 273.15, "pad_conductivity": compression.PAD_CONDUCTIVITY,
-           "cold_coefficient": values["cold_side_coefficient"]}  # fmt: skip
+           "cold_coefficient": values["cold_side_coefficient"], "melting_end": found["pcl_melting"].end - 273.15}  # fmt: skip
     return {**numbers, **bodies, **sunk, **own}
 
 
