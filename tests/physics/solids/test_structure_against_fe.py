@@ -187,6 +187,19 @@ def test_the_floor_on_a_flange_is_about_as_stiff_as_in_fe(name: str, rel: float)
     assert structure.ring_stiffness(shear, mm["floor_web"], mm["flange_outer_radius"], middle(mm)) > 2.2 * fe  # before
 
 
+def held_pads(case: dict[str, Any], mm: dict[str, float]) -> float:
+    """Share of the pads' polar moment that holds."""
+    inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
+    span = mm["arc_span"] - 2.0 * ledge / inner
+    # FE without a bulk modulus had a Poisson's ratio of a quarter.
+    fringe = shear_lag.end_fringe(case["pad_shear_modulus"], case.get("pad_bulk_modulus", 0.0))
+    across = shear_lag.held_over_window(mm["peltier_thickness"], 0.5 * (outer - inner) - ledge)
+    along = shear_lag.held_over_window(mm["peltier_thickness"], 0.5 * span * middle(mm), fringe)
+    lost = (1.0 - across) * (1.0 - along)
+    window = span * ((outer - ledge) ** 4 - (inner + ledge) ** 4) / (mm["arc_span"] * (outer**4 - inner**4))
+    return float(1.0 - lost * window)
+
+
 def held_share(case: dict[str, Any], mm: dict[str, float]) -> float:
     """Share of the layer's polar moment that its pads are held under."""
     inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
@@ -195,17 +208,7 @@ def held_share(case: dict[str, Any], mm: dict[str, float]) -> float:
     borne = shear_lag.borne_over_window(layer, 1.0 / (pad * mm["peltier_thickness"]), 0.5 * (outer - inner) - ledge)
     span = mm["arc_span"] - 2.0 * ledge / inner
     window = span * ((outer - ledge) ** 4 - (inner + ledge) ** 4) / (mm["arc_span"] * (outer**4 - inner**4))
-    return float(1.0 - (1.0 - borne) * window)
-
-
-def held_pads(mm: dict[str, float]) -> float:
-    """Share of the pads' polar moment that holds."""
-    inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
-    span = mm["arc_span"] - 2.0 * ledge / inner
-    halves = 0.5 * (outer - inner) - ledge, 0.5 * span * middle(mm)
-    lost = np.prod([1.0 - shear_lag.held_over_window(mm["peltier_thickness"], half) for half in halves])
-    window = span * ((outer - ledge) ** 4 - (inner + ledge) ** 4) / (mm["arc_span"] * (outer**4 - inner**4))
-    return float(1.0 - lost * window)
+    return max(float(1.0 - (1.0 - borne) * window), held_pads(case, mm))
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -214,8 +217,7 @@ def test_pads_over_windows_add_the_compliance_they_do_in_fe(name: str) -> None:
     mm, _, _ = read(case)
     even = case["pad_shear_modulus"] * 1e9 * polar_moment(mm) / mm["peltier_thickness"]
     fe, hub = case["found"]["pad"], case["found"]["hub"]
-    # 0.02, and 0.005 that FE's elements at the windows' edges hold too much (validation/fe_structure).
-    assert hub / (even * held_pads(mm)) == pytest.approx(hub / fe, abs=0.025)
+    assert hub / (even * held_pads(case, mm)) == pytest.approx(hub / fe, abs=0.02)
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -226,9 +228,7 @@ def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
     inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
     rise = shear_lag.arc_edge_rise(*lap(case), (inner, outer), held_share(case, mm))
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
-    # Over pads a hundred times softer the layer spreads what the ledges bear over its own thickness: not in the form.
-    soft = case["pad_shear_modulus"] < 0.01 * case["frozen_shear_modulus"]
-    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.1 if soft else 0.08)
+    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.08)
 
 
 def tiled(mm: dict[str, float], less: float = 0.0) -> float:
