@@ -86,6 +86,8 @@ def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], 
         "mm": {name: float(f"{mm[name]:.5g}") for name in LENGTHS if mm.get(name)},
         "found": found,
     }
+    if values.get("peltier_bulk_modulus"):
+        case["pad_bulk_modulus"] = values["peltier_bulk_modulus"] * 1e-9
     if mm.get("spreader_depth") and inputs["mode"] == "shear":
         case["spreader_shear_modulus"] = values["spreader_shear_modulus"] * 1e-9
     table, given_here = table_for(inputs["mode"]), {**given(read_study(ROOT / f"studies/{study}.yaml")), **varied}

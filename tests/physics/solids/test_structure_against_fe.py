@@ -1,5 +1,6 @@
 """Closed forms of core, plate, floor, vanes and link against FE of the drawn parts in validation/."""
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -102,7 +103,8 @@ def footed_floor(case: dict[str, Any]) -> float:
     pocket = mm.get("adjuster_radius", 0.0) + mm.get("slip_clearance", 0.0), mm.get("adjuster_thickness", 0.0)
     left = structure.pocketed_thickness(mm["floor_thickness"], case["feet"], *pocket, mm["placement_radius"])
     ring = structure.ring_stiffness(shear, left, mm["pcl_outer_radius"], mm["placement_radius"])
-    foot = structure.foot_stiffness(youngs, shear, mm["mount_boss_radius"], 0.5 * mm["mount_hole"], mm["foot_height"])
+    boss = mm["mount_boss_radius"], 0.5 * mm["mount_hole"], mm["foot_height"]
+    foot = structure.foot_stiffness(youngs, shear, *boss, structure.foot_tilt(*boss, mm["floor_thickness"]))
     between = np.pi * mm["placement_radius"] / case["feet"]
     around = case["poissons_ratio"], left, mm["mount_boss_radius"], between
     spot = structure.spot_stiffness(shear, *around)
@@ -147,15 +149,29 @@ def test_the_plate_is_as_stiff_as_in_fe(name: str) -> None:
     assert found == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.06)
 
 
+def under_pads(case: dict[str, Any]) -> float:
+    """Floor below pads cut to the PCL, from both ledges of their windows out to the rim."""
+    mm, youngs, shear = read(case)
+    inner, outer, web, ledge = (
+        mm[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "floor_web", "window_ledge")
+    )
+    edges = inner, middle(mm), outer
+    areas = [0.25 * mm["arc_count"] * mm["arc_span"] * (b**4 - a**4) for a, b in pairwise(edges)]
+    seats = 1.0 / (lap(case)[0] * areas[0]), 1.0 / (lap(case)[0] * areas[1])
+    window, between = mm["arc_span"] - 2.0 * ledge / inner, inner + 0.5 * ledge
+    ends = coverage(mm) - mm["arc_count"] * window / (2.0 * np.pi)
+    beside = (1.0 - coverage(mm)) * mm["floor_thickness"] + ends * web
+    ribs = structure.ring_stiffness(shear, beside, between, outer - 0.5 * ledge)
+    hoop = structure.hoop_compliance(youngs, web * ledge, window * between, mm["arc_count"], between)
+    beyond = structure.ring_stiffness(shear, coverage(mm) * web, outer - ledge, outer)
+    return float(structure.under_ledges_compliance(seats, 1.0 / ribs + hoop, 1.0 / beyond))
+
+
 @pytest.mark.parametrize("name", SHEAR)
 def test_the_floor_on_its_feet_is_as_stiff_as_in_fe(name: str) -> None:
     case = SHIPPED[name]
-    mm, _, shear = read(case)
-    ring = structure.ring_stiffness(shear, mm["floor_web"], middle(mm), mm["pcl_outer_radius"])
-    lag = shear_lag.lag(*lap(case), mm["pcl_outer_radius"] - mm["pcl_inner_radius"])
-    below = structure.ring_under_arcs_stiffness(ring, coverage(mm), lag)
-    found = structure.series(below, footed_floor(case))
-    assert found == pytest.approx(case["found"]["housing"], rel=0.095)  # as structure.footed_floor_stiffness says
+    found = 1.0 / (under_pads(case) + 1.0 / footed_floor(case))
+    assert found == pytest.approx(case["found"]["housing"], rel=0.085)
 
 
 @pytest.mark.parametrize(("name", "rel"), [("printed_shear", 0.16), ("milled_shear", 0.25)])
@@ -171,6 +187,19 @@ def test_the_floor_on_a_flange_is_about_as_stiff_as_in_fe(name: str, rel: float)
     assert structure.ring_stiffness(shear, mm["floor_web"], mm["flange_outer_radius"], middle(mm)) > 2.2 * fe  # before
 
 
+def held_pads(case: dict[str, Any], mm: dict[str, float]) -> float:
+    """Share of the pads' polar moment that holds."""
+    inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
+    span = mm["arc_span"] - 2.0 * ledge / inner
+    # FE without a bulk modulus had a Poisson's ratio of a quarter.
+    fringe = shear_lag.end_fringe(case["pad_shear_modulus"], case.get("pad_bulk_modulus", 0.0))
+    across = shear_lag.held_over_window(mm["peltier_thickness"], 0.5 * (outer - inner) - ledge)
+    along = shear_lag.held_over_window(mm["peltier_thickness"], 0.5 * span * middle(mm), fringe)
+    lost = (1.0 - across) * (1.0 - along)
+    window = span * ((outer - ledge) ** 4 - (inner + ledge) ** 4) / (mm["arc_span"] * (outer**4 - inner**4))
+    return float(1.0 - lost * window)
+
+
 def held_share(case: dict[str, Any], mm: dict[str, float]) -> float:
     """Share of the layer's polar moment that its pads are held under."""
     inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
@@ -179,17 +208,7 @@ def held_share(case: dict[str, Any], mm: dict[str, float]) -> float:
     borne = shear_lag.borne_over_window(layer, 1.0 / (pad * mm["peltier_thickness"]), 0.5 * (outer - inner) - ledge)
     span = mm["arc_span"] - 2.0 * ledge / inner
     window = span * ((outer - ledge) ** 4 - (inner + ledge) ** 4) / (mm["arc_span"] * (outer**4 - inner**4))
-    return float(1.0 - (1.0 - borne) * window)
-
-
-def held_pads(mm: dict[str, float]) -> float:
-    """Share of the pads' polar moment that holds."""
-    inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
-    span = mm["arc_span"] - 2.0 * ledge / inner
-    halves = 0.5 * (outer - inner) - ledge, 0.5 * span * middle(mm)
-    lost = np.prod([1.0 - shear_lag.held_over_window(mm["peltier_thickness"], half) for half in halves])
-    window = span * ((outer - ledge) ** 4 - (inner + ledge) ** 4) / (mm["arc_span"] * (outer**4 - inner**4))
-    return float(1.0 - lost * window)
+    return max(float(1.0 - (1.0 - borne) * window), held_pads(case, mm))
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -198,8 +217,7 @@ def test_pads_over_windows_add_the_compliance_they_do_in_fe(name: str) -> None:
     mm, _, _ = read(case)
     even = case["pad_shear_modulus"] * 1e9 * polar_moment(mm) / mm["peltier_thickness"]
     fe, hub = case["found"]["pad"], case["found"]["hub"]
-    # 0.02, and 0.005 that FE's elements at the windows' edges hold too much (validation/fe_structure).
-    assert hub / (even * held_pads(mm)) == pytest.approx(hub / fe, abs=0.025)
+    assert hub / (even * held_pads(case, mm)) == pytest.approx(hub / fe, abs=0.02)
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -210,9 +228,7 @@ def test_the_layer_s_edge_bears_what_it_does_in_fe(name: str) -> None:
     inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
     rise = shear_lag.arc_edge_rise(*lap(case), (inner, outer), held_share(case, mm))
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
-    # Over pads a hundred times softer the layer spreads what the ledges bear over its own thickness: not in the form.
-    soft = case["pad_shear_modulus"] < 0.01 * case["frozen_shear_modulus"]
-    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.1 if soft else 0.08)
+    assert rise * outer / polar * 1e-6 == pytest.approx(case["found"]["edge_highest"], rel=0.08)
 
 
 def tiled(mm: dict[str, float], less: float = 0.0) -> float:
@@ -256,18 +272,19 @@ def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -
 @pytest.mark.parametrize("name", SPREAD)
 def test_the_floor_below_rigid_modules_is_as_stiff_as_in_fe(name: str) -> None:
     case = SHIPPED[name]
-    mm, _, shear = read(case)
+    mm, youngs, shear = read(case)
     reach = 0.5 * (mm["peltier_width"] - mm["window_ledge"])
     ledges = mm["tile_radius"] - reach, mm["tile_radius"] + reach
     area = mm["heater_count"] * mm["peltier_length"] * mm["window_ledge"]
     on_ledge = case["pad_shear_modulus"] * 1e9 * area / mm["peltier_thickness"]
-    ribs = (1.0 - tiled(mm, 2.0 * mm["window_ledge"])) * structure.ring_stiffness(shear, mm["floor_web"], *ledges)
-    beyond = structure.covered_ring_stiffness(shear, mm["floor_web"], ledges[1], mm["pcl_outer_radius"], tiled(mm))
+    web, ledge, open_long = mm["floor_web"], mm["window_ledge"], mm["peltier_length"] - 2.0 * mm["window_ledge"]
+    ribs = structure.ring_stiffness(shear, (1.0 - tiled(mm, 2.0 * ledge)) * web, *ledges)
+    hoop = structure.hoop_compliance(youngs, web * ledge, open_long, mm["heater_count"], ledges[0])
+    beyond = structure.ring_stiffness(shear, tiled(mm) * web, ledges[1] - 0.5 * ledge, mm["pcl_outer_radius"])
     seats = 1.0 / (on_ledge * ledges[0] ** 2), 1.0 / (on_ledge * ledges[1] ** 2)
-    below = structure.under_ledges_compliance(seats, 1.0 / ribs, 1.0 / beyond)
+    below = structure.under_ledges_compliance(seats, 1.0 / ribs + hoop, 1.0 / beyond)
     found = 1.0 / (below + 1.0 / footed_floor(case))
-    # 10 % in `driven_joint`, whose floor a motor opens, and 7 % in `ankle`, whose feet stand inside its edge.
-    assert found == pytest.approx(case["found"]["housing"], rel=0.1)
+    assert found == pytest.approx(case["found"]["housing"], rel=0.06)
 
 
 def test_of_two_ledges_the_outer_bears_all_where_nothing_leads_out_from_the_inner() -> None:
@@ -328,6 +345,16 @@ def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> Non
     assert found == pytest.approx(0.5 * whole, rel=1e-9)
 
 
-def test_a_ring_below_stiff_sheets_is_the_ring_s_share_and_below_soft_ones_stiffer() -> None:
-    assert structure.ring_under_arcs_stiffness(1000.0, 0.6, 1e-4) == pytest.approx(600.0, rel=1e-6)
-    assert structure.ring_under_arcs_stiffness(1000.0, 0.6, 3.0) == pytest.approx(1800.0, rel=0.01)
+def test_a_foot_below_a_thick_floor_is_built_in_and_below_a_thin_one_free_to_turn() -> None:
+    # A cantilever bends four times as far as a beam whose ends keep their directions: h^3/(3 E I) for h^3/(12 E I).
+    assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1.0) == pytest.approx(1.0, abs=1e-3)
+    assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1e-6) == pytest.approx(4.0, rel=1e-3)
+
+
+def test_a_bar_pushed_along_evenly_keeps_a_twelfth_of_what_it_would_under_all_of_it() -> None:
+    # Energy of N = q x from -L/2 to L/2, twice over the moment squared: by quadrature, of three bars at 15 mm.
+    length, section, youngs, count, radius = 22e-3, 4e-6, 2.1e9, 3, 15e-3
+    push = 1.0 / (count * radius * length)
+    x = (np.arange(1000) + 0.5) / 1000 * length - 0.5 * length
+    energy = count * np.mean((push * x) ** 2) * length / (youngs * section)
+    assert structure.hoop_compliance(youngs, section, length, count, radius) == pytest.approx(energy, rel=1e-4)

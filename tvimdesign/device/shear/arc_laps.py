@@ -122,6 +122,7 @@ def ledge_radii(tile_radius: Scalar, peltier_width: Scalar, window_ledge: Scalar
 
 @quantities.helper(requires=WITH_TILES)
 def under_tiles_compliance(
+    structure_youngs_modulus: Scalar,
     structure_shear_modulus: Scalar,
     floor_web: Scalar,
     ledge_radii: tuple[Scalar, Scalar],
@@ -134,32 +135,57 @@ def under_tiles_compliance(
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
 ) -> Scalar:
-    """What the floor gives between the ledges of rigid modules, and from the outer one to the arcs' rim [rad/(N*m)]."""
+    """What the floor gives between the ledges of rigid modules, and from their windows to the arcs' rim [rad/(N*m)]."""
     inner, outer = ledge_radii
     on_ledge = heater_count * peltier_length * window_ledge * peltier_shear_modulus / peltier_thickness
     seats = 1.0 / (on_ledge * inner**2), 1.0 / (on_ledge * outer**2)
-    ribs = (1.0 - windowed_share) * structure.ring_stiffness(structure_shear_modulus, floor_web, inner, outer)
-    beyond = structure.covered_ring_stiffness(structure_shear_modulus, floor_web, outer, pcl_outer_radius, tiled_share)
-    return structure.under_ledges_compliance(seats, 1.0 / ribs, 1.0 / beyond)
+    ribs = structure.ring_stiffness(structure_shear_modulus, (1.0 - windowed_share) * floor_web, inner, outer)
+    opened = peltier_length - 2.0 * window_ledge
+    hoop = structure.hoop_compliance(structure_youngs_modulus, floor_web * window_ledge, opened, heater_count, inner)
+    rims = outer - 0.5 * window_ledge, pcl_outer_radius
+    beyond = structure.ring_stiffness(structure_shear_modulus, tiled_share * floor_web, *rims)
+    return structure.under_ledges_compliance(seats, 1.0 / ribs + hoop, 1.0 / beyond)
 
 
 @quantities.helper()
-def under_arcs_compliance(
-    heater_form: str,
+def under_pads_compliance(
     lap_of_arcs: tuple[Scalar, Scalar, Scalar],
-    under_tiles_compliance: Scalar,
+    structure_youngs_modulus: Scalar,
     structure_shear_modulus: Scalar,
+    floor_thickness: Scalar,
     floor_web: Scalar,
-    arc_width: Scalar,
+    window_ledge: Scalar,
+    window_span: Scalar,
+    arc_count: Scalar,
+    arc_span: Scalar,
+    driven_share: Scalar,
+    pcl_inner_radius: Scalar,
     pcl_mean_radius: Scalar,
     pcl_outer_radius: Scalar,
-    driven_share: Scalar,
 ) -> Scalar:
+    """What the floor gives between the ledges of pads cut to the PCL, and from their windows to its rim [rad/(N*m)].
+
+    The inner half of an arc hangs on the inner ledge, the outer half on the outer; between arcs the floor is whole.
+    """
+    inner, outer = pcl_inner_radius + 0.5 * window_ledge, pcl_outer_radius - 0.5 * window_ledge
+    per_area, polar = lap_of_arcs[0], 0.25 * arc_count * arc_span
+    halves = pcl_mean_radius**4 - pcl_inner_radius**4, pcl_outer_radius**4 - pcl_mean_radius**4
+    seats = 1.0 / (per_area * polar * halves[0]), 1.0 / (per_area * polar * halves[1])
+    opened = arc_count * window_span / (2.0 * np.pi)
+    beside = (1.0 - driven_share) * floor_thickness + (driven_share - opened) * floor_web
+    ribs = structure.ring_stiffness(structure_shear_modulus, beside, inner, outer)
+    hoop = structure.hoop_compliance(
+        structure_youngs_modulus, floor_web * window_ledge, window_span * inner, arc_count, inner
+    )
+    rims = pcl_outer_radius - window_ledge, pcl_outer_radius
+    beyond = structure.ring_stiffness(structure_shear_modulus, driven_share * floor_web, *rims)
+    return structure.under_ledges_compliance(seats, 1.0 / ribs + hoop, 1.0 / beyond)
+
+
+@quantities.helper()
+def under_arcs_compliance(heater_form: str, under_tiles_compliance: Scalar, under_pads_compliance: Scalar) -> Scalar:
     """What the floor gives below the arcs, out to their rim [rad/(N*m)]."""
-    if heater_form != CUT:
-        return under_tiles_compliance
-    ring = structure.ring_stiffness(structure_shear_modulus, floor_web, pcl_mean_radius, pcl_outer_radius)
-    return 1.0 / structure.ring_under_arcs_stiffness(ring, driven_share, shear_lag.lag(*lap_of_arcs, arc_width))
+    return under_pads_compliance if heater_form == CUT else under_tiles_compliance
 
 
 @quantities.output("1")

@@ -47,6 +47,30 @@ def window_span(arc_span: Scalar, window_ledge: Scalar, pcl_inner_radius: Scalar
 
 
 @quantities.helper()
+def held_pads(
+    heater_form: str,
+    layer_polar_moment: Scalar,
+    window_section: Section,
+    window_depth: Scalar,
+    window_span: Scalar,
+    pcl_mean_radius: Scalar,
+    peltier_thickness: Scalar,
+    peltier_shear_modulus: Scalar,
+    peltier_bulk_modulus: Scalar,
+) -> Scalar:
+    """Polar moment of the pads [m^4] less what gives above the windows, along both rims and both ends of each.
+
+    A spreader bridges the windows.
+    """
+    if heater_form != CUT:
+        return layer_polar_moment
+    fringe = shear_lag.end_fringe(peltier_shear_modulus, peltier_bulk_modulus)
+    across = shear_lag.held_over_window(peltier_thickness, 0.5 * window_depth)
+    along = shear_lag.held_over_window(peltier_thickness, 0.5 * window_span * pcl_mean_radius, fringe)
+    return layer_polar_moment - (1.0 - across) * (1.0 - along) * window_section.polar
+
+
+@quantities.helper()
 def held_polar_moment(
     heater_form: str,
     layer_polar_moment: Scalar,
@@ -56,39 +80,20 @@ def held_polar_moment(
     peltier_shear_modulus: Scalar,
     peltier_thickness: Scalar,
     window_depth: Scalar,
+    held_pads: Scalar,
 ) -> Scalar:
     """Polar moment of the frozen layer [m^4] less what it does not bear above the windows, which do not hold the pads.
 
-    Under the layer a pad gives over a third of its own thickness, as a sheet that is sheared along its upper face.
-    A spreader bridges the windows, so it holds all of the layer.
+    Under the layer a pad gives over a third of its own thickness, as a sheet that is sheared along its upper face. No
+    less is held than of pads under a stiff layer, as one that gives evens out. A spreader bridges the windows, so it
+    holds all of the layer.
     """
     if heater_form != CUT:
         return layer_polar_moment
     per_area = 1.0 / (pcl_thickness / frozen_shear_modulus + peltier_thickness / (3.0 * peltier_shear_modulus))
     sheet = 1.0 / (peltier_shear_modulus * peltier_thickness)
     borne = shear_lag.borne_over_window(per_area, sheet, 0.5 * window_depth)
-    return layer_polar_moment - (1.0 - borne) * window_section.polar
-
-
-@quantities.helper()
-def held_pads(
-    heater_form: str,
-    layer_polar_moment: Scalar,
-    window_section: Section,
-    window_depth: Scalar,
-    window_span: Scalar,
-    pcl_mean_radius: Scalar,
-    peltier_thickness: Scalar,
-) -> Scalar:
-    """Polar moment of the pads [m^4] less what gives above the windows, along both rims and both ends of each.
-
-    A spreader bridges the windows.
-    """
-    if heater_form != CUT:
-        return layer_polar_moment
-    halves = 0.5 * window_depth, 0.5 * window_span * pcl_mean_radius
-    lost = [1.0 - shear_lag.held_over_window(peltier_thickness, half) for half in halves]
-    return layer_polar_moment - lost[0] * lost[1] * window_section.polar
+    return np.fmax(layer_polar_moment - (1.0 - borne) * window_section.polar, held_pads)
 
 
 @quantities.helper(requires=WITH_LINER)

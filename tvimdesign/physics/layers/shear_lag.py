@@ -57,14 +57,30 @@ def borne_over_window(layer: Any, sheet: Any, half_width: Any) -> Any:
     return np.tanh(reach) / reach
 
 
-def held_over_window(thickness: Any, half_width: Any) -> Any:
-    """Share of a pad [1] that is held as if no window were below it, 1 - ln cosh(x)/x, x = pi b/(2 t).
+FRINGE = 2.0 * np.log(2.0) / np.pi
+"""Width over a pad's thickness that the rim of a wide window holds besides, where it is sheared along that rim."""
+
+
+def end_fringe(shear_modulus: Any, bulk_modulus: Any) -> Any:
+    """The same at an end of a window, where a pad is sheared across the rim [1]: 1 - 1.9 G/(K + 7 G/3).
+
+    A pad that keeps its volume cannot be drawn in or pressed together there. Strips in plane strain, solved by numbers
+    (validation/fe_structure/windows.csv): within 2 % of a thickness, K from 5 G/3, Poisson's ratio of a quarter, which
+    is the least that counts.
+    """
+    bulk = np.fmax(bulk_modulus, 5.0 / 3.0 * shear_modulus)
+    return 1.0 - 1.9 * shear_modulus / (bulk + 7.0 / 3.0 * shear_modulus)
+
+
+def held_over_window(thickness: Any, half_width: Any, fringe: Any = FRINGE) -> Any:
+    """Share of a pad [1] that is held as if no window were below it, 1 - ln cosh(x)/x, x = ln 2 b/(f t).
 
     A pad of the thickness t on the rims of a window 2b wide, sheared along the rims by what is stiff on it, moves as a
     harmonic function over its section: held below but for the window, which is free. The flow from a strip's upper face
     to the lower one beyond a free stretch is that to the middle of a strip line of no thickness; a free stretch takes
     of it what one of the width (2t/pi) ln cosh(x) does. Source: S. B. Cohn, IRE Trans. Microwave
-    Theory Tech. 2 (1954) 52-57, whose fringe 2 ln 2/pi is that of a wide window.
+    Theory Tech. 2 (1954) 52-57, whose fringe f of 2 ln 2/pi is that of a wide window. Sheared across them it has
+    another (`end_fringe`).
     """
-    reach = np.sqrt((0.5 * np.pi * half_width / thickness) ** 2 + 1e-12)
+    reach = np.sqrt((np.log(2.0) * half_width / (fringe * thickness)) ** 2 + 1e-12)
     return 1.0 - (reach + np.log(0.5 + 0.5 * np.exp(-2.0 * reach))) / reach

@@ -118,8 +118,9 @@ def floor_stiffness(
     left = structure.pocketed_thickness(floor_thickness, spring_count, adjuster_radius + slip_clearance,
                                         adjuster_thickness, placement_radius)  # fmt: skip
     ring = structure.ring_stiffness(structure_shear_modulus, left, pcl_outer_radius, placement_radius)
+    tilt = structure.foot_tilt(mount_boss_radius, 0.5 * mount_hole, foot_height, floor_thickness)
     foot = structure.foot_stiffness(structure_youngs_modulus, structure_shear_modulus, mount_boss_radius,
-                                    0.5 * mount_hole, foot_height)  # fmt: skip
+                                    0.5 * mount_hole, foot_height, tilt)  # fmt: skip
     between = np.pi * placement_radius / spring_count
     spot = structure.spot_stiffness(structure_shear_modulus, structure_poissons_ratio, left,
                                     mount_boss_radius, between)  # fmt: skip
