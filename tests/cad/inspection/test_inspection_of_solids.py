@@ -171,6 +171,21 @@ def test_a_gate_is_bridged_up_to_the_span_of_the_process(gap: float, level: str)
         assert place_of(found["bridge"])[2] == pytest.approx(11.0)
 
 
+@pytest.mark.parametrize("turn", [0.0, 7.0, 31.0])
+@pytest.mark.parametrize(("gap", "level"), [(7.0, "pass"), (8.5, "warning")])
+def test_a_roof_that_ends_askew_in_the_air_is_bridged_along_its_ends(gap: float, level: str, turn: float) -> None:
+    # Walls along y carry a roof whose free ends lean by 40 degrees: only a way along these has a wall at both its ends.
+    lean = np.tan(radians(40.0))
+    roof = [(x, x * lean + y) for x, y in ((-5.0, 0.0), (gap + 5.0, 0.0), (gap + 5.0, 12.0), (-5.0, 12.0))]
+    solid = cq.Workplane().polyline(roof).close().extrude(12.0)
+    gate = solid.cut(box(gap, 100.0, 10.0).translate((0.5 * gap, 0.0, 0.0))).rotate((0, 0, 0), (0, 0, 1), turn)
+    found = printed(gate)
+    assert found["overhang"].level == level
+    if level == "pass":
+        way = gap / cos(radians(40.0))  # of 7 mm 9.1 mm, of 8.5 mm 11.1 mm; a little beside an edge another is shorter
+        assert 0.95 * way < found["bridge"].value < (1.0 + 1e-6) * way
+
+
 def test_a_part_may_be_turned_on_the_bed_but_not_be_longer() -> None:
     assert bed_check("part", np.array([180.0, 210.0, 20.0]), (220.0, 200.0, 250.0)).level == "pass"
     found = bed_check("part", np.array([230.0, 100.0, 20.0]), BED)

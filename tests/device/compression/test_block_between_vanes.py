@@ -122,6 +122,8 @@ def test_each_gap_between_hub_blocks_slots_and_feet_is_what_its_drawing_gives(sq
     housing = np.pi / 3.0 - (2 * 7.0 + 5.0) / 33.0
     reach = np.hypot(0.5 * 24.4094, 2.0 * 2.413) + 0.5 * 2.413
     block, stroke = 7.0 / 33.0, squeezed["stroke"]
+    seat = 1.5 - 0.2 * (1.0 + 1.5 / 33.0) - 0.05
+    roof = np.sqrt(36.5**2 - 1.5**2) - np.sqrt(29.5**2 - 1.5**2)
     # Squeezed, a block keeps its area and its inner radius: (r^2 - 26^2) (a - stroke) = (40^2 - 26^2) a.
     pressed_out = np.sqrt(26.0**2 + (40.0**2 - 26.0**2) * block / (block - stroke))
     drawn = {
@@ -129,7 +131,8 @@ def test_each_gap_between_hub_blocks_slots_and_feet_is_what_its_drawing_gives(sq
         "slot_opening": 29.5 * (housing - 2.0 * np.arcsin(1.5 / 29.5)), "slot_reach": 3.5 - 2.0,
         "slot_web": 0.5 * (14.0 - 7.0), "slot_web_margin": 3.5 - 1.2, "slot_width_margin": 7.0 - 2.1 * 0.2,
         "vane_root": 5.0 * 26.0 / 33.0, "vane_root_margin": 5.0 * 26.0 / 33.0 - 1.2,
-        "mount_slot_gap": 57.0 - 3.5 - 36.5 - 1.0, "pad_seat": 1.5 - 0.2 * (1.0 + 1.5 / 33.0) - 0.1,
+        "mount_slot_gap": 57.0 - 3.5 - 36.5 - 1.0, "pad_seat": seat, "pad_seat_margin": seat - 1.2,
+        "slot_edge_margin": 0.05 + 0.1, "slot_bridge_margin": 10.0 - roof,
         "squeezed_block_gap": 57.0 - reach - pressed_out - 1.0,
     }  # fmt: skip
     found = TABLE.evaluate(squeezed, list(drawn))

@@ -114,6 +114,28 @@ def test_fillets_take_from_a_sector_what_is_beyond_their_arcs(radius: float, off
     assert shapes.corners(radius, inner, outer, offset) == pytest.approx(four, rel=1e-6)
 
 
+@pytest.mark.parametrize("depth", [2.1e-3, 2.6e-3, 3.4e-3])
+def test_beyond_a_depth_fillets_take_what_is_further_from_the_radial_lines(depth: float) -> None:
+    inner, outer, offset, radius = 19e-3, 26e-3, 1.03e-3, 1.5e-3
+    beside = offset + radius
+
+    def fillet(y: float) -> float:
+        return float(np.sqrt(max(radius**2 - (y - beside) ** 2, 0.0)))
+
+    def taken(start: float) -> float:
+        far, near = np.sqrt((outer - radius) ** 2 - beside**2), np.sqrt((inner + radius) ** 2 - beside**2)
+        ends = beside * outer / (outer - radius), beside * inner / (inner + radius)
+        outside = integrate(lambda y: np.sqrt(outer**2 - y**2) - far - fillet(y), min(start, ends[0]), ends[0])
+        inside = integrate(lambda y: near - fillet(y) - np.sqrt(inner**2 - y**2), min(start, ends[1]), ends[1])
+        return outside + inside
+
+    found = shapes.corners_beyond(radius, inner, outer, offset, depth)
+    assert found == pytest.approx(2.0 * taken(depth), rel=1e-6, abs=1e-18)
+    assert (found > 0.0) == (depth < 3e-3)  # a fillet ends 2.5 mm from the line, or a little further
+    whole = shapes.corners(radius, inner, outer, offset)
+    assert shapes.corners_beyond(radius, inner, outer, offset, offset) == pytest.approx(whole, rel=1e-9)
+
+
 def test_a_slot_across_a_disc_is_its_strips() -> None:
     half, radius = 0.6e-3, 2.7e-3
     expected = integrate(lambda y: 2.0 * np.sqrt(radius**2 - y**2), -half, half)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees, sin, sqrt
+from math import degrees, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +25,8 @@ _ON_BED = 0.05
 _BELOW = 0.1
 """How far below a ceiling its walls are looked for [mm]."""
 _LEVEL = 0.999
+_EDGES = 8
+"""Ways are looked for along so many of a ceiling's edges, the longest."""
 _NOTHING = 1.0
 """Overhanging area [mm^2] that needs no word."""
 _TURNED_OVER = np.array([1.0, -1.0, -1.0])
@@ -123,9 +125,27 @@ def _overhang(triangles: Triangles, group: Index) -> Overhang:
     where = samples(triangles, max(SPACING, sqrt(area / _MANY)), group)
     level = bool(np.all(-triangles.normal[group, 2] > _LEVEL))
     down = np.array([0.0, 0.0, -1.0])
-    spans = across(triangles, where.point + _BELOW * down, down)[0] if level else np.full(len(where), np.inf)
+    spans = np.full(len(where), np.inf)
+    if level:
+        spans = across(triangles, where.point + _BELOW * down, down, _edge_directions(triangles.corners[group]))[0]
     worst = int(np.argmax(spans))
     return Overhang(area, float(spans[worst]), where.point[worst], level)
+
+
+def _edge_directions(corners: Array) -> list[float]:
+    """Azimuths [rad] of the longest outer edges of level triangles.
+
+    Beside an edge where a ceiling ends in the air, only a bridge that runs along it has both its ends on walls.
+    """
+    points, number = np.unique(np.round(corners[:, :, :2].reshape(-1, 2), 4) + 0.0, axis=0, return_inverse=True)
+    around = number.reshape(-1, 3)
+    start, end = around.ravel(), around[:, [1, 2, 0]].ravel()
+    outer = ~np.isin(start * len(points) + end, end * len(points) + start)
+    way = (points[end] - points[start])[outer]
+    longest_first = way[np.argsort(-np.hypot(*way.T), kind="stable")]
+    azimuths = np.arctan2(longest_first[:, 1], longest_first[:, 0]) % pi
+    _, first = np.unique(np.round(azimuths, 3), return_index=True)
+    return [float(azimuth) for azimuth in azimuths[np.sort(first)[:_EDGES]]]
 
 
 def _places(count: int) -> str:

@@ -29,22 +29,19 @@ def housing(dims: Dimensions) -> cq.Shape:
     vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.housing_vane_angle, 0, dims.vane_height)
     # The pads drop in from above: their pockets are open there, and at both ends.
     end = dims.pad_depth
-    seat, roof = dims.running_clearance, dims.slot_top_level
-    pocketed = vane.cut(*_beside_faces(dims, end, end, (seat, dims.vane_height + end)))
-    # Beside the pads a slot's corners open into their pockets. Below, it is wider by its corners: a cutter can come by.
-    feet = [rounded(foot, dims.corner_radius) for foot in _slots(dims, dims.pad_seat, -dims.floor_thickness, seat)]
-    slots = [foot.fuse(upper) for foot, upper in zip(feet, _slots(dims, end, seat, roof), strict=True)]
+    pocketed = vane.cut(*_beside_faces(dims, end, end, (dims.running_clearance, dims.vane_height + end)))
     azimuths = _housing_vanes(dims)
-    openings = [turned(slot, at) for at in azimuths for slot in slots]
+    openings = [turned(slot, at) for at in azimuths for slot in _slots(dims)]
     return bare_housing(dims, [turned(pocketed, at) for at in azimuths], openings)
 
 
-def _slots(dims: Dimensions, seat: float, bottom: float, top: float) -> list[cq.Shape]:
-    """The slots of a housing vane between two levels, so far behind the vane's faces."""
+def _slots(dims: Dimensions) -> list[cq.Shape]:
+    """The slots of a housing vane, as a cutter comes by from below; beside the pads they open into their pockets."""
+    bottom, top = -dims.floor_thickness, dims.slot_top_level
     if dims.spreader_depth:
-        return vane_tile_parts.slots(dims, seat, bottom, top)
+        return vane_tile_parts.slots(dims)
     whole = sector(dims.slot_inner_radius, dims.slot_outer_radius, dims.housing_vane_angle, bottom, top)
-    return [whole.cut(*_beside_faces(dims, seat, dims.pad_depth, (bottom, top)))]
+    return [rounded(whole.cut(*_beside_faces(dims, dims.pad_seat, dims.pad_depth, (bottom, top))), dims.corner_radius)]
 
 
 def rotor(dims: Dimensions) -> cq.Shape:

@@ -17,8 +17,9 @@ radius, so a block is strained alike from its inner to its outer end and K = n E
   the vane's top: hot side to the block, cold side to the inside of the vane.
 - Between its two pads the vane has a slot, open to the air below through the floor: `slot_share` of the block's width,
   in the middle of it; the slot ends a `window_ledge` below the vane's top. The pads bear on what is left of the vane.
-  Beside the pads the slot's corners open into their pockets; below them the slot is wider by the `corner_radius` of its
-  rounded corners, so that a cutter of that radius comes by, and the pads stand on the `pad_seat` that is left.
+  Beside the pads the slot's corners open into their pockets; below them the slot is wider by its rounded corners, so
+  that a cutter of their `corner_radius` comes by, and the pads stand on the `pad_seat` that is left. With a negative
+  `slot_corner_offset` it is wider by less: of its corners a part stays beside the pads, up to edges of 60 degrees.
 - Rigid modules stand in the same pockets, made deeper by a spreader before them: `vane_tiles` has their drawing in
   words.
 - Rotor vanes hang at azimuths 0, 360/N, ... degrees, housing vanes stand half a pitch further.

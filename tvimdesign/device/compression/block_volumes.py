@@ -9,6 +9,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import (
     Section,
     corners,
+    corners_beyond,
     mean_square,
     radial_strip,
     sector,
@@ -73,12 +74,14 @@ def slot_section(
     slot_outer_radius: Scalar,
     pcl_mean_radius: Scalar,
     pad_depth: Scalar,
+    pad_seat: Scalar,
+    corner_radius: Scalar,
     slot_count: Scalar,
     slot_width: Scalar,
     tile_slot_radius: Scalar,
     tile_slot_pitch: Scalar,
 ) -> Section:
-    """Plan view of the slots beside the pads: sectors of the vanes, less the pads on either side.
+    """Plan view of the slots beside the pads: sectors of the vanes, less the pads on either side and their corners.
 
     Behind tiles: what lies between the tiles of a vane, with flat ends.
     """
@@ -86,7 +89,9 @@ def slot_section(
         row = wedge(housing_vane_angle, pad_depth, slot_width, tile_slot_radius, slot_count, tile_slot_pitch)
         return row.times(vane_count)
     whole = sector(housing_vane_angle, slot_inner_radius, slot_outer_radius).area
-    area = vane_count * (whole - 2.0 * radial_strip(pad_depth, slot_inner_radius, slot_outer_radius))
+    pads = 2.0 * radial_strip(pad_depth, slot_inner_radius, slot_outer_radius)
+    rounded = corners_beyond(corner_radius, slot_inner_radius, slot_outer_radius, pad_seat, pad_depth)
+    area = vane_count * (whole - pads - rounded)
     return Section(area, area * pcl_mean_radius**2)
 
 

@@ -27,7 +27,7 @@ def cold_area(
     heater_count: Scalar,
     tile_window: Scalar,
 ) -> Scalar:
-    """Open area of the modules' cold sides [m^2]: what of them the slots show."""
+    """Open area of the modules' cold sides [m^2]: what of them the slots show, rounds of their corners not counted."""
     if heater_form == CUT:
         return 2.0 * vane_count * slot_width * slot_height
     return heater_count * tile_window * slot_height

@@ -125,6 +125,21 @@ def slot_corner_margin(
     return corner_depth_ratio * corner_radius - (floor_thickness + slot_top_level)
 
 
+@quantities.output("mm", at_least(0.0, "the slots' roofs are too long a bridge to print: a smaller slot_share"))
+def slot_bridge_margin(
+    heater_form: str,
+    slot_inner_radius: Scalar,
+    slot_outer_radius: Scalar,
+    pad_depth: Scalar,
+    tile_window: Scalar,
+    bridge_span: Scalar,
+) -> Scalar:
+    """Longest bridge of the process beyond that along the pads, where the slots' roofs end in the air."""
+    if heater_form != CUT:
+        return bridge_span - tile_window
+    return bridge_span - np.sqrt(slot_outer_radius**2 - pad_depth**2) + np.sqrt(slot_inner_radius**2 - pad_depth**2)
+
+
 _NARROW = "a slot must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
 
 
@@ -181,3 +196,21 @@ _FALLS = "slots are wider below the pads, by the radius of their corners, and le
 def pad_seat(pad_depth: Scalar, slot_reach_below: Scalar) -> Scalar:
     """Width of what a pad, or a spreader with its tiles, stands on beside its slot."""
     return pad_depth - slot_reach_below
+
+
+_SEAT = "pads stand on too thin a wall beside their slots: a smaller slot_corner_offset or lead_hole_diameter"
+
+
+@quantities.output("mm", at_least(0.0, _SEAT))
+def pad_seat_margin(pad_seat: Scalar, minimum_wall: Scalar) -> Scalar:
+    """Width of what a pad stands on beside its slot beyond the process's least wall."""
+    return pad_seat - minimum_wall
+
+
+_SHARP = "the slot's corners leave sharp edges beside the pads: a larger slot_corner_offset"
+
+
+@quantities.output("mm", at_least(0.0, _SHARP))
+def slot_edge_margin(slot_corner_offset: Scalar, corner_radius: Scalar) -> Scalar:
+    """Offset of the slots' corners beyond the one at which the edges they leave beside the pads have 60 degrees."""
+    return slot_corner_offset + 0.5 * corner_radius

@@ -235,6 +235,30 @@ def corners(fillet_radius: Any, inner_radius: Any, outer_radius: Any, offset: An
     return 2.0 * (outer_corner(fillet_radius, outer_radius, offset) + inner_corner(fillet_radius, inner_radius, offset))
 
 
+def corners_beyond(fillet_radius: Any, inner_radius: Any, outer_radius: Any, offset: Any, depth: Any) -> Any:
+    """What of the area [m^2] of `corners` lies further than `depth` from the radial lines; none beyond the fillets.
+
+    With the fillet's centre at the height c along the line and y_c = r + t beside it, over the distance y from the
+    line: the integral of |sqrt(R^2 - y^2) - (c +- sqrt(r^2 - (y - y_c)^2))| dy from the depth to where the fillet
+    touches the circle, on the ray through its centre (plane geometry).
+    """
+    r, beside = fillet_radius, fillet_radius + offset
+    taken = 0.0
+    for sign, radius in ((1.0, outer_radius), (-1.0, inner_radius)):
+        height = np.sqrt((radius - sign * r) ** 2 - beside**2)
+        touch = beside * radius / (radius - sign * r)
+        start = np.fmin(depth, touch)
+        circle = _under_arc(touch, radius) - _under_arc(start, radius)
+        fillet = _under_arc(touch - beside, r) - _under_arc(start - beside, r)
+        taken += sign * (circle - height * (touch - start)) - fillet
+    return 2.0 * taken
+
+
+def _under_arc(distance: Any, radius: Any) -> Any:
+    """Integral of sqrt(r^2 - y^2) from zero to a distance [m^2]."""
+    return 0.5 * (distance * np.sqrt(radius**2 - distance**2) + radius**2 * np.arcsin(distance / radius))
+
+
 def bar_across(half_width: Any, radius: Any) -> Any:
     """Area [m^2] that a straight slot through the middle of a disc has in it."""
     return 2.0 * (half_width * np.sqrt(radius**2 - half_width**2) + radius**2 * np.arcsin(half_width / radius))
