@@ -249,9 +249,10 @@ def tried(command: str, number: int, *, seed: int, through: Through, folder: Pat
     resumed = command in _GOES_ON and (own / "out" / _GOES_ON[command]).is_dir()
     if resumed:
         faults += resumed_differs(command, own, through.out)
-    if not faults:
-        shutil.rmtree(own)
     told = {"signal": one.number.name, "after": round(one.after, 2), "resumed": resumed, "faults": faults}
+    if faults:
+        told["said"] = (own / "said.txt").read_text(errors="replace")[-2000:]
+    shutil.rmtree(own)
     return {"command": command, "seed": seed, "number": number, **told}
 
 
