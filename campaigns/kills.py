@@ -193,7 +193,7 @@ def broken_files(out: Path, one: Try, *, ended: bool) -> list[str]:
     found = []
     for path in sorted(path for path in out.rglob("*") if path.is_file()):
         name, data = path.relative_to(out).as_posix(), path.read_bytes()
-        if path.name.startswith("."):
+        if any(part.startswith(".") for part in path.relative_to(out).parts):
             if one.number != signal.SIGKILL:
                 found.append(f"{name} is left half written")
         elif not whole(path, data):

@@ -31,6 +31,11 @@ def _swallowed() -> None:
         os.kill(os.getpid(), signal.SIGTERM)
 
 
+def _solve_until_interrupted(optimizer: Optimizer) -> None:
+    while not interrupt_came():
+        optimizer.solve()
+
+
 @pytest.mark.parametrize("share", [0.2, 0.5, 0.8])
 def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer, share: float) -> None:
     before = optimizer.seconds["solve"]
@@ -40,8 +45,7 @@ def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer
     with heeding_interrupts():
         signaling.start()
         with pytest.raises(KeyboardInterrupt):
-            while not interrupt_came():
-                optimizer.solve()
+            _solve_until_interrupted(optimizer)
 
 
 def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optimizer) -> None:

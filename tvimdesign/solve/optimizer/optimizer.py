@@ -269,7 +269,7 @@ class Optimizer:
     def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
         """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it.
 
-        CasADi takes an interrupt that comes while it evaluates a function for a failure of it: NonIpopt_Exception_Thrown.
+        CasADi takes an interrupt that comes while it evaluates a function for a failure of that.
         """
         raise_pending()
         if stats["return_status"] == "User_Requested_Stop":
