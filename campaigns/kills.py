@@ -38,7 +38,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
 MARK = "TVIMDESIGN_CAMPAIGN"
 _STUDY = str(ROOT / "studies/paper_as_published.yaml")
 SMALL = ROOT / "campaigns/small.yaml"
-_FRONT = ["--set", "front={of: [response_time, module_mass], points: 4}", "--no-cad", "--no-plots"]
+_FRONT = ["--set", "front={of: [response_time, peak_power], points: 4}", "--no-cad", "--no-plots"]
 _OVER = "sweep={over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 12}, wire_diameter: [2 mm, 2.4 mm]}}"
 _GOES_ON = {"front": "front/progress", "sweep": "shards"}
 """Commands that can be resumed, and the folder of what they go on from."""
@@ -47,7 +47,7 @@ COMMANDS = {
     "front": ["run", str(SMALL), *_FRONT],
     "parts": ["cad", str(ROOT / "cad/paper_shear/design.json")],
     "sweep": ["sweep", _STUDY, "--set", _OVER, "--workers", "2", "--no-plots"],
-    "compare": ["compare", _STUDY, str(ROOT / "studies/compare_shear.yaml"), "--points", "0"],
+    "compare": ["compare", str(SMALL), str(ROOT / "campaigns/small_compression.yaml"), "--points", "0"],
     "explorer": ["explore", str(SMALL), "--no-open"],
 }
 """What is ended; each gets `--out`."""
@@ -193,7 +193,7 @@ def broken_files(out: Path, one: Try, *, ended: bool) -> list[str]:
     found = []
     for path in sorted(path for path in out.rglob("*") if path.is_file()):
         name, data = path.relative_to(out).as_posix(), path.read_bytes()
-        if path.name.startswith("."):
+        if any(part.startswith(".") for part in path.relative_to(out).parts):
             if one.number != signal.SIGKILL:
                 found.append(f"{name} is left half written")
         elif not whole(path, data):
@@ -249,9 +249,10 @@ def tried(command: str, number: int, *, seed: int, through: Through, folder: Pat
     resumed = command in _GOES_ON and (own / "out" / _GOES_ON[command]).is_dir()
     if resumed:
         faults += resumed_differs(command, own, through.out)
-    if not faults:
-        shutil.rmtree(own)
     told = {"signal": one.number.name, "after": round(one.after, 2), "resumed": resumed, "faults": faults}
+    if faults:
+        told["said"] = (own / "said.txt").read_text(errors="replace")[-2000:]
+    shutil.rmtree(own)
     return {"command": command, "seed": seed, "number": number, **told}
 
 
@@ -265,13 +266,14 @@ class Through:
 
 
 def run_through(command: str, folder: Path) -> Through:
-    """Run a command to its end; an explorer has none."""
+    """Run a command to its end, which must be a good one; an explorer has none."""
     own = folder / f"{command}-through"
     own.mkdir()
     if command == SERVES:
         return Through(own / "out", _SERVED)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    start(COMMANDS[command], own).wait()
+    if code := start(COMMANDS[command], own).wait():
+        sys.exit(f"{command} ends with {code} where nobody ends it: {(own / 'said.txt').read_text()}")
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return Through(own / "out", after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
 
@@ -311,6 +313,7 @@ def main() -> int:
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="kills-") as folder:
         every = campaign(asked, Path(folder))
+    every = [one for one in every if one["command"] in asked.commands]
     for command in dict.fromkeys(one["command"] for one in every):
         some = [one for one in every if one["command"] == command]
         failed, resumed = (sum(bool(one[what]) for one in some) for what in ("faults", "resumed"))

@@ -32,6 +32,12 @@ def test_a_command_that_is_ended_leaves_nothing_behind(
     assert kills.faults_after(Try(command, number, after), tmp_path) == []
 
 
+def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(kills.COMMANDS, "run", ["run", "there_is_none.yaml"])
+    with pytest.raises(SystemExit, match="run ends with 2 where nobody ends it"):
+        kills.run_through("run", tmp_path)
+
+
 def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
     (tmp_path / "manifest.json").write_text(json.dumps({"status": "running"}))
     (tmp_path / "results.json").write_text('{"a": ')

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 
 _SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
@@ -12,18 +12,20 @@ _TWICE = 1.0
 """Seconds within which the same signal counts once: `timeout` sends it to the process and to its group."""
 _received: list[int] = []
 _times: dict[int, float] = {}
+_heeding: list[None] = []
+"""As long as `heeding_interrupts` are entered and not yet left."""
 
 
 @contextmanager
-def heeding_interrupts() -> Iterator[None]:
+def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     """Raise every interrupt as KeyboardInterrupt, and keep it for `raise_pending`; only in the main thread.
 
     What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError. A
     signal that is ignored, as SIGHUP under nohup, stays ignored.
     """
-    every = {number: signal.getsignal(number) for number in _SIGNALS}
+    every = {number: signal.getsignal(number) for number in numbers}
     before = {number: handler for number, handler in every.items() if handler not in (signal.SIG_IGN, None)}
-    outermost = _heed not in before.values()
+    _heeding.append(None)
     for number in before:
         signal.signal(number, _heed)
     try:
@@ -33,11 +35,17 @@ def heeding_interrupts() -> Iterator[None]:
             raise KeyboardInterrupt from error
         raise
     finally:
+        _heeding.pop()  # first: what comes while the outermost is left ends nothing any more
         for number, handler in before.items():
             signal.signal(number, handler)
-        if outermost:
+        if not _heeding:
             _received.clear()
             _times.clear()
+
+
+def interrupt_came() -> bool:
+    """Whether an interrupt came, whatever has become of it."""
+    return bool(_received)
 
 
 def raise_pending() -> None:
@@ -52,6 +60,8 @@ def exit_code() -> int:
 
 
 def _heed(number: int, _: object) -> None:
+    if not _heeding:
+        return
     now = time.monotonic()
     again, _times[number] = now - _times.get(number, -_TWICE) < _TWICE, now
     if not again:

@@ -6,6 +6,8 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from tvimdesign.base.interrupts import interrupt_came
+from tvimdesign.solve.best_so_far import SearchInterrupted, best_so_far
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
 from tvimdesign.solve.discrete.enumeration import enumerate_all
@@ -43,15 +45,34 @@ def optimize(
 
     `reference` are the values the minimised outputs are divided by: those of the study's start unless given.
     `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
-    that are `traded` can be weighed and bounded with it afterwards.
+    that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
+    has the best design so far.
     """
+    trees: list[Relaxation] = []
+    try:
+        return _optimize(study, progress, reference, keep, objectives, trees)
+    except (KeyboardInterrupt, Exception) as error:
+        if isinstance(error, KeyboardInterrupt) or interrupt_came():  # a library raises something else for one
+            raise SearchInterrupted(best_so_far(study, trees)) from error
+        raise
+
+
+def _optimize(
+    study: Study,
+    progress: Progress,
+    reference: dict[str, float] | None,
+    keep: Keep,
+    objectives: Sequence[str],
+    trees: list[Relaxation],
+) -> Solution:
+    """The same; `trees` are filled with the problems of the search."""
     deadline = Deadline(study.solver.time_limit)
     refuse_unreachable(study)
     sizes, families = discrete_sizes(study, study.table), families_of(study)
     refuse_too_many(families, sizes)
     combinations = sizes.count * sum(family.count for family in families)
     building = Trees(study, reference, progress, objectives, deadline, sizes)
-    trees = building.of(families)
+    trees += building.of(families)
     listed = any(relaxation.sizes.names for relaxation in trees)
     hopeless = all(relaxation.hopeless() for relaxation in trees)
     free: list[tuple[Relaxation, Run]] = []

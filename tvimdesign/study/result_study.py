@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Choice, Input, table_for
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.study.design import Design
-from tvimdesign.study.study import ProfileOptions, Study
+from tvimdesign.study.study import ProfileOptions, Range, Study
 from tvimdesign.study.tree import tree_of_values, tree_yaml
 from tvimdesign.study.written_study import written
 
@@ -19,11 +20,27 @@ def result_text(design: Design, source: str, folder: Path) -> str:
 
     Raises InputError for a design whose current follows a profile, which no study states.
     """
-    study = evaluating(design)
+    return study_text(evaluating(design), f"The module of {source}", folder)
+
+
+def study_text(study: Study, title: str, folder: Path) -> str:
+    """The text of a study whose file will stand in a folder, below a line with its title."""
     if study.catalog_folder:
-        records = os.path.relpath(Path(study.catalog_folder).resolve(), folder)
+        records = os.path.relpath(Path(study.catalog_folder).resolve(), folder.resolve())
         study = study.model_copy(update={"catalog_folder": records})
-    return tree_yaml(tree_of_values(written(study), f"The module of {source}", folder))
+    return tree_yaml(tree_of_values(written(study), title, folder))
+
+
+def begun_at(study: Study, values: Mapping[str, float], choices: Mapping[str, str | float]) -> Study:
+    """The study whose search begins at a design: what it varies starts there, or as near as its ends allow."""
+    module, vary = dict(study.module), dict(study.vary)
+    for name, allowed in study.vary.items():
+        if isinstance(allowed, Range):
+            start = min(max(values[name], allowed.lower), allowed.upper)
+            vary[name] = allowed.model_copy(update={"start": start})
+        else:
+            module[name] = choices[name] if name in choices else values[name]
+    return study.model_copy(update={"module": module, "vary": vary})
 
 
 def evaluating(design: Design) -> Study:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -206,14 +207,23 @@ def test_a_study_without_a_design_leaves_the_other_its_results(tvimdesign: Comma
     assert {front["study"] for front in reported["fronts"]["fronts"]} == {"shear"}
 
 
-def test_a_process_that_dies_is_told_and_the_other_kept(tmp_path: Path) -> None:
+def test_a_process_that_dies_is_told_and_the_other_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     evaluated = SHEAR[: SHEAR.index("vary:")] + SHEAR[SHEAR.index("operating_points:") :]
     (path,) = written(tmp_path, there=evaluated)
-    found = answers([Asked("gone", tmp_path / "gone.yaml"), Asked("there", path)], 2, lambda _: None)
+    out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(elsewhere))
+    (out / ".studies.killed").mkdir(parents=True)
+    beside: list[list[Path]] = []
+    asked = [Asked("gone", tmp_path / "gone.yaml"), Asked("there", path)]
+    found = answers(asked, out, 2, lambda _: None, lambda: beside.append([*out.iterdir(), *elsewhere.iterdir()]))
     assert found["gone"]["troubles"][0]["exit_code"] == 4
     assert "no such file" in found["gone"]["troubles"][0]["error"]
     assert found["there"]["troubles"] == []
     assert "drawn" in found["there"]
+    assert [path.parent for path in beside[0]] == [out]  # what a kill leaves is in the folder of results, made anew
+    assert beside[0][0].name != ".studies.killed"
+    assert list(out.iterdir()) == []
 
 
 @pytest.mark.slow

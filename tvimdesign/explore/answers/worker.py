@@ -16,6 +16,7 @@ from typing import Any, TextIO
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.interrupts import heeding_interrupts, interrupt_came, raise_pending
 from tvimdesign.explore.answers.engine import Answer, Engine, refused
 from tvimdesign.explore.answers.report_fragment import design_name, report_fragment
 from tvimdesign.explore.states.source import open_source
@@ -23,28 +24,15 @@ from tvimdesign.explore.states.state import State
 from tvimdesign.study.design import design_json
 
 
-class _Interrupts:
-    """Interrupts while a job is under way; between jobs there is nothing to end."""
-
-    def __init__(self) -> None:
-        self.busy = self.came = False
-        signal.signal(signal.SIGINT, self._heed)
-
-    def _heed(self, *_: object) -> None:
-        if self.busy:
-            self.came = True
-            raise KeyboardInterrupt
-
-
 class _Quiet(io.TextIOBase):
     """Standard error, but for what a library says of an interrupt that was meant."""
 
-    def __init__(self, through: TextIO, interrupts: _Interrupts) -> None:
-        self._through, self._interrupts = through, interrupts
+    def __init__(self, through: TextIO) -> None:
+        self._through = through
 
     def write(self, text: str) -> int:
         """Write it, or not."""
-        return len(text) if self._interrupts.came else self._through.write(text)
+        return len(text) if interrupt_came() else self._through.write(text)
 
 
 def main() -> None:
@@ -52,40 +40,34 @@ def main() -> None:
     follow_parent()
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a library prints must not stand among the answers
-    interrupts = _Interrupts()
-    sys.stderr = _Quiet(sys.stderr, interrupts)
+    signal.signal(signal.SIGINT, lambda *_: None)  # between jobs there is nothing to end
+    sys.stderr = _Quiet(sys.stderr)
     source, folder, settings = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
     engine = Engine(open_source(source, settings).tree)
     _say(answers, {"ready": True})
     for line in sys.stdin:
         job = json.loads(line)
-        _say(answers, {"number": job["number"], **_done(engine, job, folder, interrupts, answers)})
+        _say(answers, {"number": job["number"], **_done(engine, job, folder, answers)})
 
 
-def _done(
-    engine: Engine, job: dict[str, Any], folder: Path, interrupts: _Interrupts, answers: TextIO
-) -> dict[str, Any]:
+def _done(engine: Engine, job: dict[str, Any], folder: Path, answers: TextIO) -> dict[str, Any]:
     """What a job comes to; of one that was interrupted nothing is kept, whatever a library made of the interrupt."""
 
     def progress(text: str) -> None:
+        raise_pending()
         _say(answers, {"number": job["number"], "progress": text})
 
-    interrupts.came, interrupts.busy = False, True
     try:
-        try:
-            found = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
-            told = _told(found, folder)
-        except TvimError as error:
-            told = {"shown": {**refused(error), "stage": job["stage"], "way": job["state"]["way"]}}
-        except Exception as error:
-            if not interrupts.came:
-                raise
-            raise KeyboardInterrupt from error
-        interrupts.busy = False
+        with heeding_interrupts((signal.SIGINT,)):
+            try:
+                found = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
+                told = _told(found, folder)
+            except TvimError as error:
+                told = {"shown": {**refused(error), "stage": job["stage"], "way": job["state"]["way"]}}
+            raise_pending()
     except KeyboardInterrupt:
-        interrupts.busy = False
         return {"superseded": True}
-    return {"superseded": True} if interrupts.came else told
+    return told
 
 
 def _told(found: Answer, folder: Path) -> dict[str, Any]:

@@ -47,7 +47,7 @@ def compare_studies(
             nonlocal drawing
             drawing = stack.enter_context(PlotProcess()) if plots else None
 
-        outcome = Outcome(entrants, answers(asked, points, progress, begin_drawing, settings))
+        outcome = Outcome(entrants, answers(asked, folder.path, points, progress, begin_drawing, settings))
         outcome.seconds["all answers"] = time.perf_counter() - began
         asked_for = drawings(outcome)
         if drawing:

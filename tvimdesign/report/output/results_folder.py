@@ -130,6 +130,10 @@ class ResultsFolder:
         """
         if not self._finished:
             raise_pending()
+        return self.write_at_the_end(name, data)
+
+    def write_at_the_end(self, name: str, data: str | bytes) -> Path:
+        """The same of what is kept though the run was interrupted."""
         path = self.path / name
         make_folder(path.parent)
         write_whole(

@@ -38,6 +38,7 @@ def run_study(
     )
     from tvimdesign.report.run.first_screen.run_screen import RunScreen
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
+    from tvimdesign.report.run.keep_best import keeping_best
     from tvimdesign.report.run.refusal import leaving_the_reason
     from tvimdesign.report.run.run_page.run_page import write_run_page
     from tvimdesign.report.run.write_answer import finish, write_answer
@@ -50,7 +51,7 @@ def run_study(
         progress = stack.enter_context(progress_output())
         screen = stack.enter_context(RunScreen(study))
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        with leaving_the_reason(folder, tree, study, progress, as_json=as_json):
+        with keeping_best(folder), leaving_the_reason(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
                 tree, progress, prove=prove, sensitivities=sensitivities, folder=folder, early=screen.ask
             )

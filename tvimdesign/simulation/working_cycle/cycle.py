@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
+from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_simulator import FIRST_STRETCH, PhaseSimulator
@@ -55,8 +56,10 @@ class Simulator:
 
         `drives` are currents by phase where they are not the constant ones of the inputs; `stretches` the lengths [s]
         of time, by phase, that are sampled at a time at first. Of the phases' quantities only those that are
-        `wanted` need be sought (all unless given), as steady states and each event take time of their own.
+        `wanted` need be sought (all unless given), as steady states and each event take time of their own. Raises
+        KeyboardInterrupt where an interrupt came that CasADi has swallowed.
         """
+        raise_pending()
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
         balances: dict[str, Array] = {}

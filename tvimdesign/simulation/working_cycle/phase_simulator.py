@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import SimulationError
+from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -129,6 +130,7 @@ class PhaseSimulator:
         try:
             after = np.asarray(self._integrator(x0=begin, p=parameters)["xf"])
         except RuntimeError as error:
+            raise_pending()
             reason = str(error).strip().splitlines()[-1]
             raise SimulationError(
                 f"the {self.phase.phase.name} of this design cannot be simulated; check its inputs ({reason})"

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
 from tvimdesign.solve.nlp.ipopt import NLP
@@ -60,7 +61,7 @@ class FeasibilityScreen:
     def impossible(self, within: Mapping[str, Ends], begin: Array) -> bool:
         """Whether the limits are broken at the best point that a search from some inputs comes to.
 
-        A search that does not converge says nothing.
+        A search that does not converge says nothing. Raises KeyboardInterrupt where an interrupt ended it.
         """
         optimizer = self._optimizer
         count = len(optimizer.free)
@@ -71,4 +72,5 @@ class FeasibilityScreen:
             x0=np.append(np.clip(start, lower, upper), 0.1), lbg=np.append(least, np.full(self._count, -np.inf)),
             ubg=np.append(largest, np.zeros(self._count)), lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf),
         )  # fmt: skip
+        raise_pending()
         return bool(self._solver.stats()["success"]) and float(found["f"]) > ALGEBRAIC_TOLERANCE

@@ -43,6 +43,8 @@ class Relaxation:
     constant_current_optimum: ConstantCurrentOptimum = field(init=False)
     optima: list[Run] = field(init=False, default_factory=list)
     """A run for each different optimum that the starts came to with every size free, the best first."""
+    best: Run | None = field(init=False, default=None)
+    """The best run so far that converged with every size from its list."""
     _ends: list[Run] = field(init=False, default_factory=list)
     """Where the starts came to instead, if none of them came to an optimum."""
 
@@ -74,6 +76,9 @@ class Relaxation:
                 run = second_try.from_conflict_search(run)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
+            if not self.sizes.names:
+                run.start = replace(run.start, choices=dict(self.records))
+                self._note(run)
         runs = NeighboringOptima(self.optimizer).improve(runs)
         self._take(runs)
         return runs
@@ -217,7 +222,13 @@ class Relaxation:
 
     def _named(self, run: Run, box: Box) -> Run:
         run.start = replace(run.start, choices=self.choices(box))
+        self._note(run)
         return run
+
+    def _note(self, run: Run) -> None:
+        """Keep the best."""
+        if run.start.converged and (self.best is None or order(run) < order(self.best)):
+            self.best = run
 
     def _begins(self, ends: Mapping[str, Ends], near: Run | None) -> list[Array]:
         """Inputs to start from, moved into the ends: those of the run nearby, of the optima, of the study's start."""

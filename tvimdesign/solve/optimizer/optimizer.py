@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.device import Input
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.current_profile import ramp_time
@@ -222,8 +223,10 @@ class Optimizer:
         ends of their own.
 
         `unknowns` stand in place of the switch simulated at `begin`; `beginning` says what is neither cold nor warm.
-        An `objective` stands in place of the study's weights and bounds what is traded; nothing is built anew.
+        An `objective` stands in place of the study's weights and bounds what is traded; nothing is built anew. Raises
+        KeyboardInterrupt where an interrupt came, also one that CasADi has swallowed.
         """
+        raise_pending()
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
         solver = self._solver(beginning or ("cold" if warm is None else "warm"))
@@ -264,7 +267,11 @@ class Optimizer:
         return least, largest
 
     def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
-        """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it."""
+        """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it.
+
+        CasADi takes an interrupt that comes while it evaluates a function for a failure of that.
+        """
+        raise_pending()
         if stats["return_status"] == "User_Requested_Stop":
             raise KeyboardInterrupt
         unknowns = np.asarray(answer["x"]).ravel()

@@ -94,7 +94,11 @@ def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
         ("time [s];angle [mm]\n0;1\n1;2\n2;3\n", r"data.csv:2: column 2, 'angle \[mm\]': 'mm' is no unit of angle"),
         (
             "time [s];angle [deg];temperature [K]\n0;1;0\n1;2;300\n2;3;300\n",
-            r"column 3, .*: 0 K is not above absolute zero",
+            r"column 3, .*: 0 K is at absolute zero, or below",
+        ),
+        (
+            "time [s];angle [deg];temperature [K]\n0;1;1e-300\n1;2;300\n2;3;300\n",
+            r"column 3, .*: 1e-300 K is at absolute zero, or below",
         ),
     ],
 )

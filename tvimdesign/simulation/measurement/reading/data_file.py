@@ -21,6 +21,7 @@ from tvimdesign.simulation.measurement.reading.trios_json import json_sheets
 from tvimdesign.simulation.measurement.reading.workbook import ENDINGS, workbook_sheets
 
 Array = NDArray[np.float64]
+_COLDEST = 1.0  # K; nothing that is measured here is as cold
 _NOTHING = {"", "-", "--", "---", "n/a", "na", "nan", "none", "nd", "no value"}
 
 
@@ -173,8 +174,8 @@ def _column(at: int, one: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Co
         values = found[0] + found[1] * np.array(numbers, dtype=float)
     if np.any(np.isinf(values)) or np.all(np.isnan(values)):
         raise InputError(f"{where}: a value is too large, or none is a number")
-    if one.quantity.endswith("temperature") and np.nanmin(values) <= 0.0:
-        raise InputError(f"{where}: {np.nanmin(values):g} K is not above absolute zero; look at the column's unit")
+    if one.quantity.endswith("temperature") and np.nanmin(values) < _COLDEST:
+        raise InputError(f"{where}: {np.nanmin(values):g} K is at absolute zero, or below; look at the column's unit")
     return Column(one.quantity, one.text, one.unit, values)
 
 

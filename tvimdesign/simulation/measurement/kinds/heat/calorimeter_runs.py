@@ -50,10 +50,12 @@ def runs_of(blocks: Sequence[Block], settings: Settings) -> tuple[list[Run], boo
 
 def _runs(block: Block, settings: Settings) -> list[Run]:
     which = "specific_heat_flow" if "specific_heat_flow" in block.columns else "heat_flow"
-    time, temperature, heat = rows_of(block, ["time", "temperature", which])
+    time, temperature, heat = _at_new_times(block, which)
+    if len(time) < _LEAST_ROWS:
+        return []
     if which == "heat_flow":
         heat = heat / _mass(block, settings)
-    rates = np.gradient(temperature, np.maximum(time, np.arange(len(time)) * 1e-9))
+    rates = np.gradient(temperature, time)
     smooth = np.convolve(np.pad(rates, _WINDOW // 2, mode="edge"), np.ones(_WINDOW) / _WINDOW, mode="valid")
     threshold = max(_LEAST_RATE, 0.2 * float(np.median(np.abs(smooth))))
     kinds = np.where(smooth < -threshold, -1, np.where(smooth > threshold, 1, 0))
@@ -69,6 +71,16 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
         name = f"{block.title or block.file}, {way}"
         found.append(Run(name, way, time[part] - time[begin], temperature[part], heat[part]))
     return found
+
+
+def _at_new_times(block: Block, which: str) -> list[Array]:
+    """Time, temperature and heat; of rows whose rounded times are the same the first. Raises InputError."""
+    columns = rows_of(block, ["time", "temperature", which])
+    steps = np.diff(columns[0])
+    if np.any(steps < 0.0):
+        raise InputError(f"{block.file}:{block.lines[0]}: time falls from one row to the next")
+    new = np.append(True, steps > 0.0)
+    return [column[new] for column in columns]
 
 
 def _mass(block: Block, settings: Settings) -> float:

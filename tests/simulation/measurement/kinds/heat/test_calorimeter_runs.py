@@ -1,0 +1,38 @@
+"""Runs of a calorimeter: times that an instrument has rounded, and times that fall."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
+from tvimdesign.simulation.measurement.reading.data_file import read_data_file
+
+
+def _read(folder: Path, times: NDArray[np.float64]) -> list[Run]:
+    """Cooled from 353 K by 10 K/min; heat as from a peak at 300 K."""
+    temperature = 353.0 - np.arange(len(times)) / 6.0
+    heat = 100.0 + 1000.0 * np.exp(-(((temperature - 300.0) / 4.0) ** 2))
+    rows = [f"{t:g};{kelvin:.12g};{watts:g}" for t, kelvin, watts in zip(times, temperature, heat, strict=True)]
+    path = folder / "data.csv"
+    path.write_text("\n".join(["time [s];temperature [K];specific_heat_flow [W/kg]", *rows, ""]))
+    return runs_of(read_data_file(path).blocks, {})[0]
+
+
+def test_of_rows_whose_rounded_times_are_the_same_the_first_counts(tmp_path: Path) -> None:
+    seconds = np.arange(400.0)
+    (run,) = _read(tmp_path, np.floor(seconds / 2.0) * 2.0)
+    assert np.all(np.diff(run.time) > 0.0)
+    assert run.way == "cooled"
+    assert run.rate == pytest.approx(-1.0 / 6.0, rel=1e-9)
+
+
+def test_times_that_fall_are_refused(tmp_path: Path) -> None:
+    seconds = np.arange(400.0)
+    seconds[390] = -1e308
+    with pytest.raises(InputError, match=r"data\.csv:2: time falls from one row to the next"):
+        _read(tmp_path, seconds)

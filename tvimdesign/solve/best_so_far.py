@@ -1,0 +1,29 @@
+"""What a search had found when it was interrupted: its study, begun at the best design so far."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tvimdesign.solve.discrete.relaxation import Relaxation, order
+from tvimdesign.study import Study
+from tvimdesign.study.result_study import begun_at
+
+
+class SearchInterrupted(KeyboardInterrupt):
+    """A search that was interrupted."""
+
+    def __init__(self, best: Study | None = None) -> None:
+        """`best` is the study begun at the best design so far; None where there was none yet."""
+        super().__init__()
+        self.best = best
+
+
+def best_so_far(study: Study, trees: Sequence[Relaxation]) -> Study | None:
+    """The study begun at the best of what its problems have come to; None where that is nothing yet."""
+    found = [(order(tree.best), tree.place, tree) for tree in trees if tree.best is not None]
+    if not found:
+        return None
+    tree = min(found)[-1]
+    assert tree.best is not None
+    values = dict(zip(tree.optimizer.model.names, tree.best.inputs.tolist(), strict=True))
+    return begun_at(study, values, tree.best.start.choices)
