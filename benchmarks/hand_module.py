@@ -27,7 +27,7 @@ BEND, BEND_ACROSS, BEND_IN_PLANE = 2.0, 1.1, (4.0 * 4.0**2 - 4.0 - 1.0) / (4.0 *
 E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 0.24, 1200.0, 31e6
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
-SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, BORED_PLATE, FOOT_TILT = 0.1, 0.15, 0.38, 0.2, 1.38
+SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, BORED_PLATE, ROCKING = 0.1, 0.15, 0.38, 0.2, 0.34
 CORE_FOOT, BORED_FOOT, NEAR_FOOT, HOLDING_SAFETY = 0.796, 1.41, 0.25, 1.25
 WALL_LEAST, FEATURE_LEAST, CORNER, POCKET_RATIO = 1.2e-3, 2e-3, 0.2e-3, 50.0
 PIN_RATIO, PIN, CORE, WALL, FLOOR, ROTOR, LINK = 0.5, 4e-3, 10e-3, 3e-3, 4e-3, 4e-3, 4e-3
@@ -46,7 +46,7 @@ BY_SCREWS, BY_DOWELS = 4.0 * LINK_PILOT**2 * BOLT_CIRCLE**2 / CORE**4, DOWELS * 
 ARCS, INNER, LEDGE, RHO_PCL, K_SOLID, K_MELT = 4.0, 26e-3, 2e-3, 1145.0, 0.225, 0.18
 G_FROZEN = 411e6 / (2.0 * (1.0 + 0.45))  # at 23 degC
 BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0, 0.2e6
-PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6
+PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD, BULK_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6, 1e9
 K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
 # Strips beside the arcs, in three bodies each, and the air between them
 STRIP, WAYS, BEYOND = (0.087, 0.247, 0.666), (0.029, 0.153, 0.395), 0.423
@@ -241,28 +241,36 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     inner, far = INNER + LEDGE, outer - LEDGE
     opened, cut = span - 2.0 * LEDGE / INNER, 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0))
     windows = ARCS * (0.5 * opened * (far**2 - inner**2) - cut)
-    across, along = 0.25 * PI * (far - inner) / PAD, 0.25 * PI * opened * middle / PAD
+    fringe = 1.0 - 1.9 * G_PAD / (BULK_PAD + 7.0 / 3.0 * G_PAD)
+    across, along = 0.25 * PI * (far - inner) / PAD, 0.5 * math.log(2.0) * opened * middle / PAD / fringe
     slack = math.log(math.cosh(across)) / across * math.log(math.cosh(along)) / along
     held = polar - slack * ARCS * (0.25 * opened * (far**4 - inner**4) - cut * middle**2)
     left = 0.5 * outer**8 * (INNER**-2 - outer**-2) - outer**4 * (outer**2 - INNER**2) + (outer**6 - INNER**6) / 6.0
     left *= 2.0 / (outer**4 - INNER**4) ** 2
     driven = math.sqrt(ARCS * span / (2.0 * PI))
     hole = 0.5 * MOUNT_HOLE
-    sideways = 1.0 / (
-        FOOT**3 / (3.0 * PI * E_PETG * (BOSS**4 - hole**4)) + FOOT / (0.9 * PI * G_PETG * (BOSS**2 - hole**2))
-    )
-    web_sheet = driven / (G_PETG * (FLOOR - PAD))
-    lag = (outer - INNER) * math.sqrt((driven / (G_PETG * ROTOR) + web_sheet) / (t / G_FROZEN + PAD / G_PAD))
+    section = 0.25 * PI * (BOSS**4 - hole**4)
+    tilt = 1.0 + 3.0 / (1.0 + ROCKING * BOSS * FLOOR**2 * FOOT / section)
+    sideways = 1.0 / (tilt * FOOT**3 / (12.0 * E_PETG * section) + FOOT / (0.9 * PI * G_PETG * (BOSS**2 - hole**2)))
+    # below the arcs: both ledges of the windows, the inner as a hoop, ribs beside the windows
+    near, last_ledge = INNER + 0.5 * LEDGE, outer - 0.5 * LEDGE
+    ribs = (1.0 - driven**2) * FLOOR + (driven**2 - 0.5 * ARCS * opened / PI) * web
+    ways = (near**-2 - last_ledge**-2) / (4.0 * PI * G_PETG * ribs)
+    ways += opened * near / (12.0 * E_PETG * web * LEDGE * ARCS * near**2)
+    seat = (t / G_FROZEN + PAD / G_PAD) / (0.25 * ARCS * span)
+    seats = seat / (middle**4 - INNER**4), seat / (outer**4 - middle**4)
+    below = (seats[1] / (seats[0] + seats[1] + ways)) ** 2 * ways
+    below += (far**-2 - outer**-2) / (4.0 * PI * G_PETG * driven**2 * web)
     support = 1.0 / (
         2.0 * free / (G_PETG * PI * CORE**4)
         + ((1.0 + PLATE_ENTRY * (ROTOR / CORE) ** 2 + BORED_PLATE * felt) / CORE**2 - INNER**-2)
         / (4.0 * PI * G_PETG * ROTOR)
         + left / driven / (4.0 * PI * G_PETG * ROTOR)
         + ROTOR / (3.0 * G_PETG * polar)
-        + (middle**-2 - outer**-2) * math.tanh(lag) / lag / driven**2 / (4.0 * PI * G_PETG * (FLOOR - PAD))
+        + below
         + (outer**-2 - r**-2) / (4.0 * PI * G_PETG * FLOOR)
         + (3.0 - NU_PETG) * math.log(PI * r / SPRINGS / BOSS) / (4.0 * PI * G_PETG * FLOOR * SPRINGS * r**2)
-        + FOOT_TILT / (SPRINGS * sideways * r**2)
+        + 1.0 / (SPRINGS * sideways * r**2)
         + PAD / (G_PAD * held)
     )
     cold, _ = joint(COLD_STORAGE, COLD_LOSS, polar / t, support)

@@ -1,5 +1,6 @@
 """Shear lag in a lap joint and over a window: Volkersen's result for like sheets, the equations solved by numbers."""
 
+import csv
 from typing import Any
 
 import numpy as np
@@ -7,8 +8,12 @@ import pytest
 from scipy import sparse
 from scipy.integrate import solve_bvp
 from scipy.sparse.linalg import spsolve
+from support import ROOT
 
 from tvimdesign.physics.layers import shear_lag
+
+with (ROOT / "validation/fe_structure/windows.csv").open(newline="") as file:
+    WINDOWS = list(csv.DictReader(file))
 
 
 @pytest.mark.parametrize("reach", [0.1, 1.0, 4.0])
@@ -95,3 +100,17 @@ def test_beside_a_wide_window_a_strip_of_its_own_width_holds_a_pad() -> None:
     # The fringe of a strip line of no thickness, 2 ln 2/pi of the distance from its plane to the wall beside it.
     assert 10.0 * shear_lag.held_over_window(1.0, 10.0) == pytest.approx(0.4413, abs=1e-4)
     assert shear_lag.held_over_window(1.0, 0.0) == pytest.approx(1.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("row", WINDOWS, ids=lambda row: "-".join(list(row.values())[:3]))
+def test_an_end_of_a_window_is_held_as_strips_in_plane_strain_are(row: dict[str, str]) -> None:
+    half, poisson, held = (float(row[name]) for name in ("half_window", "poissons_ratio", "held"))
+    fringe = shear_lag.end_fringe(1.0, 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson)))
+    # Of a thickness; one that keeps its volume leans on more of a ledge that is three thicknesses long.
+    leans = 0.07 if row["ledge"] == "3" else 0.04
+    assert half * shear_lag.held_over_window(1.0, half, fringe) == pytest.approx(held, abs=leans)
+
+
+def test_an_end_of_a_window_below_a_pad_of_no_known_bulk_modulus_is_that_of_a_quarter() -> None:
+    # Poisson's ratio of a quarter: K = 5 G/3.
+    assert shear_lag.end_fringe(3.0, 0.0) == pytest.approx(shear_lag.end_fringe(3.0, 5.0), rel=1e-12)
