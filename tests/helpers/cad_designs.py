@@ -50,7 +50,8 @@ BEARINGS = {"bearing": "ball_6702", "hub_depth": 5.0 * MM, "foot_height": 11.0 *
             "link_screw": "iso_4762_m2", "link_screw_length": 10.0 * MM, "link_bolt_ratio": 0.58,
             "retainer_screw": "iso_7380_m3", "link_dowel": "iso_8734_1_5"}  # fmt: skip
 BEARING_BLOCKS = BLOCKS | {"bearing": "ball_6802", "process": "machine_6061", "corner_radius": 0.5 * MM,
-                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "pcl_inner_radius": 17.0 * MM,
+                           "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "slot_corner_offset": -0.1 * MM,
+                          "pcl_inner_radius": 17.0 * MM,
                            "pcl_outer_radius": 28.0 * MM, "core_radius": 7.8 * MM, "rotor_rim": 4.3 * MM,
                            "preload_adjuster": "rotary", "radial_clearance": 1.7 * MM, "cover": "plate",
                            "link_dowel_count": 2}  # fmt: skip
@@ -64,7 +65,8 @@ FLANGE_BLOCKS = BEARING_BLOCKS | {"sensor_flange": "iso_9409_50_4_m6", "pcl_inne
 # A motor below the feet: with an encoder and printed, and the larger one without, milled, below blocks.
 DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061", "corner_radius": 0.5 * MM,
-                          "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "spring_pairs": 3}  # fmt: skip
+                          "corner_depth_ratio": 40.0, "pocket_depth_ratio": 9.0, "slot_corner_offset": -0.1 * MM,
+                          "spring_pairs": 3}  # fmt: skip
 # A torque sensor below the motor: its pattern is in the base of the motor's housing.
 ON_SENSOR = DRIVEN | {"sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": 13.0 * MM,
                       "flange_screw_reach": 10.5 * MM}  # fmt: skip

@@ -9,7 +9,7 @@ from typing import Any
 import cadquery as cq
 import numpy as np
 import pytest
-from cad_designs import BLOCKS, design_of
+from cad_designs import BEARING_BLOCKS, BLOCKS, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.product_data import instances
@@ -278,6 +278,18 @@ def test_the_printed_rotor_needs_support_under_its_plate(
     plate = pi * (dims.rotor_radius**2 - dims.core_radius**2 - 4 * (0.5 * dims.pin_diameter) ** 2)
     tops_of_pins = 4 * pi * (0.5 * dims.pin_diameter) ** 2
     assert found["overhang"].value == pytest.approx(plate + tops_of_pins, rel=0.01)
+
+
+def test_pads_of_a_milled_module_stand_on_walls_that_the_mill_makes_where_the_rule_says_so() -> None:
+    for offset, kept in ((0.02, False), (-0.4, True)):
+        sizes = {"corner_radius": 0.8e-3, "running_clearance": 1e-3, "slot_corner_offset": offset * 1e-3}
+        milled = design_of("deep slots", {**BEARING_BLOCKS, **sizes}, "compression")
+        dims = dimensions(milled)
+        found = of(part_checks(milled, dims, "housing", drawn_parts(dims)["housing"]))
+        assert (found["wall"].level == "pass") == (milled.values["pad_seat_margin"] >= 0.0) == kept
+        # What the pads stand on is the thinnest there is: 1.5 mm less what a cutter of 1.6 mm goes below them.
+        if not kept:
+            assert found["wall"].value == pytest.approx(1.5 - 0.8 * (1.0 + 1.5 / 22.5) - offset, abs=0.01)
 
 
 def test_a_coil_clears_its_post_until_the_post_is_too_thick(paper: Design, dims: Dimensions) -> None:
