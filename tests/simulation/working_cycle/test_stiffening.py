@@ -97,29 +97,38 @@ def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cel
     assert values["far_face_cooling_time"] == pytest.approx(another.far_face, rel=0.01)
 
 
-@pytest.mark.parametrize(
-    ("design", "cooling"),
-    [pytest.param("as it is", 0.2, id="as it is"), pytest.param("sink", 0.8, id="sink"), ("sink", 0.2)],
-)
+NAMES = ["stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time", "stiffening_energy"]
+COOLED = pytest.mark.parametrize(("design", "cooling"), [("as it is", 0.2), ("sink", 0.8), ("sink", 0.2)])
+
+
+def changes_by_cells(build: Callable[..., DeviceFunctions], design: str, **inputs: float) -> tuple[Array, Array]:
+    """Times and energy with 6, 12, 24 and 48 cells: how much each doubling changes them, over the last."""
+    found = []
+    for cells in (6, 12, 24, 48):
+        model = build(design, cells, **inputs)
+        values = fine(model).run(model.start).values
+        found.append([values[name] for name in NAMES])
+    return np.abs(np.diff(found, axis=0)), np.array(found[-1])
+
+
+@COOLED
 def test_stiffening_converges_with_the_square_of_the_cell(
     design: str, cooling: float, build: Callable[..., DeviceFunctions]
 ) -> None:
-    names = ["stiffening_time", "equilibrium_stiffening_time", "far_face_cooling_time", "stiffening_energy"]
-    found = []
-    for cells in (6, 12, 24, 48):
-        model = build(design, cells, cooling_current=cooling)
-        values = fine(model).run(model.start).values
-        found.append([values[name] for name in names])
-    changes = np.abs(np.diff(found, axis=0))
-    orders = np.log2(changes[:-1] / changes[1:])
-    if design == "sink":
-        # On the melting curve the joint is stiff here just as the last cell passes the end of the melting range, where
-        # the curve has a corner: the order is uneven from cell to cell, and two on the whole.
-        curve = names.index("equilibrium_stiffening_time")
-        assert changes[-1, curve] < 0.25 * np.max(changes[:-1, curve])
-        orders = np.delete(orders, curve, axis=1)
-    assert orders == pytest.approx(2.0, abs=0.25)
-    assert np.all(changes[-1] < 2e-4 * np.array(found[-1]))
+    changes, last = changes_by_cells(build, design, cooling_current=cooling, stiffening_band=1.3)
+    assert np.log2(changes[:-1] / changes[1:]) == pytest.approx(2.0, abs=0.25)
+    assert np.all(changes[-1] < 2e-4 * last)
+
+
+@COOLED
+def test_a_joint_that_is_half_as_stiff_is_as_sure(
+    design: str, cooling: float, build: Callable[..., DeviceFunctions]
+) -> None:
+    # With a sink the last slices pass the end of the melting range just then on the melting curve (64.8 and 65.8 degC
+    # of 65), where their modulus rises by decades within a kelvin: the time falls as unevenly as they pass there, so
+    # that its order cannot be told.
+    changes, last = changes_by_cells(build, design, cooling_current=cooling)
+    assert np.all(changes[-1] < 2e-4 * last)
 
 
 @settings(max_examples=15, deadline=None)
