@@ -274,7 +274,7 @@ def test_an_interrupt_ends_the_run_with_its_code_and_a_folder_that_can_be_used_a
         text=True,
         start_new_session=True,
     )
-    for _ in range(200):
+    for _ in range(1200):
         if (out / "manifest.json").exists():
             break
         time.sleep(0.05)
