@@ -37,6 +37,23 @@ assert not found, found
     assert "Commands:" in done.stdout
 
 
+def test_an_interrupt_while_the_interpreter_runs_a_string_ends_with_the_code_of_its_signal(tmp_path: Path) -> None:
+    text = """
+from tvimdesign.cli import main
+def command():
+    exec("import os, signal; os.kill(os.getpid(), signal.SIGTERM)")
+main._command = command
+main.main()
+"""
+    (tmp_path / "interrupted.py").write_text(text)
+    paths = os.pathsep.join([str(ROOT), str(tmp_path)])
+    done = subprocess.run(
+        [sys.executable, "-m", "interrupted"], env={**os.environ, "PYTHONPATH": paths}, capture_output=True, check=False
+    )
+    assert done.returncode == 128 + signal.SIGTERM
+    assert done.stderr.startswith(b"interrupted; ")
+
+
 @pytest.mark.parametrize(
     "command",
     [[], ["run"], ["check"], ["new"], ["cad"], ["simulate"], ["compare"], ["ledger"], ["rows"]],
@@ -257,7 +274,7 @@ def test_an_interrupt_ends_the_run_with_its_code_and_a_folder_that_can_be_used_a
         text=True,
         start_new_session=True,
     )
-    for _ in range(200):
+    for _ in range(1200):
         if (out / "manifest.json").exists():
             break
         time.sleep(0.05)

@@ -51,6 +51,7 @@ def _guarded(command: Callable[[], Any]) -> int:
         return _told(error)
     except (KeyboardInterrupt, typer.Abort) as stopped:
         sys.stderr.write(f"interrupted; {str(stopped) or 'what was finished is kept'}\n")
+        _forget_interrupt()
         return interrupts.exit_code()
     except BrokenPipeError:
         sys.stderr.close()
@@ -64,6 +65,14 @@ def _guarded(command: Callable[[], Any]) -> int:
             raise
         show()
         return InputError.exit_code
+
+
+def _forget_interrupt() -> None:
+    """Run a string, so that CPython forgets an interrupt that came while it ran another one, as a dataclass does.
+
+    It would end `python -m tvimdesign` by SIGINT, whatever the exit code (Python/pythonrun.c: run_eval_code_obj).
+    """
+    eval("None")
 
 
 def _told(error: TvimError) -> int:
