@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import log, pi
 
 import numpy as np
@@ -79,7 +80,7 @@ class Drawing:
 def graded(ends: Sequence[tuple[float, float]], fine: float) -> np.ndarray:
     """Lines of a grid through places, each with the width of the elements beside it; they widen away from it."""
     lines = [np.array([ends[0][0]])]
-    for (a, narrow_a), (b, narrow_b) in zip(ends[:-1], ends[1:], strict=True):
+    for (a, narrow_a), (b, narrow_b) in pairwise(ends):
         at = np.linspace(a, b, 2001)
         width = np.minimum(narrow_a + GROWTH * (at - a), narrow_b + GROWTH * (b - at)) / fine
         count = np.concatenate([[0.0], np.cumsum(0.5 * (1.0 / width[1:] + 1.0 / width[:-1]) * np.diff(at))])
@@ -186,8 +187,8 @@ def ring(c: Mapping[str, float], fine: float) -> Drawing:
     sheets = [(block + SHEET, 0.2 * spread), (hot - SHEET, 0.2 * spread)] if spread else []
     rows = [(0.5 * (low + tile), 0.08 * height), (tile, crowd)] if spread and tile < high else []
     x = graded([(0.0, 0.3 * vane), (vane, 0.5 * deep), (vane + SHEET, 0.5 * deep), (block, 0.3 * deep), *sheets,
-                (hot, thin), (hot + film, thin), (hot + pad - film, thin), (hot + pad, thin), (end, 0.3 * (end - hot - pad))],
-               fine)  # fmt: skip
+                (hot, thin), (hot + film, thin), (hot + pad - film, thin), (hot + pad, thin),
+                (end, 0.3 * (end - hot - pad))], fine)  # fmt: skip
     y = graded([(-c["floor_thickness"], 0.3 * c["floor_thickness"]), (0.0, crowd), (low, crowd),
                 *(rows or [(0.5 * (low + high), 0.08 * height)]), (high, crowd), (plate, crowd),
                 (plate + c["rotor_thickness"], 0.3 * c["rotor_thickness"])], fine)  # fmt: skip
@@ -214,7 +215,8 @@ def _ring_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     metal = c["spreader_conductivity"]
     return {
         "floor": solid, "plate": solid, "vane": solid, "wall": Material(whole * k, whole * k, whole * heat),
-        "hot": side, "cold": side, "legs": Material(legs, c["pad_conductivity"], pad), "air": Material(air, air, 0.0, shine),
+        "hot": side, "cold": side, "legs": Material(legs, c["pad_conductivity"], pad),
+        "air": Material(air, air, 0.0, shine),
         "near": Material(c["hot_contact"] * SHEET, 1e-9), "far": Material(c["rotor_contact"] * SHEET, 1e-9),
         "upper wall": solid, "beside tiles": Material(air + behind, air),
         "spreader": Material(metal, metal, c["spreader_density"] * c["spreader_specific_heat"]),

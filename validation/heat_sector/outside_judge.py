@@ -84,8 +84,10 @@ def ring_of(model: DeviceFunctions, values: Mapping[str, Any]) -> dict[str, floa
         sunk = {"sink_contact": values["sink_contact"], "sink_capacity": sink.capacity,
                 "sink_surface": sink.surface.area, "sink_coefficient": sink.surface.coefficient,
                 "sink_emissivity": sink.surface.emissivity}  # fmt: skip
-    own = {"ambient": values["ambient_temperature"] - 273.15, "pad_conductivity": compression.PAD_CONDUCTIVITY,
-           "cold_coefficient": values["cold_side_coefficient"], "melting_end": found["pcl_melting"].end - 273.15}  # fmt: skip
+    own = {
+        "ambient": values["ambient_temperature"] - 273.15, "pad_conductivity": compression.PAD_CONDUCTIVITY,
+        "cold_coefficient": values["cold_side_coefficient"], "melting_end": found["pcl_melting"].end - 273.15,
+    }  # fmt: skip
     return {**numbers, **bodies, **sunk, **own}
 
 
@@ -118,8 +120,12 @@ def switch_of(judge: Judge, times: Any, states: Any) -> Switch:
     """What temperatures at the plane's cells are to the joint."""
     own = judge.found.cells("layer")
     volume = judge.found.volume[own]
-    return Switch(times, np.array([judge.stiffness(state) for state in states]),
-                  states[:, own] @ volume / np.sum(volume), np.array([judge.far_face(state) for state in states]))  # fmt: skip
+    return Switch(
+        times,
+        np.array([judge.stiffness(state) for state in states]),
+        states[:, own] @ volume / np.sum(volume),
+        np.array([judge.far_face(state) for state in states]),
+    )
 
 
 def compared(held: Held, model: DeviceFunctions, elements: Any) -> Iterator[tuple[str, float, float, float]]:

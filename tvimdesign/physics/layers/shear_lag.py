@@ -65,8 +65,8 @@ def end_fringe(shear_modulus: Any, bulk_modulus: Any) -> Any:
     """The same at an end of a window, where a pad is sheared across the rim [1]: 1 - 1.9 G/(K + 7 G/3).
 
     A pad that keeps its volume cannot be drawn in or pressed together there. Strips in plane strain, solved by numbers
-    (validation/fe_structure/windows.csv): within 0.04, beside ledges of three thicknesses 0.06; K from 5 G/3, Poisson's ratio of a quarter, which
-    is the least that counts.
+    (validation/fe_structure/windows.csv): within 0.04, beside ledges of three thicknesses 0.06; K from 5 G/3, Poisson's
+    ratio of a quarter, which is the least that counts.
     """
     bulk = np.fmax(bulk_modulus, 5.0 / 3.0 * shear_modulus)
     return 1.0 - 1.9 * shear_modulus / (bulk + 7.0 / 3.0 * shear_modulus)

@@ -1,0 +1,100 @@
+"""The plane that judges the heat, against finite elements of drawings of their own (validation/heat_sector/fe.py)."""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections import defaultdict
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from support import ROOT
+
+sys.path.insert(0, str(ROOT / "validation" / "heat_sector"))
+
+from compare import STUDIES, Judge, model_of, plane_of, studies
+from fe_drawings import DRAWINGS, SHEET, Drawing, graded
+from outside_judge import CASES, PADS, case_of
+
+from tvimdesign.study import read_study
+
+with (ROOT / "validation/heat_sector/outside_judge.csv").open(newline="", encoding="utf-8") as file:
+    ROWS = list(csv.DictReader(file))
+named = pytest.mark.parametrize("study", [path.stem for path in studies()])
+
+
+def test_finite_elements_bear_the_plane_out() -> None:
+    assert {row["case"] for row in ROWS} == set(CASES)
+    assert {row["pads"] for row in ROWS} == set(PADS)
+    assert {read_study(STUDIES / f"{row['study']}.yaml").mode for row in ROWS} == {"shear", "compression"}
+    for row in ROWS:
+        plane, elements = float(row["plane [s]"]), float(row["fe [s]"])
+        assert plane == pytest.approx(elements, rel=0.01), (row["case"], row["time"])
+        assert abs(float(row["warmer by [K]"])) < 0.4
+
+
+@pytest.mark.parametrize("case", ["paper_shear", "paper_compression"])
+def test_the_plane_that_was_judged_is_today_s(case: str) -> None:
+    model = model_of(STUDIES / f"{CASES[case].study}.yaml")
+    judge = Judge(model, plane_of(model))
+    switch = judge.heated(CASES[case].seconds, 100)
+    judged = {row["time"]: float(row["plane [s]"]) for row in ROWS if row["case"] == case}
+    assert {name: judge.time(name, switch) for name in judged} == pytest.approx(judged, rel=2e-3)
+
+
+def areas(drawing: Drawing) -> dict[str, float]:
+    """Area of each material [m2]."""
+    found: dict[str, float] = defaultdict(float)
+    for a, b in pairwise(drawing.x):
+        for c, d in pairwise(drawing.y):
+            if name := drawing.what(0.5 * (a + b), 0.5 * (c + d)):
+                found[name] += (b - a) * (d - c)
+    return found
+
+
+def drawn_twice(study: str) -> tuple[Any, Drawing]:
+    """A study's start in the plane, and drawn for finite elements."""
+    model = model_of(STUDIES / f"{study}.yaml")
+    plane = plane_of(model)
+    case = case_of(model, plane.middle)
+    return plane, DRAWINGS[case["drawing"]](case["numbers"], 0.5)
+
+
+@named
+def test_both_draw_parts_of_the_same_size_and_conductivity(study: str) -> None:
+    plane, drawing = drawn_twice(study)
+    found = areas(drawing)
+    sheets = 4.0 * SHEET * (np.ptp(drawing.x) + np.ptp(drawing.y))
+    for name in set(plane.material):
+        assert found.pop(name) == pytest.approx(np.sum(plane.volume[plane.cells(name)]), abs=sheets), name
+        if name != "layer":
+            theirs, ours = drawing.materials[name], plane.materials[name]
+            wanted = ours.along, ours.up, ours.heat_capacity, ours.radiates_over
+            assert (theirs.along, theirs.up, theirs.heat_capacity, theirs.shines) == pytest.approx(wanted, rel=1e-9)
+    assert set(found) <= {"near", "far", "joint"}
+
+
+@named
+def test_both_have_the_same_bodies_and_currents(study: str) -> None:
+    plane, drawing = drawn_twice(study)
+    for theirs, ours in zip(drawing.bodies, plane.bodies, strict=True):
+        wanted = ours.capacity, ours.surface, ours.coefficient, ours.emissivity
+        # Radiation and air count where there is a surface alone.
+        count = 4 if ours.surface else 2
+        found = theirs.capacity, theirs.surface, theirs.coefficient, theirs.emissivity
+        assert found[:count] == pytest.approx(wanted[:count], rel=1e-3)
+    pump = plane.pump
+    assert (drawing.joule, drawing.pumped) == pytest.approx(
+        (pump.current**2 * pump.resistance, pump.current * pump.seebeck), rel=1e-9
+    )
+
+
+def test_lines_of_a_grid_keep_to_their_places_and_widen_between_them() -> None:
+    lines = graded([(0.0, 0.1), (1.0, 0.01), (3.0, 0.2)], 1.0)
+    widths = np.diff(lines)
+    assert {0.0, 1.0, 3.0} <= set(lines)
+    assert np.all(widths > 0.0)
+    assert widths[np.searchsorted(lines, 1.0)] < 0.015
+    assert len(graded([(0.0, 0.1), (1.0, 0.01)], 2.0)) == pytest.approx(2 * len(lines[lines <= 1.0]), abs=2)
