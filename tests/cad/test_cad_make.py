@@ -23,7 +23,7 @@ from tvimdesign.cad.export.part21 import in_fixed_order
 from tvimdesign.cad.export.step_file import Product, write_assembly
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import KINDS
-from tvimdesign.cad.make import _report
+from tvimdesign.cad.make import _messages, _report
 from tvimdesign.study.design import write_design
 
 COPIES = {"shear": 4, "compression": 12}
@@ -198,6 +198,21 @@ def test_a_part_the_model_has_wrong_is_written_and_reported(job: Callable[..., C
 def test_time_out_is_an_error(job: Callable[..., CadReport]) -> None:
     with pytest.raises(GeometryError, match=r"no answer in 0.2 s"):
         job(timeout_s=0.2)
+
+
+def test_a_child_that_says_what_it_does_is_given_time_and_one_that_falls_silent_is_not() -> None:
+    line = "print(json.dumps({'progress': step}), flush=True); time.sleep(0.4)"
+    says = f"import json, time\nfor step in range(8):\n    {line}\n"
+    for more, ends in (("", True), ("time.sleep(60)", False)):
+        child = subprocess.Popen([sys.executable, "-S", "-c", says + more], stdout=subprocess.PIPE, text=True)
+        try:
+            heard = _messages(child, 2.5)  # eight steps are 3.2 s
+            assert [next(heard)["progress"] for _ in range(8)] == list(range(8))
+            with pytest.raises(StopIteration if ends else TimeoutError):
+                next(heard)
+        finally:
+            child.kill()
+            child.wait()
 
 
 def test_a_crash_names_the_part() -> None:

@@ -7,7 +7,6 @@ import queue
 import shutil
 import subprocess
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO, Any
@@ -20,7 +19,7 @@ from tvimdesign.base.whole_files import make_folder
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
 TIMEOUT = 300.0
-"""Seconds; a module takes about ten."""
+"""Seconds without a word; a module takes about ten, many times that where the machine has other work."""
 PART_TIMEOUT = 90.0
 """Seconds for one part with its files, or one set of checks; the longest takes two."""
 HALF_MADE = ".parts.*"
@@ -43,7 +42,7 @@ def make_cad(
     at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
     (`MODULES` in `cad/assembly/module_parts.py`) and call this one's `main`. Raises GeometryError where a part cannot
     be built or takes more than `part_timeout_s` [s], naming the part, once the files of the others are written; also
-    where the process crashes or `timeout_s` [s] have passed. Raises InputError where the
+    where the process crashes or says nothing for `timeout_s` [s]. Raises InputError where the
     design cannot be read, or the extra [cad] is not installed.
     """
     require_extra("cad", "parts")
@@ -56,7 +55,7 @@ def make_cad(
             start_new_session=True,
         )  # fmt: skip
         try:
-            for message in _messages(process, time.monotonic() + timeout_s):
+            for message in _messages(process, timeout_s):
                 state |= message
                 if progress and "progress" in message:
                     progress(message["progress"])
@@ -77,13 +76,13 @@ def _end(process: subprocess.Popen[str]) -> None:
     process.wait()
 
 
-def _messages(process: subprocess.Popen[str], deadline: float) -> Iterator[dict[str, Any]]:
-    """What the child says, until it ends; raises TimeoutError at the deadline."""
+def _messages(process: subprocess.Popen[str], silence_s: float) -> Iterator[dict[str, Any]]:
+    """What the child says, until it ends; raises TimeoutError once it has said nothing for so long [s]."""
     said: queue.Queue[str | None] = queue.Queue()
     hear(process, said.put)
     while True:
         try:
-            line = said.get(timeout=max(0.0, deadline - time.monotonic()))
+            line = said.get(timeout=silence_s)
         except queue.Empty:
             raise TimeoutError from None
         if line is None:
