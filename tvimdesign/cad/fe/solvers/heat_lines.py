@@ -7,7 +7,7 @@ contact does, so that no corner is at two temperatures.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,7 @@ def graded(stops: Iterable[float], edges: Sequence[float], radius: float, coarse
             kept.append(stop)
     kept.append(rising[-1])
     found: list[Part] = []
-    for low, high in zip(kept[:-1], kept[1:], strict=True):
+    for low, high in pairwise(kept):
         places = np.linspace(low, high, 201)
         per_way = radius / (coarser * np.array([_width(place, edges, radius) for place in places]))
         cells = np.concatenate([[0.0], np.cumsum(0.5 * (per_way[1:] + per_way[:-1]) * np.diff(places))])
@@ -138,7 +138,9 @@ def face_angle(mm: dict[str, float]) -> float:
 
 def grid_of(mm: dict[str, float], coarser: float, slot: float) -> Grid:
     """The cells of a module, with a slot as wide as that [mm], within bounds, at the rims of its pads."""
-    return (_around_a_vane if mm.get("vane_count", 0.0) > 0.0 else _around_an_arc)(mm, coarser, float(np.clip(slot, *SLOT)))
+    return (_around_a_vane if mm.get("vane_count", 0.0) > 0.0 else _around_an_arc)(
+        mm, coarser, float(np.clip(slot, *SLOT))
+    )
 
 
 def _around_an_arc(mm: dict[str, float], coarser: float, slot: float) -> Grid:
@@ -184,7 +186,9 @@ def _tiled(mm: dict[str, float]) -> tuple[list[float], list[float]]:
         deep, long = (0.5 * mm[f"peltier_{size}"] - less for size in ("width", "length"))
         middles = [mm["tile_pitch"] * (tile - 0.5 * (count - 1)) for tile in range(count)]
         along += [place - deep, place + deep]
-        around += [one for middle in middles for side in (-1, 1) if (one := middle + side * np.arctan2(long, place)) > 0]
+        around += [
+            one for middle in middles for side in (-1, 1) if (one := middle + side * np.arctan2(long, place)) > 0
+        ]
     return along, around
 
 

@@ -6,8 +6,8 @@ from typing import Any
 import heat_lines
 import ngsolve as ng
 import numpy as np
-from heat_grid import PADS
 from heat_equation import Meshed
+from heat_grid import PADS
 
 SLICES = 48
 """Even slices of the layer, between whose cells' faces temperatures are straight: a molten film is thinner than a
