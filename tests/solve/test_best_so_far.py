@@ -52,7 +52,9 @@ def test_before_the_first_design_there_is_none() -> None:
     assert _interrupted(read_study_text(TWO_STARTS), "start 1 of 2") is None
 
 
-def test_an_interrupted_run_keeps_it_and_says_where(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupted_run_keeps_it_and_says_where(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(TWO_STARTS)
     best = read_study_text(TWO_STARTS)
@@ -64,9 +66,23 @@ def test_an_interrupted_run_keeps_it_and_says_where(tmp_path: Path, monkeypatch:
             raise SearchInterrupted(best) from interrupt
 
     monkeypatch.setattr("tvimdesign.report.run.answered_study.answer", interrupted)
-    with pytest.raises(KeyboardInterrupt, match=r"the best design so far is where .*best_so_far\.yaml begins"):
+    with pytest.raises(KeyboardInterrupt):
         run_study(path, out, overwrite=False, cad=False, plots=False, as_json=False)
+    assert f"the best design so far is where {out / 'best_so_far.yaml'} begins\n" in capsys.readouterr().err
     manifest = json.loads((out / "manifest.json").read_text())
     assert manifest["status"] == "interrupted"
     assert list(manifest["files"]) == ["best_so_far.yaml"]
     assert given(read_study(out / "best_so_far.yaml")) == given(best)
+
+
+def test_a_design_that_is_found_is_kept_until_it_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path, out = tmp_path / "study.yaml", tmp_path / "out"
+    path.write_text(SMALL)
+
+    def interrupted(*_: object) -> None:
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr("tvimdesign.report.run.write_answer.write_answer", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run_study(path, out, overwrite=False, cad=False, plots=False, as_json=False)
+    assert answer(drawn(read_study(out / "best_so_far.yaml"))).feasible

@@ -16,6 +16,8 @@ from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
 from tvimdesign.cli.commands import app
 from tvimdesign.cli.output_streams import drop_what_cannot_be_written, flush_output, speak_plainly
 
+_STOPPED = "interrupted; what was finished is kept\n"
+
 
 def main() -> None:
     """Run the command line; every error is a message and an exit code, never a traceback."""
@@ -49,8 +51,8 @@ def _guarded(command: Callable[[], Any]) -> int:
         return code if isinstance(code, int) else 0
     except TvimError as error:
         return _told(error)
-    except (KeyboardInterrupt, typer.Abort) as stopped:
-        sys.stderr.write(f"interrupted; {str(stopped) or 'what was finished is kept'}\n")
+    except (KeyboardInterrupt, typer.Abort):
+        sys.stderr.write(_STOPPED)
         _forget_interrupt()
         return interrupts.exit_code()
     except BrokenPipeError:

@@ -18,6 +18,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.cooling import Cooling, cooling
 from tvimdesign.solve.idealized import Idealization, idealizations
 from tvimdesign.solve.nlp.constraints import (
@@ -35,6 +36,7 @@ from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
+from tvimdesign.study.result_study import begun_at
 
 
 @dataclass(frozen=True)
@@ -122,16 +124,29 @@ def answer(
     """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError.
 
     What found the optimum is handed to `keep`, able to trade some outputs afterwards. A `search` may stand in place of
-    the usual one.
+    the usual one. An interrupt of it, or once it has found a design, is SearchInterrupted.
     """
-    solution, table = None, study.table
     refuse_impossible(study)
-    if study.task == "optimize":
-        solution = search(study, progress, reference, keep, objectives)
+    if study.task != "optimize":
+        progress("simulating one working cycle")
+        return _result(study, None)
+    solution = search(study, progress, reference, keep, objectives)
+    try:
+        return _result(study, solution)
+    except KeyboardInterrupt as interrupt:
+        if solution.status not in {OPTIMAL, BELOW_YIELD}:
+            raise
+        found = dict(zip(solution.model.names, solution.inputs.tolist(), strict=True))
+        raise SearchInterrupted(begun_at(study, found, _choices(solution.model, study.table))) from interrupt
+
+
+def _result(study: Study, solution: Solution | None) -> StudyResult:
+    """What a study came to, with what a search found, or as it is evaluated."""
+    table = study.table
+    if solution is not None:
         model, inputs, cycle, values = solution.model, solution.inputs, solution.cycle, solution.values
         status, current_profiles = solution.status, solution.current_profiles
     else:
-        progress("simulating one working cycle")
         model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
         cycle = Simulator(model).run_to_show(inputs)

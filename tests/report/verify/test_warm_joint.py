@@ -38,6 +38,14 @@ def test_molten_it_is_soft_and_frozen_as_stiff_as_its_structure(name: str) -> No
     assert alone < molten < 0.2 * frozen
 
 
+def test_a_block_is_refused_in_slices_that_are_not_alike() -> None:
+    # `film.soft_share` counts slices: thin ones in the melt would make more of it than there is.
+    joint = joint_of(NAMES[1])
+    parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
+    with pytest.raises(ValueError, match="alike"):
+        joint.stiffness(np.full((1, 2), 100.0), np.ones(1), np.array([0.1, 0.9]), parts)
+
+
 def test_a_molten_film_is_in_series_with_the_frozen_rest() -> None:
     joint = joint_of(NAMES[0])
     parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)

@@ -1,29 +1,51 @@
-"""What is kept of a run that was interrupted in its search: a study that goes on from the best design so far."""
+"""What is kept of a run that is interrupted before it is written: a study that goes on from the best design so far."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 
 from tvimdesign.base.errors import OutputError
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.solve.best_so_far import SearchInterrupted
-from tvimdesign.study.result_study import study_text
+from tvimdesign.solve.result import StudyResult
+from tvimdesign.study import Study
+from tvimdesign.study.result_study import begun_at, study_text
 
+DESIGN = "design.json"
 BEST = "best_so_far.yaml"
-_TITLE = "The search was interrupted: this study begins at the best design so far, which was not checked any further"
+_TITLE = "The run was interrupted: this study begins at the best design so far, which was not checked any further"
+
+
+class Best:
+    """The answer of a run, once there is one."""
+
+    study: Study | None = None
+    """The study begun at it."""
+
+    def then(self, ask: Callable[[StudyResult], None]) -> Callable[[StudyResult], None]:
+        """What is told the answer, notes it where it is a design that was searched, and asks more about it."""
+
+        def told(found: StudyResult) -> None:
+            if found.found and found.solution:
+                design = found.design
+                self.study = begun_at(Study.model_validate(design.study), design.values, design.choices)
+            ask(found)
+
+        return told
 
 
 @contextmanager
-def keeping_best(folder: ResultsFolder) -> Iterator[None]:
-    """Write that study where a search is interrupted, and say where it is with the interrupt."""
+def keeping_best(folder: ResultsFolder) -> Iterator[Best]:
+    """Write that study, and say where, where a run is interrupted before its design is written."""
+    best = Best()
     try:
-        yield
-    except SearchInterrupted as interrupted:
-        if interrupted.best is None:
-            raise
-        try:
-            path = folder.write_at_the_end(BEST, study_text(interrupted.best, _TITLE, folder.path))
-        except OutputError:  # no room: the interrupt is what is told
-            raise interrupted from None
-        raise KeyboardInterrupt(f"the best design so far is where {path} begins") from interrupted
+        yield best
+    except KeyboardInterrupt as interrupt:
+        study = interrupt.best if isinstance(interrupt, SearchInterrupted) else best.study
+        if study is not None and not (folder.path / DESIGN).exists():
+            with suppress(OutputError, OSError):  # no room, or nobody to tell: the interrupt is what counts
+                path = folder.write_at_the_end(BEST, study_text(study, _TITLE, folder.path))
+                sys.stderr.write(f"the best design so far is where {path} begins\n")
+        raise

@@ -48,12 +48,13 @@ def run_study(
     study = read_tree(tree)
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
+        best = stack.enter_context(keeping_best(folder))
         progress = stack.enter_context(progress_output())
         screen = stack.enter_context(RunScreen(study))
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        with keeping_best(folder), leaving_the_reason(folder, tree, study, progress, as_json=as_json):
+        with leaving_the_reason(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
-                tree, progress, prove=prove, sensitivities=sensitivities, folder=folder, early=screen.ask
+                tree, progress, prove=prove, sensitivities=sensitivities, folder=folder, early=best.then(screen.ask)
             )
         found, failures = answered.result, answered.failures
         parts = cad and study.write.cad and found.found

@@ -53,9 +53,11 @@ class WarmJoint:
         """Size of the dynamic stiffness at the hot point's frequency [N*m/rad].
 
         `celsius` has the shape (columns, slices); `shares` are the columns' of the stiffness where all are alike,
-        `slices` are of the depth.
+        `slices` are of the depth; of a block they are alike, as a squeezed film's share of them is counted.
         """
         q = self.quantity
+        if not self.sheared and np.ptp(slices) > 1e-9:
+            raise ValueError("a block's slices are alike")
         storage, loss = polymer.moduli(celsius + 273.15, 1.0 - self.molten(celsius), self.omega, q["pcl_rheology"])
         moments = np.full(len(celsius), q["pcl_moment"])
         if not self.sheared:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import heat_grid
+import heat_lines
 import numpy as np
 import pytest
 
@@ -23,6 +24,7 @@ ARC = {
     "housing_inner_radius": 51.3, "housing_outer_radius": 54.3,
     "window_ledge": 2.0, "arc_span": 1.4, "arc_count": 4.0, "spring_count": 4.0,
     "pad_depth": 3.7, "spreader_depth": 0.5, "floor_thickness": 6.5,
+    "tile_radius": 22.7, "tiles_per_arc": 1.0, "tile_pitch": 1.04, "peltier_length": 20.0, "peltier_width": 10.0,
 }  # fmt: skip
 
 
@@ -40,16 +42,16 @@ def test_a_line_through_a_box_passes_its_lower_and_upper_face() -> None:
 
 
 def test_parts_have_their_ends_and_sheets_stand_between_them() -> None:
-    found = heat_grid.lines(0.0, 1.0, (1.0, 4, 0.5), (1.0, 0, 1.0), (1.0, 3, 1.0), (4.0, 3, 1.0))
+    found = heat_lines.lines(0.0, 1.0, (1.0, 4, 0.5), (1.0, 0, 1.0), (1.0, 3, 1.0), (4.0, 3, 1.0))
     assert found.ends[[0, 4, 5, -1]] == pytest.approx([0.0, 1.0, 1.0, 4.0])
     assert list(found.sheets) == [False] * 4 + [True] + [False] * 3
     widths = np.diff(found.ends)
     assert widths[1:4] / widths[:3] == pytest.approx(0.5)
-    assert found.thickened[-1] == pytest.approx(heat_grid.THIN)
+    assert found.thickened[-1] == pytest.approx(heat_lines.THIN)
 
 
 def test_a_pad_in_a_vane_has_a_flat_back() -> None:
-    grid = heat_grid.grid_of(VANE, 1.0)
+    grid = heat_lines.grid_of(VANE, 1.0, 0.19)
     face = 0.5 * VANE["rotor_vane_angle"] + VANE["block_angle"]
     behind = face + np.arcsin(VANE["pad_depth"] / VANE["pcl_inner_radius"])
     radius = np.linspace(VANE["pcl_inner_radius"], VANE["pcl_outer_radius"], 7)
@@ -63,7 +65,7 @@ def test_a_pad_in_a_vane_has_a_flat_back() -> None:
 
 @pytest.mark.parametrize(
     ("before", "after", "between"),
-    [("hot", "layer", "near"), ("rotor", "layer", "far"), ("housing", "legs", "edge"), ("layer", "air", "air"),
+    [("hot", "layer", "near"), ("rotor", "layer", "far"), ("layer", "air", "air"), ("air", "housing", "housing"),
      ("layer", "", ""), ("rotor", "rotor", "rotor"), ("layer", "key", "key"), ("hot", "spreader", "spread"),
      ("housing", "near", "edge"), ("edge", "rotor", "edge")],
 )  # fmt: skip
@@ -77,7 +79,7 @@ def test_a_cell_is_of_the_part_its_middle_is_in() -> None:
     surfaces = {}
     for name, low, high in (("housing", -4.0, 0.0), ("rotor", 12.8, 16.8)):
         surfaces[f"{name}.points"], surfaces[f"{name}.triangles"] = box((-far, -far, low), (far, far, high))
-    grid = heat_grid.grid_of(VANE, 1.6)
+    grid = heat_lines.grid_of(VANE, 1.6, 0.19)
     found = heat_grid.materials_of(grid, surfaces)
     levels = grid.up.middles
     assert set(found[:, :, levels < 0.0].ravel()) == {"housing"}
@@ -90,7 +92,7 @@ def test_lips_and_hub_stand_a_clearance_away_from_what_they_face() -> None:
     far, surfaces = 200.0, {}
     for name, low, high in (("housing", -6.5, 0.0), ("rotor", 0.1, 7.0)):
         surfaces[f"{name}.points"], surfaces[f"{name}.triangles"] = box((-far, -far, low), (far, far, high))
-    grid = heat_grid.grid_of(ARC, 1.92)
+    grid = heat_lines.grid_of(ARC, 1.92, 0.19)
     found = heat_grid.materials_of(grid, surfaces)
     lips = (grid.along.middles > ARC["melt_lip_inner_radius"]) & (grid.along.middles < ARC["pcl_inner_radius"])
     levels = grid.up.middles
@@ -100,29 +102,67 @@ def test_lips_and_hub_stand_a_clearance_away_from_what_they_face() -> None:
         assert np.any(grid.along.ends == ARC[name])
 
 
-def test_a_pad_stands_on_its_seat_through_a_contact() -> None:
-    grid = heat_grid.grid_of(VANE, 1.6)
-    low = VANE["rotor_bottom_level"] - VANE["vane_height"]
-    sheets = grid.up.ends[:-1][grid.up.sheets]
-    assert sheets == pytest.approx([low])
-    assert heat_grid._sheet("housing", "hot") == "edge"
-    # Clearances are as wide as drawn: what contacts add to them is a hundredth.
-    assert 0.02 * low > heat_grid.THIN
+def parts_of(surfaces: dict[str, Any]) -> dict[str, Any]:
+    """Points and triangles of boxes, by the names the export gives them."""
+    return {f"{name}.{kind}": one for name, ends in surfaces.items()
+            for kind, one in zip(("points", "triangles"), box(*ends), strict=True)}  # fmt: skip
+
+
+def test_a_pad_stands_a_slot_above_its_seat() -> None:
+    far, low = 200.0, VANE["rotor_bottom_level"] - VANE["vane_height"]
+    boxes = {"housing": ((-far, -far, -4.0), (far, far, low)), "peltier_pad_1": ((-far, -far, low), (far, far, 12.4))}
+    grid = heat_lines.grid_of(VANE, 1.0, 0.19)
+    found = heat_grid.materials_of(grid, parts_of(boxes))
+    pads = grid.around.middles > heat_lines.face_angle(VANE)
+    ring = (grid.along.middles > VANE["hub_radius"]) & (grid.along.middles < VANE["pcl_outer_radius"])
+    column = found[ring][0, np.flatnonzero(pads)[1]]
+    slot = np.flatnonzero(column == "edge")
+    assert len(slot) == 1
+    assert column[slot[0] - 1] == "housing"
+    assert column[slot[0] + 1] in heat_grid.PADS
+    ends = grid.up.ends[slot[0] : slot[0] + 2]
+    assert ends == pytest.approx([low - 0.19, low])
+
+
+def test_a_pad_in_its_pocket_and_a_layer_between_lips_stand_off_by_a_slot() -> None:
+    # All housing below the layer, even in the pocket's corner, and all rotor beside it.
+    far, (inner, outer), depth = 200.0, (ARC["pcl_inner_radius"], ARC["pcl_outer_radius"]), ARC["pad_depth"]
+    grid = heat_lines.grid_of(ARC, 1.0, 0.19)
+    found = heat_grid.materials_of(grid, parts_of({"housing": ((-far, -far, -6.5), (far, far, 0.0))}))
+    r, a, z = grid.along.middles, grid.around.middles, grid.up.middles
+    within = (r > inner - 0.19) & (r < outer + 0.19)
+    arc = a < 0.5 * ARC["arc_span"]
+    assert set(found[np.ix_(within, arc, (z > -depth) & (z < 0.0))].ravel()) == {"edge"}
+    assert set(found[np.ix_(within, arc, z < -depth)].ravel()) == {"housing"}
+    assert "edge" not in found[~within]
+    for edge in (inner - 0.19, inner, outer, outer + 0.19):
+        assert np.min(np.abs(grid.along.ends - edge)) < 1e-9
+
+
+def test_cells_are_narrow_at_edges_and_tiles_end_at_lines() -> None:
+    parts = heat_lines.graded((0.0, 4.0, 10.0), (10.0,), 1.0, 1.0)
+    ends = [0.0, *(end for end, _, _ in parts)]
+    assert 4.0 in ends
+    assert ends[-1] - ends[-2] == pytest.approx(heat_lines.EDGE, rel=0.5)
+    assert max(np.diff(ends)) < heat_lines.WIDEST * 1.5
+    grid = heat_lines.grid_of(ARC, 1.0, 0.19)
+    for edge in (22.7 - 5.0, 22.7 + 5.0, 22.7 - 3.0):
+        assert np.min(np.abs(grid.along.ends - edge)) < 1e-9
 
 
 def test_the_air_around_blocks_is_shut_in_and_that_of_a_slot_is_its_own() -> None:
-    grid = heat_grid.grid_of(VANE, 1.0)
+    grid = heat_lines.grid_of(VANE, 1.0, 0.19)
     names = np.full((len(grid.along.middles), len(grid.around.middles), len(grid.up.middles)), "", dtype="U20")
     found = heat_grid.enclosed(grid, names)
     r, a, z = grid.along.middles, grid.around.middles, grid.up.middles
     inside = (r > VANE["slot_inner_radius"]) & (r < VANE["slot_outer_radius"])
-    behind = a > heat_grid.face_angle(VANE)
+    behind = a > heat_lines.face_angle(VANE)
     assert set(found[np.ix_(inside, behind, z < VANE["slot_top_level"])].ravel()) == {"slot"}
     assert set(found[np.ix_(inside, ~behind, (z > 0.0) & (z < VANE["rotor_bottom_level"]))].ravel()) == {"chamber"}
     beyond = (r > VANE["rotor_radius"]) & (r < VANE["housing_inner_radius"])
     assert set(found[beyond][:, :, z > 0.0].ravel()) == {"room"}
     assert set(found[r > VANE["housing_inner_radius"]].ravel()) == {""}
     # Arcs lie in gaps whose air is drawn.
-    arcs = heat_grid.grid_of(ARC, 1.0)
+    arcs = heat_lines.grid_of(ARC, 1.0, 0.19)
     shape = [len(one.middles) for one in (arcs.along, arcs.around, arcs.up)]
     assert set(heat_grid.enclosed(arcs, np.full(shape, "", dtype="U20")).ravel()) == {"", "room"}

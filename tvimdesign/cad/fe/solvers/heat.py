@@ -12,6 +12,7 @@ from typing import Any
 import elastic
 import heat_equation
 import heat_grid
+import heat_lines
 import heat_samples
 import ngsolve as ng
 import numpy as np
@@ -19,7 +20,7 @@ from heat_equation import KELVIN, Heated, Meshed
 
 STEPS = 60
 SPARSE = 1.2
-"""How much wider cells are than the counts of `heat_grid` say: as wide as two minutes bear."""
+"""How much wider cells are than the counts of `heat_lines` say: as wide as two minutes bear."""
 LONGER = 1.3
 """How long it is heated, over the longest of the times the model has."""
 GROWS = 1.03
@@ -36,8 +37,10 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     """Times [s]; those that do not come are left out."""
     inputs = json.loads((folder / "inputs.json").read_text())
     values, mm = inputs["values"], inputs["mm"]
-    grid = heat_grid.grid_of(mm, SPARSE * coarser)
-    names = heat_grid.materials_of(grid, np.load(folder / "surfaces.npz"))
+    slot = 1e3 * values["air_conductivity"] / heat_equation.edge_contact(values)
+    grid = heat_lines.grid_of(mm, SPARSE * coarser, slot)
+    with np.load(folder / "surfaces.npz") as surfaces:
+        names = heat_grid.materials_of(grid, dict(surfaces))
     points = grid.points()
     found = heat_equation.meshed(points, names, heat_grid.enclosed(grid, names))
     course = Course(inputs, found, Heated(values, found, grid, inputs["choices"].get("cold_side") == "sink"))

@@ -7,9 +7,10 @@ cold side to the hot one and heats their legs evenly. Trilinear elements.
 from collections import defaultdict
 from typing import Any, NamedTuple
 
-import heat_grid
+import heat_lines
 import ngsolve as ng
 import numpy as np
+from heat_grid import PADS
 from netgen.meshing import Element2D, Element3D, FaceDescriptor, Mesh, MeshPoint, Pnt
 
 STEFAN_BOLTZMANN = 5.670374419e-8
@@ -23,6 +24,11 @@ EDGE_CONTACT = 150.0
 OUTSIDE = ("inner", "rotor", "housing", "cold", "none", "chamber")
 """Faces to the air: of polymer, of rotor and link, of the housing, of the pads' cold sides, those of no flow, and those
 to the air that is shut in around blocks."""
+
+
+def edge_contact(values: dict[str, float]) -> float:
+    """Conductance between the rim of a pad and what it leans against [W/m2 K]."""
+    return values.get("pad_edge_contact", EDGE_CONTACT)
 
 
 class Meshed(NamedTuple):
@@ -98,7 +104,7 @@ def clipped(t: Any, low: float, high: float) -> Any:
 class Heated:
     """The residual of one implicit step, with its length, weights and current as parameters."""
 
-    def __init__(self, values: dict[str, float], found: Meshed, grid: heat_grid.Grid, sink: bool) -> None:
+    def __init__(self, values: dict[str, float], found: Meshed, grid: heat_lines.Grid, sink: bool) -> None:
         """Write it down; `values` are the design's."""
         self.values, self.mesh, self.grid = values, found.mesh, grid
         self.space = ng.H1(self.mesh, order=1)
@@ -128,7 +134,7 @@ class Heated:
         structure = v["structure_density"] * v["structure_specific_heat"]
         pad = v["peltier_density"] * v["peltier_specific_heat"]
         bodies = {"layer": v["pcl_density"] * pcl, "key": v["pcl_density"] * pcl, "link": self._link() * t}
-        bodies |= dict.fromkeys(("rotor", "housing"), structure * t) | dict.fromkeys(heat_grid.PADS, pad * t)
+        bodies |= dict.fromkeys(("rotor", "housing"), structure * t) | dict.fromkeys(PADS, pad * t)
         if "spreader" in self.mesh.GetMaterials():
             bodies["spreader"] = v["spreader_density"] * v["spreader_specific_heat"] * t
         return self.mesh.MaterialCF(bodies, default=0.0)
@@ -165,10 +171,10 @@ class Heated:
         radius = ng.sqrt(ng.x**2 + ng.y**2)
         if not self.grid.upright:
             return ng.x / radius, ng.y / radius
-        face = heat_grid.face_angle(self.grid.mm) + self.grid.middle
+        face = heat_lines.face_angle(self.grid.mm) + self.grid.middle
         found = []
         for one, of_face in ((ng.x, np.cos(face)), (ng.y, np.sin(face))):
-            pads = dict.fromkeys(heat_grid.PADS, ng.CF(float(of_face)))
+            pads = dict.fromkeys(PADS, ng.CF(float(of_face)))
             found.append(self.mesh.MaterialCF(pads, default=one / radius))
         return found[0], found[1]
 
@@ -183,18 +189,19 @@ class Heated:
         radiated = 4.0 * STEFAN_BOLTZMANN * shine * (t + KELVIN) ** 3 * gap
         alike = {"layer": pcl, "key": pcl, "rotor": c["structure_conductivity"], "housing": c["structure_conductivity"],
                  "link": c["structure_conductivity"], "spreader": c.get("spreader_conductivity", 1.0)}  # fmt: skip
-        thin = heat_grid.THIN * 1e-3
+        thin = heat_lines.THIN * 1e-3
         sheets = {"near": c["hot_contact"] * thin, "far": c["rotor_contact"] * thin,
                   "spread": c.get("spreader_contact", 1.0) * thin,
-                  "edge": c.get("pad_edge_contact", EDGE_CONTACT) * thin}  # fmt: skip
-        legs = c["peltier_conductance"] / c["peltier_area"] * (1.0 - 2.0 * heat_grid.PAD_FILM) * self._pad_depth()
+                  "edge": edge_contact(c) * self.grid.slot * 1e-3}  # fmt: skip
+        legs = c["peltier_conductance"] / c["peltier_area"] * (1.0 - 2.0 * heat_lines.PAD_FILM) * self._pad_depth()
         beside = c.get("pad_conductivity", ALONG_PADS)
         through = {"hot": WELL, "legs": legs, "cold": WELL}
         found = []
         for axis in range(3):
-            pads = through if axis == (1 if self.grid.upright else 2) else dict.fromkeys(heat_grid.PADS, beside)
+            pads = through if axis == (1 if self.grid.upright else 2) else dict.fromkeys(PADS, beside)
             air = c["air_conductivity"] + (radiated if axis == 2 else 0.0)
-            found.append(self.mesh.MaterialCF({**alike, **sheets, **pads, "air": air}))
+            lip = c["rotor_contact"] * self.grid.slot * 1e-3 if axis == 0 else c["air_conductivity"]
+            found.append(self.mesh.MaterialCF({**alike, **sheets, **pads, "air": air, "lip": lip}))
         return found
 
     def _pad_depth(self) -> float:
@@ -207,7 +214,7 @@ class Heated:
         count = 2.0 * self.grid.mm["vane_count" if self.grid.upright else "arc_count"]
         share = c["heated_area"] / count / c["peltier_area"]  # modules' worth in this part of the ring
         current = self.current / c.get("heater_strings", 1.0)
-        volume = {name: ng.Integrate(1.0, mesh, definedon=mesh.Materials(name)) for name in heat_grid.PADS}
+        volume = {name: ng.Integrate(1.0, mesh, definedon=mesh.Materials(name)) for name in PADS}
         pumped = share * c["peltier_seebeck"] * current * (t + KELVIN)
         self.form += -pumped / volume["hot"] * v * ng.dx("hot")
         self.form += pumped / volume["cold"] * v * ng.dx("cold")

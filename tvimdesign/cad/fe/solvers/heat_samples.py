@@ -3,19 +3,21 @@
 from pathlib import Path
 from typing import Any
 
-import heat_grid
+import heat_lines
 import ngsolve as ng
 import numpy as np
 from heat_equation import Meshed
+from heat_grid import PADS
 
-WITHIN = 4
-"""Slices of a cell, between whose faces temperatures are straight: a molten film is thinner than a cell."""
+SLICES = 48
+"""Even slices of the layer, between whose cells' faces temperatures are straight: a molten film is thinner than a
+cell, and how a squeezed one flows is told by slices that are alike."""
 
 
 class Layer:
     """The polymer by columns from its pads to its far face."""
 
-    def __init__(self, grid: heat_grid.Grid, found: Meshed, points: Any) -> None:
+    def __init__(self, grid: heat_lines.Grid, found: Meshed, points: Any) -> None:
         """Find its cells and what they weigh."""
         self.found, self.grid = found, grid
         own = found.cells["layer"]
@@ -33,18 +35,21 @@ class Layer:
         turned = np.sum(volumes * (np.ones_like(middles) if grid.upright else middles**2), axis=1)
         self.shares, self.weights, self.volume = turned / turned.sum(), volumes / volumes.sum(), float(volumes.sum())
         """Share of each column in the joint's stiffness where all are alike warm, and of each cell in the volume."""
-        self.slices = np.repeat(volumes.sum(axis=0) / volumes.sum() / WITHIN, WITHIN)
-        self.pads = sum(float(_volumes(points)[tuple(found.cells[name])].sum()) for name in heat_grid.PADS)
+        self.slices = np.full(SLICES, 1.0 / SLICES)
+        ends = np.concatenate([[0.0], np.cumsum(volumes.sum(axis=0)) / volumes.sum()])
+        middles = (np.arange(SLICES) + 0.5) / SLICES
+        self.at_slices = np.array([np.interp(middles, ends, one) for one in np.eye(len(ends))])
+        """What each face between the cells counts in each slice."""
+        self.pads = sum(float(_volumes(points)[tuple(found.cells[name])].sum()) for name in PADS)
 
     def course(self, states: Any) -> tuple[Any, Any, Any]:
         """Temperatures [degC]: of slices of the cells, shape (times, columns, slices), the mean, and that of the far
         face."""
         faces = self._face(self.own, 0, states), self._face(self.own, 1, states)
-        ways = (np.arange(WITHIN) + 0.5) / WITHIN
-        slices = np.stack([(1.0 - way) * faces[0] + way * faces[1] for way in ways], axis=-1)
+        slices = np.concatenate([faces[0][..., :1], faces[1]], axis=-1) @ self.at_slices
         far = self._face(self.own[:, :, 0 if self.grid.upright else -1], 0 if self.grid.upright else 1, states)
         mean = np.sum(0.5 * (faces[0] + faces[1]) * self.weights, axis=(1, 2))
-        return slices.reshape(*slices.shape[:2], -1), mean, far @ self.weights.sum(axis=1)
+        return slices, mean, far @ self.weights.sum(axis=1)
 
     def _face(self, cells: Any, side: int, states: Any) -> Any:
         """Mean temperature of the cells' faces at a side along the columns."""
@@ -86,7 +91,7 @@ def _volumes(points: Any) -> Any:
     return np.abs(np.sum(np.cross(edges[0], edges[1]) * edges[2], axis=-1))
 
 
-def parts(found: Meshed, grid: heat_grid.Grid, states: Any, points: Any) -> dict[str, Any]:
+def parts(found: Meshed, grid: heat_lines.Grid, states: Any, points: Any) -> dict[str, Any]:
     """Mean temperatures [degC] of the structure's parts at each time; of what lies on the layer in slices."""
     mm, volumes = grid.mm, _volumes(points)
     rotor = found.cells["rotor"]
@@ -109,7 +114,7 @@ def parts(found: Meshed, grid: heat_grid.Grid, states: Any, points: Any) -> dict
     return means | {"edge": mean(rotor[:, beside]), "plate": _sliced(rotor[:, over], 2, grid.up, mean)}
 
 
-def _sliced(own: Any, axis: int, along: heat_grid.Lines, mean: Any) -> Any:
+def _sliced(own: Any, axis: int, along: heat_lines.Lines, mean: Any) -> Any:
     """Temperatures of eight even slices in depth, shape (times, 8), the first beside the layer."""
     levels = np.unique(own[axis])
     each = np.array([mean(own[:, own[axis] == level]) for level in levels])
