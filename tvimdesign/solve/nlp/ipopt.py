@@ -20,11 +20,6 @@ _USUAL = {
     # METIS. Where blocks have rows an iteration takes 0.42 to 0.49 of what it takes by minimum degree, with
     # a free current 0.74, of a layer in shear 0.87 to 1 (seven studies).
     "mumps_pivot_order": 5,
-    # Most boxes of a search over lists hold no design. Where the multipliers of broken limits pass 1e5, IPOPT leaves
-    # the objective and looks for the least breach. Otherwise it takes hundreds of iterations, of ever harder
-    # factorizations: `wrist_compression` takes a quarter of the time, `rigid_modules_compression` a sixth.
-    "expect_infeasible_problem": "yes",
-    "expect_infeasible_problem_ytol": 1e5,
     "mu_init": 1e-3,
     # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
     "honor_original_bounds": "yes",
@@ -37,7 +32,15 @@ _WARM = {
     "warm_start_mult_bound_push": 1e-6,
     "warm_start_slack_bound_push": 1e-6,
 }
+_ANYWHERE = {
+    # Most boxes of a search over lists hold no design. Where the multipliers of broken limits pass 1e5, IPOPT leaves
+    # the objective and looks for the least breach. Otherwise it takes hundreds of iterations, of ever harder
+    # factorizations: `wrist_compression` takes a quarter of the time, `rigid_modules_compression` a sixth.
+    "expect_infeasible_problem": "yes",
+    "expect_infeasible_problem_ytol": 1e5,
+}
 _FEASIBLE = {
+    **_ANYWHERE,
     # The first point that keeps all limits is as good as any.
     "acceptable_iter": 1,
     "acceptable_tol": 1e6,
@@ -47,6 +50,7 @@ _FEASIBLE = {
 Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
 """Where a run begins: anywhere; anywhere, to end where all limits are kept; near another optimum, none of whose
 multipliers hold; at an optimum, with them; at the optimum itself, which is sought more exactly."""
+_SETTINGS: dict[Beginning, dict[str, Any]] = {"cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM}
 _SHARP = 1e-11
 """Tolerance at which a limit that hardly presses is told from one that does not."""
 _MOST_ITERATIONS = {"near": 60, "warm": 30, "sharp": 30}
@@ -76,7 +80,7 @@ def solver_of(
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
         **_USUAL,
-        **(_WARM if beginning in ("warm", "sharp") else _FEASIBLE if beginning == "feasible" else {}),
+        **_SETTINGS.get(beginning, {}),
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
         ipopt_limit(): max(asked.time_limit if most_seconds is None else most_seconds, _SHORTEST),
         "tol": min(asked.tolerance, _SHARP) if beginning == "sharp" else asked.tolerance,
