@@ -125,7 +125,7 @@ wheel: $(STAMP)  ## build wheel and source archive into dist/
 
 release: wheel  ## build, look at it with twine, and use the wheel in empty environments: the light package, each extra alone
 	$(BIN)/python -m twine check --strict dist/*
-	$(BIN)/python release/check_wheel.py dist/tvimdesign-*.whl
+	$(BIN)/python release/check_wheel.py dist/tvimdesign-*.whl --constraints constraints.txt
 
 vendor: $(STAMP)  ## bundle the libraries of the report page anew from their pinned packages (needs npm)
 	$(BIN)/python vendor/vendor.py

@@ -15,6 +15,7 @@ import random
 import statistics
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -28,7 +29,7 @@ from tvimdesign.explore.answers.shown import value_names
 from tvimdesign.explore.server import Server
 from tvimdesign.explore.states.state import State, tree_of
 from tvimdesign.solve.result import answer
-from tvimdesign.study import Range, Study, read_tree
+from tvimdesign.study import Range, Study, given, read_tree
 
 TOKEN = "benchmark-of-drags"
 COMPILED = 45.0
@@ -46,6 +47,13 @@ class Hand:
         """Talk to a socket of a study's explorer."""
         self.socket, self.study, self.random = socket, study, random.Random(seed)
         self.number = self.last_draft = 0
+        self.is_refused = False
+        table, known = study.table, given(study)
+        self.values = {name: from_si(float(known[name]), table.unit(name))
+                       for name, one in study.vary.items() if isinstance(one, Range)}  # fmt: skip
+        """Where the last module has the variables, in their units."""
+        self.undrawn = ""
+        """Why the last draft is none."""
         self.seconds_of: dict[str, int] = {}
         """Processes whose time of the processor is told, by name."""
 
@@ -60,22 +68,24 @@ class Hand:
             if told["kind"] != "answer":
                 continue
             self.number = max(self.number, told["number"])
+            for name, one in told["shown"].get("variables", {}).items():
+                self.values[name] = one["value"]
             if told["number"] >= number and (not stage or told["shown"]["stage"] == stage):
                 return dict(told)
 
-    async def drafted(self, number: int) -> bool:
-        """Whether the draft of an answer comes within `_LONGEST`: of what is no module there is none."""
+    async def drafted(self, number: int) -> str:
+        """Why there is no draft of an answer, or none within `_LONGEST`; nothing where it is drawn."""
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(_LONGEST):
                 while self.last_draft < number:
                     told = await self.socket.receive_json()
                     if told["kind"] == "draft":
                         self._keep_draft(told)
-        return self.last_draft >= number
+        return self.undrawn if self.last_draft >= number else f"no draft within {_LONGEST:g} s"
 
     def _keep_draft(self, told: dict[str, Any]) -> None:
         """A drawing, or the words that say why this design, which breaks limits, has none."""
-        self.last_draft = max(self.last_draft, told["number"])
+        self.last_draft, self.undrawn = max(self.last_draft, told["number"]), told.get("words", "")
 
     async def wait(self, seconds: float) -> None:
         """Do nothing, as a page does that is only looked at."""
@@ -90,18 +100,22 @@ class Hand:
         began = time.perf_counter()
         await self.socket.send_json({**message, "final": False})
         told = await self.until(stage="quick", number=asked)
+        self.is_refused = "values" not in told["shown"]
         return time.perf_counter() - began, told
 
     def variables(self) -> Iterator[dict[str, Any]]:
-        """Drags of variables: a random walk of each within its range."""
-        at = {name: 0.5 for name, one in self.study.vary.items() if isinstance(one, Range)}
+        """Drags of variables from where the module has them, and back again from where there is no module."""
+        ranges = {name: one for name, one in self.study.vary.items() if isinstance(one, Range)}
         while True:
-            name = self.random.choice(list(at))
-            at[name] = min(max(at[name] + self.random.uniform(-3.0, 3.0) * _STEP, 0.3), 0.7)
-            vary, unit = self.study.vary[name], self.study.table.unit(name)
-            assert isinstance(vary, Range)
-            value = from_si(vary.lower + at[name] * (vary.upper - vary.lower), unit)
-            yield {"kind": "set", "name": name, "text": f"{value:.5g} {unit}".removesuffix(" 1")}
+            name = self.random.choice(list(ranges))
+            unit, before = self.study.table.unit(name), self.values[name]
+            low, high = (from_si(end, unit) for end in (ranges[name].lower, ranges[name].upper))
+            after = before + self.random.uniform(-3.0, 3.0) * _STEP * (high - low)
+            if not low <= after <= high:
+                continue
+            yield {"kind": "set", "name": name, "text": f"{after:.9g} {unit}".removesuffix(" 1")}
+            if self.is_refused:
+                yield {"kind": "set", "name": name, "text": f"{before:.9g} {unit}".removesuffix(" 1")}
 
     def requirements(self) -> Iterator[dict[str, Any]]:
         """Drags of requirements: each goes to and fro by some percent about what the study asks."""
@@ -109,10 +123,13 @@ class Hand:
         moved = dict.fromkeys(names, 0.0)
         while True:
             name = self.random.choice(names)
-            moved[name] = min(max(moved[name] + self.random.uniform(-1.0, 1.0) * _STEP, -0.1), 0.1)
+            before, at = moved[name], moved[name] + self.random.uniform(-1.0, 1.0) * _STEP
+            moved[name] = min(max(at, -0.1), 0.1)
             unit = self.study.table.unit(name)
             own = [one for one in self.study.require if one.output == name]
-            texts = [f"{one.sense} {from_si(one.limit, unit) * (1.0 + moved[name]):.6g} {unit}" for one in own]
+            if moved[name] == before or not any(one.limit for one in own):
+                continue
+            texts = [f"{one.sense} {from_si(one.limit, unit) * (1.0 + moved[name]):.9g} {unit}" for one in own]
             yield {"kind": "require", "name": name, "texts": [text.removesuffix(" 1") for text in texts]}
 
 
@@ -133,12 +150,13 @@ async def measured(study: Path, drags: int, leak: int, compiled: float) -> None:
             await hand.wait(compiled)
             session = server.session
             hand.seconds_of = {"solver": session.solver.process, "drafter": session.drafter.process}
-            await _timed(hand, "evaluate", hand.variables(), drags)
-            await _timed(hand, "draft in 3-D", hand.variables(), drags, drafts=True)
+            walks = {"evaluate": hand.variables(), "optimize": hand.requirements()}
+            await _timed(hand, "evaluate", walks["evaluate"], drags)
+            await _timed(hand, "draft in 3-D", walks["evaluate"], drags, drafts=True)
             await _way(hand, "optimize")
-            await _timed(hand, "optimise", hand.requirements(), drags)
+            await _timed(hand, "optimise", walks["optimize"], drags)
             if leak:
-                await _leak(hand, server, leak)
+                await _leak(hand, server, walks, leak)
 
 
 async def _way(hand: Hand, way: str) -> None:
@@ -148,17 +166,20 @@ async def _way(hand: Hand, way: str) -> None:
 
 
 async def _timed(hand: Hand, what: str, drags: Iterator[dict[str, Any]], count: int, *, drafts: bool = False) -> None:
-    times, without, before = [], 0, _processor(hand)
+    times, without, before = [], Counter[str](), _processor(hand)
     for _ in range(count):
         began = time.perf_counter()
         _, told = await hand.drag(next(drags))
-        if "values" not in told["shown"] or (drafts and not await hand.drafted(told["number"])):
-            without += 1
-            continue
-        times.append(1e3 * (time.perf_counter() - began))
-    ninth = statistics.quantiles(times, n=10)[8]
-    print(f"{what}: median {statistics.median(times):.0f} ms, nine of ten under {ninth:.0f} ms, worst "
-          f"{max(times):.0f} ms, of {count} drags; {without} of them refused or without a drawing; processor a drag: "
+        words = told["shown"]["status"] if hand.is_refused else await hand.drafted(told["number"]) if drafts else ""
+        if words:
+            without[words] += 1
+        else:
+            times.append(1e3 * (time.perf_counter() - began))
+    for words, number in without.most_common(5):
+        print(f"{what}: {number} answered in words: {words}")
+    ninth = statistics.quantiles(times, n=10)[8] if len(times) > 1 else float("nan")
+    print(f"{what}: median {statistics.median(times or [float('nan')]):.0f} ms, nine of ten under {ninth:.0f} ms, "
+          f"worst {max(times, default=float('nan')):.0f} ms, of {len(times)} drags; processor a drag: "
           + ", ".join(f"{name} {1e3 * (now - before[name]) / count:.0f} ms" for name, now in _processor(hand).items()),
           flush=True)  # fmt: skip
 
@@ -173,23 +194,28 @@ def _processor(hand: Hand) -> dict[str, float]:
 
 
 def _memory(server: Server) -> dict[str, float]:
-    """Megabytes of the server, and of its worker, as Linux counts them."""
+    """Megabytes of the server and of its workers, as Linux counts them."""
     assert server.session is not None
-    found = {"server": os.getpid(), "worker": server.session.solver.process}
+    session = server.session
+    found = {"server": os.getpid(), "solver": session.solver.process, "drafter": session.drafter.process}
     pages = {name: int(Path(f"/proc/{one}/statm").read_text().split()[1]) for name, one in found.items()}
     return {name: count * os.sysconf("SC_PAGE_SIZE") / 1e6 for name, count in pages.items()}
 
 
-async def _leak(hand: Hand, server: Server, count: int) -> None:
+async def _leak(hand: Hand, server: Server, walks: dict[str, Iterator[dict[str, Any]]], count: int) -> None:
     assert server.session is not None
-    process, ways = server.session.solver.process, {"evaluate": hand.variables(), "optimize": hand.requirements()}
+    process, refused = (server.session.solver.process, server.session.drafter.process), 0
     before, began = _memory(server), time.perf_counter()
     for way in ("optimize", "evaluate") * 2:
         await _way(hand, way)
         for _ in range(count // 4):
-            await hand.drag(next(ways[way]))
-    await hand.socket.send_json({**next(ways["evaluate"]), "final": True})
-    told = await hand.until(stage="exact", number=hand.number + 1)
+            await hand.drag(next(walks[way]))
+            refused += hand.is_refused
+    hand.is_refused = True
+    while hand.is_refused:  # the last is a module, which can be held against another answer
+        await hand.drag(last := next(walks["evaluate"]))
+    await hand.socket.send_json({**last, "final": True})
+    told = await hand.until(stage="exact", number=hand.number)
     after = _memory(server)
     state: State = server.session.kept.state
     fresh = read_tree(tree_of(server.session.source.tree, state))
@@ -198,9 +224,11 @@ async def _leak(hand: Hand, server: Server, count: int) -> None:
     pairs = [(a, b) for a, b in zip(told["shown"]["values"], exact, strict=True) if a is not None]
     worst = max(abs(a - b) / max(abs(b), 1e-9) for a, b in pairs)
     grown = ", ".join(f"{name} {before[name]:.0f} to {after[name]:.0f} MB" for name in before)
-    alive = "the same worker to the end" if server.session.solver.process == process else "the worker died"
-    print(f"{count} random drags in {time.perf_counter() - began:.0f} s: {grown}; {alive}; the last state is a fresh "
-          f"evaluation of {len(pairs)} values to {worst:.1e}", flush=True)  # fmt: skip
+    now = server.session.solver.process, server.session.drafter.process
+    alive = "the same workers to the end" if now == process else "a worker died"
+    print(f"{count} random drags in {time.perf_counter() - began:.0f} s, {refused} of them answered in words: "
+          f"{grown}; {alive}; the last state is a fresh evaluation of {len(pairs)} values to {worst:.1e}",
+          flush=True)  # fmt: skip
 
 
 def main() -> None:

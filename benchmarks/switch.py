@@ -58,8 +58,16 @@ class Contender:
     solve: Callable[[float], Array]
 
 
-OF_EDGES = ("heater_form", "pad_wall", "heater_along", "plate_to_edge", "uneven_sideways")
-OF_COLUMNS = ("air_beside", "plate_slenderness", "pcl_area", "edge_length", "pcl_depth", "pcl_conductivity_melt")
+OF_EDGES = ("heater_form", "pad_wall", "heater_along", "plate_to_edge", "uneven_sideways", "cold_end", "edge_length")
+OF_COLUMNS = (
+    "air_beside",
+    "cold_end",
+    "plate_slenderness",
+    "pcl_area",
+    "edge_length",
+    "pcl_depth",
+    "pcl_conductivity_melt",
+)
 """What the layer's columns need to know of the module."""
 
 
@@ -84,7 +92,9 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
         now = heat.profile(state, stack)
         warm = layer_columns.layer_temperatures(now, stack, layer_columns.edge_drops(now, stack, **edges), **columns)
         slices = polymer.moduli(now.cells, now.fractions, omega, rheology)
-        moduli = thermal_stack.layer_moduli(stack, slices, warm, rheology, numbers["frequency@hot"])
+        moduli = thermal_stack.layer_moduli(
+            stack, slices, warm, layer_columns.across(of["cold_end"]).shares, rheology, numbers["frequency@hot"]
+        )
         support = warm_structure.in_series(parts, warm_structure.parts_now(now), law, numbers["clamped_loss_factor"])
         stiffness = thermal_stack.layer_stiffness_now(moduli, moment, numbers["pcl_thickness"])
         branch = thermal_stack.branch_now(stiffness, support)

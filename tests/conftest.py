@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from browsers import said_of_no_browser
 from hypothesis import settings
 from support import ROOT, Command, called, environment
 
@@ -51,6 +52,15 @@ def place(file: str) -> int:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with what takes longest: it is dealt out whole, and none shall be alone at the end."""
     items.sort(key=lambda item: place(item.nodeid))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Say in the last line that there was no browser, where there was none."""
+    reporter = config.pluginmanager.get_plugin("terminalreporter")
+    words = said_of_no_browser(reporter.stats.get("skipped", [])) if reporter else ""
+    if words:
+        reporter.write_line(words)
 
 
 @pytest.hookimpl(optionalhook=True)

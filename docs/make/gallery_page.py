@@ -26,7 +26,7 @@ def gallery_page() -> str:
         "Every file in `studies/` runs as it is: `tvimdesign run studies/NAME.yaml`. The code makes the pictures,",
         "of the module a run comes to: on the left whole, on the right opened. `make pictures` makes them again.",
         "The README's table has sizes and times. A link to a report stands here where this site was built with reports",
-        "(`make gallery`). Links in a report to files of parts lead into the folder of its run.",
+        "(`make gallery`). A report carries the files of its parts.",
         "",
     ]  # fmt: skip
     for path in sorted((ROOT / "studies").glob("*.yaml")):

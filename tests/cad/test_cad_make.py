@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import queue
 import subprocess
 import sys
 from collections.abc import Callable
@@ -15,6 +16,7 @@ import pytest
 import trimesh
 from cad_designs import Made
 
+from tvimdesign.base.child_process import hear
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.assembly.module_parts import MODULES
@@ -206,7 +208,9 @@ def test_a_child_that_says_what_it_does_is_given_time_and_one_that_falls_silent_
     for more, ends in (("", True), ("time.sleep(60)", False)):
         child = subprocess.Popen([sys.executable, "-S", "-c", says + more], stdout=subprocess.PIPE, text=True)
         try:
-            heard = _messages(child, 2.5)  # eight steps are 3.2 s
+            said: queue.Queue[str | None] = queue.Queue()
+            hear(child, said.put)
+            heard = _messages(said, 2.5)  # eight steps are 3.2 s
             assert [next(heard)["progress"] for _ in range(8)] == list(range(8))
             with pytest.raises(StopIteration if ends else TimeoutError):
                 next(heard)

@@ -41,6 +41,24 @@ def test_the_newest_of_a_drag_is_answered_and_those_between_are_passed_over(tmp_
     assert last["shown"]["variables"]["current"]["value"] < first["shown"]["variables"]["current"]["value"]
 
 
+def test_where_there_is_no_module_the_page_is_told_why_none_is_drawn_and_drafts_follow_again(tmp_path: Path) -> None:
+    async def dragged() -> list[dict[str, Any]]:
+        async with talking(small_study(tmp_path), tmp_path / "out") as page:
+            await page.send(kind="way", way="evaluate")
+            told = []
+            for text in ("20 mm", "38 mm", "20.1 mm"):  # between them is one without room for the heaters' windows
+                await page.send(kind="set", name="pcl_inner_radius", text=text, final=False)
+                number = len(told) + 3
+                told.append(await page.until(lambda one, of=number: one["kind"] == "draft" and one["number"] == of))
+            return told
+
+    before, none, after = awaited(dragged())
+    assert before["meshes"]
+    assert none["words"].startswith("there is no such module")
+    assert "meshes" not in none
+    assert after["meshes"]
+
+
 @pytest.mark.slow
 def test_the_exact_answer_is_the_one_of_run_and_comes_with_the_report(tmp_path: Path) -> None:
     study = small_study(tmp_path)

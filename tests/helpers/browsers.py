@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import pytest
 from playwright.sync_api import Browser, sync_playwright
@@ -12,12 +12,20 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
 """Draw 3-D without a graphics card; run as root, as in a container."""
 
+MISSING = "install chromium"
+
+
+def said_of_no_browser(skipped: Sequence[pytest.TestReport]) -> str:
+    """What is to be said last of all where tests were skipped for want of a browser; else nothing."""
+    count = sum(isinstance(one.longrepr, tuple) and MISSING in one.longrepr[-1] for one in skipped)
+    return f"NO BROWSER: {count} tests of the pages were not run; {MISSING} and run them again" if count else ""
+
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """Chromium of the system; ended with each module, as its event loop stands in the way of the server's tests."""
     if CHROMIUM is None:
-        pytest.skip("install chromium")  # no wheel brings a browser; .ci/run installs one and fails without
+        pytest.skip(MISSING)  # no wheel brings a browser; .ci/run installs one and fails without
     with sync_playwright() as play:
         started = play.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
         yield started

@@ -63,8 +63,11 @@ def run_page(folder: Path, *, parts: bool = True) -> Path:
 
 def write_parts(cad: Path) -> None:
     """Boxes and a bent wire with the files that CAD writes of a module."""
-    for name in ("springs", "views"):
+    for name in ("springs", "views", "step", "print"):
         (cad / name).mkdir(parents=True)
+    for name in _BOXES:
+        (cad / f"step/{name}.step").write_text(f"ISO-10303-21; /* {name} */\n", "utf-8")
+    (cad / "print/housing.3mf").write_bytes(b"PK of the housing")
     scene = trimesh.Scene()
     for name, (size, middle) in _BOXES.items():
         place = np.eye(4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import random
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +14,7 @@ import yaml
 from support import ROOT
 
 from tvimdesign.page.blocks import Cell, Drawn, Facts, Folded, Grid, Head, Page, Section, Words
-from tvimdesign.page.page_file import page_html
+from tvimdesign.page.page_file import MOST, page_html
 
 NASTY = '</script><script>alert(1)</script> & "it\'s"'
 PAGE = Page(
@@ -57,6 +58,14 @@ def test_a_library_is_there_only_where_a_figure_needs_it() -> None:
 def test_what_json_has_no_number_for_is_refused() -> None:
     with pytest.raises(ValueError, match="JSON"):
         page_html(replace(PAGE, first=[Drawn("lines", "lines.js", "Lines", {"x": [float("nan")]})]))
+
+
+def test_a_page_carries_files_in_their_order_as_far_as_it_has_room() -> None:
+    large, noise = bytes(1000), random.Random(1).randbytes(6_000_000)
+    page = page_html(replace(PAGE, carried={"cad/a.step": large, "cad/b.3mf": noise, "cad/c.pdf": large}))
+    assert re.findall(rb'data-file="([^"]+)"', page) == [b"cad/a.step", b"cad/c.pdf"]
+    assert len(page) < MOST
+    html5lib.HTMLParser(strict=True).parse(page.decode())
 
 
 def test_the_libraries_are_those_that_are_pinned() -> None:

@@ -10,7 +10,8 @@ import axe_playwright_python
 import pytest
 from opened_page import Opened
 
-from tvimdesign.page.page_file import MOST
+from tvimdesign.page.blocks import Cell, Grid, Head, Page, Section
+from tvimdesign.page.page_file import MOST, page_html
 
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("utf-8")
 SERIOUS = {"serious", "critical"}
@@ -151,3 +152,28 @@ def test_a_brush_keeps_the_designs_within(screen: Opened) -> None:
     figure.get_by_role("spinbutton", name="Module mass (g) to").fill("75")
     found.page.keyboard.press("Tab")
     assert rows.count() == 2
+
+
+def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: Open, tmp_path: Path) -> None:
+    data = b"ISO-10303-21;\r\n" + bytes(range(256))
+    links = Cell("STEP 3MF", links=[("STEP", "cad/step/housing.step"), ("3MF", "cad/print/housing.3mf")])
+    sections = [Section("materials", "Bill of materials", [Grid("Parts", [Head("files")], [[links]])])]
+    page = Page("A module", "shear module", "OPTIMAL", "good", [], None, sections, "Written by a test.",
+                carried={"cad/step/housing.step": data, "cad/print/housing.3mf": b"PK"})  # fmt: skip
+    alone = tmp_path / "report.html"
+    alone.write_bytes(page_html(page))
+    found = opened(alone)
+    for ending, held in (("STEP", data), ("3MF", b"PK")):
+        with found.page.expect_download() as saved:
+            found.page.get_by_role("link", name=ending).press("Enter")
+        assert saved.value.suggested_filename == f"housing.{ending.lower()}"
+        assert saved.value.path().read_bytes() == held
+    assert found.complaints == []
+    assert found.page.url == alone.as_uri()
+
+
+def test_the_page_of_a_run_carries_the_files_of_its_parts(report: Path) -> None:
+    carried = re.findall(r'data-file="([^"]+)"', report.read_text("utf-8"))
+    assert carried[0] == "cad/step/housing.step"
+    assert "cad/step/pcl_arc_1.step" in carried
+    assert carried[-1] == "cad/print/housing.3mf"

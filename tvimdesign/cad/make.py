@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import queue
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
+from types import TracebackType
 from typing import IO, Any
 
 from tvimdesign.base.child_process import hear, start_child
@@ -25,6 +28,8 @@ PART_TIMEOUT = 90.0
 HALF_MADE = ".parts.*"
 """Folder in which parts are made where none are kept from one run to the next: a pattern."""
 JOB = "tvimdesign.cad.build.main"
+WAITING = "--wait"
+"""Argument of a child that is told on standard input what to make: a line of JSON with design, folder and time-out."""
 
 
 def make_cad(
@@ -45,41 +50,78 @@ def make_cad(
     where the process crashes or says nothing for `timeout_s` [s]. Raises InputError where the
     design cannot be read, or the extra [cad] is not installed.
     """
-    require_extra("cad", "parts")
-    make_folder(out)
-    state: dict[str, Any] = {"progress": "starting"}
-    with tempfile.TemporaryFile() as progress_output:
-        process = start_child(
-            job, [str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)],
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=progress_output, text=True, encoding="utf-8",
-            start_new_session=True,
-        )  # fmt: skip
+    with PartsProcess(job) as process:
+        process.begin(design_path, out, part_timeout_s)
+        return process.finish(timeout_s, progress)
+
+
+class PartsProcess:
+    """The child process that makes parts: it loads the CAD kernel at once, and may wait long for its design."""
+
+    def __init__(self, job: str = JOB) -> None:
+        """Start it. Raises InputError where the extra [cad] is not installed."""
+        require_extra("cad", "parts")
+        with ExitStack() as stack:
+            self._tail = stack.enter_context(tempfile.TemporaryFile())
+            self._process = start_child(
+                job, [WAITING], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._tail, text=True,
+                encoding="utf-8", start_new_session=True,
+            )  # fmt: skip
+            self._stack = stack.pop_all()
+        self._said: queue.Queue[str | None] = queue.Queue()
+        hear(self._process, self._said.put)
+        self._out: Path | None = None
+
+    @property
+    def process(self) -> int:
+        """Its number."""
+        return int(self._process.pid)
+
+    def __enter__(self) -> PartsProcess:
+        """Return itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """End the process with its children if it has not ended, and take away what they have left half made."""
+        if self._process.poll() is None:
+            end_process_tree(self._process.pid)
+        self._process.wait()
+        if self._process.stdin:
+            with contextlib.suppress(OSError):
+                self._process.stdin.close()
+        self._stack.close()
+        if self._out:
+            for half_made in self._out.glob(HALF_MADE):
+                shutil.rmtree(half_made, ignore_errors=True)
+
+    def begin(self, design_path: Path, out: Path, part_timeout_s: float = PART_TIMEOUT) -> None:
+        """Let it make the parts of a design file, which it reads at once, into the folder `out`; comes back at once."""
+        make_folder(out)
+        self._out = out
+        assert self._process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):  # that it has died is told at the end
+            asked = [str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)]
+            self._process.stdin.write(json.dumps(asked) + "\n")
+            self._process.stdin.flush()
+
+    def finish(self, timeout_s: float = TIMEOUT, progress: Callable[[str], None] | None = None) -> CadReport:
+        """Wait for what came of it; `progress` is told each step. Raises as `make_cad` does."""
+        assert self._out is not None
+        state: dict[str, Any] = {"progress": "starting"}
+        code: int | None
         try:
-            for message in _messages(process, timeout_s):
+            for message in _messages(self._said, timeout_s):
                 state |= message
                 if progress and "progress" in message:
                     progress(message["progress"])
-            code = process.wait(timeout=10.0)
+            code = self._process.wait(timeout=10.0)
         except (TimeoutError, subprocess.TimeoutExpired):
             code = None
-        finally:
-            _end(process)
-            for half_made in out.glob(HALF_MADE):
-                shutil.rmtree(half_made, ignore_errors=True)
-        return _report(out, state, code, timeout_s, _tail(progress_output))
+        return _report(self._out, state, code, timeout_s, _tail(self._tail))
 
 
-def _end(process: subprocess.Popen[str]) -> None:
-    """End the process with its children."""
-    if process.poll() is None:
-        end_process_tree(process.pid)
-    process.wait()
-
-
-def _messages(process: subprocess.Popen[str], silence_s: float) -> Iterator[dict[str, Any]]:
-    """What the child says, until it ends; raises TimeoutError once it has said nothing for so long [s]."""
-    said: queue.Queue[str | None] = queue.Queue()
-    hear(process, said.put)
+def _messages(said: queue.Queue[str | None], silence_s: float) -> Iterator[dict[str, Any]]:
+    """What a child says, until it ends; raises TimeoutError once it has said nothing for so long [s]."""
     while True:
         try:
             line = said.get(timeout=silence_s)

@@ -53,8 +53,8 @@ class Session:
         self._design: dict[str, str] | None = None
         self.parts = PartsMaker(folder, send, self._parts_made)
         self.draft: Told | None = None
-        """The last draft in 3-D, for pages that come later."""
-        self.drafter = Drafter(self._drafted)
+        """The last draft in 3-D, or why there is none, for pages that come later."""
+        self.drafter = Drafter(lambda job, told: self._drafted(job.number, told))
         self.solver = Solver([str(source), str(folder), *settings], self._told)
         self._ask("quick")
 
@@ -223,10 +223,14 @@ class Session:
         self._send(answer)
         if told.get("module"):
             self.drafter.ask(DraftJob(job.number, told["module"]))
+        elif job.number == self._number:
+            self._drafted(job.number, {"words": shown["status"]})
 
-    def _drafted(self, job: DraftJob, told: Told) -> None:
-        self.draft = {**told, "kind": "draft", "number": job.number}
-        self._send(self.draft)
+    def _drafted(self, number: int, told: Told) -> None:
+        """A draft, or the words that say why there is none; an older one comes too late."""
+        if self.draft is None or number >= self.draft["number"]:
+            self.draft = {**told, "kind": "draft", "number": number}
+            self._send(self.draft)
 
     def _follow(self, job: Job, shown: Told) -> None:
         """Let the hand's variables be the optimum's, so that it can be gone on from."""

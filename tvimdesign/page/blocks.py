@@ -158,3 +158,6 @@ class Page:
     made_by: str
     files: Mapping[str, str] = field(default_factory=dict)
     """Files of the folder to look at, by what they are."""
+    carried: Mapping[str, bytes] = field(default_factory=dict)
+    """Files that links of the page lead to, by address: a page in a mail has no folder beside it. First come those
+    that matter most; those for which the page has no room are left to the folder."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 import base64
 import gzip
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
+from html import escape
 from importlib import resources
 from pathlib import PurePosixPath
 from typing import Any
@@ -16,8 +17,10 @@ from tvimdesign.page.blocks import Block, Drawn, Folded, Page
 FILE = "report.html"
 MOST = 8_000_000
 """Bytes that a page may have, so that a mail takes it."""
+_RESERVE = 100_000
+"""Bytes of them that no carried file takes."""
 _STYLES = ("theme.css", "page.css", "figures.css", "print.css")
-_ALWAYS = ("main.js", "tables.js", "data.js", "figures.js")
+_ALWAYS = ("main.js", "tables.js", "data.js", "figures.js", "files.js")
 """Code of every page; a figure brings its own."""
 
 
@@ -31,7 +34,18 @@ def page_html(page: Page) -> bytes:
         data=_json({one.name: dict(one.data) for one in drawn}),
         drawn=drawn,
     )
-    return (text.rstrip() + "\n").encode()
+    return _with_files(text.rstrip() + "\n", page.carried).encode()
+
+
+def _with_files(text: str, files: Mapping[str, bytes]) -> str:
+    """A page's text with the files that it carries, as many as it has room for."""
+    begin, imports, end = text.rpartition('<script type="importmap">')
+    room = MOST - len(text.encode()) - _RESERVE
+    for address, data in files.items():
+        held = f'<script type="application/gzip" data-file="{escape(address)}">{packed(data)}</script>\n'
+        if len(held) <= room:
+            begin, room = begin + held, room - len(held)
+    return begin + imports + end
 
 
 def figures(page: Page) -> Iterator[Drawn]:

@@ -94,7 +94,7 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
     """The shear module from the middle of an arc through its edge; the layer's face at the pads is y = 0."""
     w, top, pad = c["half_width"], c["layer_depth"], c["pad_depth"]
     film, slot, inside = FILM * pad, c["air_conductivity"] / c["pad_edge_contact"], c["window_share"] * w
-    spread, tile = c["spreader_depth"], c["tile_share"] * w
+    spread, tile, tip = c["spreader_depth"], c["tile_share"] * w, top - c["lip_height"]
     hot = -SHEET - (spread + SHEET if spread else 0.0)
     under = hot - pad
     heights = [(under + film, "cold"), (hot - film, "legs"), (hot, "hot"), (top, "layer"), (top + SHEET, "far")]
@@ -103,21 +103,32 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
     def what(x: float, y: float) -> str | None:
         if y > top + SHEET:
             return "plate"
+        if x > w and y > 0.0:
+            return at_lip(x, y)
         if x > w:
-            return "air" if y > 0.0 else "slot" if y > under and x < w + slot else "floor"
+            return "slot" if y > under and x < w + slot else "floor"
         if y < under:
             return "ledge" if x > inside else None
         beside = spread and x > tile and y < hot + SHEET
         return "beside tiles" if beside else next(name for height, name in heights if y < height)
 
+    def at_lip(x: float, y: float) -> str:
+        if x > w + c["lip_width"]:
+            return "air"
+        if y < tip:
+            return "below lip"
+        return "side" if x < w + SHEET else "lip"
+
     rim, wide, thin, deep = 0.2 * slot, 0.12 * w, 0.25 * film, 0.06 * top
     bend = 0.1 * min(w - inside, 5.0 * slot)
     tiled = [(tile, bend)] if spread and inside < tile < w else []
-    x = graded([(0.0, wide), (inside, bend), *tiled, (w, rim), (w + slot, rim),
-                (w + c["beside"], 0.15 * c["beside"])], fine)  # fmt: skip
+    lip = [(w + c["lip_width"], 0.3 * (top - tip))] if c["lip_height"] else []
+    crowded = [(tip, 0.1 * tip)] if lip else [(0.9 * top, deep)]
+    x = graded([(0.0, wide), (inside, bend), *tiled, (w, rim), *([(w + SHEET, rim)] if lip else []), (w + slot, rim),
+                *lip, (w + c["beside"], 0.15 * c["beside"])], fine)  # fmt: skip
     sheets = [(hot + SHEET, 0.2 * spread), (-SHEET, 0.2 * spread)] if spread else []
     y = graded([(-c["floor_depth"], 0.2 * (c["floor_depth"] + under)), (under, thin), (under + film, 2.0 * thin),
-                (hot - film, thin), (hot, thin), *sheets, (0.0, rim), (0.1 * top, deep), (0.9 * top, deep),
+                (hot - film, thin), (hot, thin), *sheets, (0.0, rim), (min(0.1 * top, 0.5 * tip), deep), *crowded,
                 (top, 0.5 * deep), (top + SHEET, deep), (top + SHEET + c["plate_depth"], 0.3 * c["plate_depth"])],
                fine)  # fmt: skip
     return Drawing(x, y, what, _strip_s_materials(c), c["current"] ** 2 * c["resistance"],
@@ -134,10 +145,12 @@ def _strip_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     air, exchange = c["air_conductivity"], c["emissivity"] / (2.0 - c["emissivity"])
     spread = Material(c["spreader_conductivity"], c["spreader_conductivity"], c["spreader_heat_capacity"])
     return {
-        "plate": solid, "floor": solid, "ledge": solid, "hot": side, "cold": side,
+        "plate": solid, "lip": solid, "floor": solid, "ledge": solid, "hot": side, "cold": side,
         "legs": Material(c["pad_conductivity"], c["conductance"] * legs, heat),
         "near": Material(1e-9, c["hot_contact"] * SHEET), "far": Material(1e-9, c["rotor_contact"] * SHEET),
-        "air": Material(air, air, 0.0, c["gap"] * exchange), "slot": Material(air, air), "spreader": spread,
+        "side": Material(c["rotor_contact"] * SHEET, 1e-9), "air": Material(air, air, 0.0, c["gap"] * exchange),
+        "below lip": Material(air, air, 0.0, (c["gap"] - c["lip_height"]) * exchange),
+        "slot": Material(air, air), "spreader": spread,
         "joint": Material(1e-9, c["spreader_contact"] * SHEET),
         "beside tiles": Material(air, air, 0.0, c["pad_depth"] * exchange),
     }  # fmt: skip

@@ -86,6 +86,9 @@ class Case:
     sink_capacity: float = 1.0
     sink_surface: float = 0.0
     sink_coefficient: float = 0.0
+    lip_height: float = 0.0
+    """Of the plate's lip along the layer's edge; none where it is zero."""
+    lip_width: float = 0.0
 
 
 def case_of(table: Table, values: Mapping[str, Any]) -> Case:
@@ -93,7 +96,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     v = values
     wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
               "housing_ring", "peltier_mass", "pcl_depth", "sink", "heated_area", "heater_strings",
-              "spreader_depth")  # fmt: skip
+              "spreader_depth", "melt_lip_height")  # fmt: skip
     found = table.evaluate(v, wanted)
     area, edge, melting = found["pcl_area"], found["edge_length"], found["pcl_melting"]
     core, housing = found["core_and_link"], found["around_pads"][-1]
@@ -104,6 +107,9 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
             "spreader_heat_capacity": v["spreader_density"] * v["spreader_specific_heat"],
             "spreader_contact": v["spreader_contact"],
         }  # fmt: skip
+    lip = {}
+    if v["melt_lip"] != "none":
+        lip = {"lip_height": found["melt_lip_height"], "lip_width": v["rotor_rim"]}
     if found["sink"] is not None:
         cooled = {
             "sink_conductance": found["sink"].conductance / edge, "sink_capacity": found["sink"].capacity / edge,
@@ -130,7 +136,8 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         emissivity=v["surface_emissivity"], air_conductivity=v["air_conductivity"],
         ledge=v["window_ledge"], core_conductance=core.conductance / edge,
         core_capacity=core.capacity / edge, housing_conductance=found["housing_ring"] / edge,
-        housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge, **spread, **cooled,
+        housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge,
+        **spread, **cooled, **lip,
     )  # fmt: skip
 
 
@@ -146,12 +153,17 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
         if b > top:
             return "plate"
         if b > 0.0:
-            return "air" if a > w else "layer"
+            return "layer" if a < w else beside(a, b)
         if a > w:
             return "slot" if b > cold and a < w + slot else "floor"
         if b < cold:
             return "ledge" if a > inside else None
         return "beside tiles" if a > tile and b < hot else upright(b)
+
+    def beside(a: float, b: float) -> str:
+        if a > w + c.lip_width:
+            return "air"
+        return "lip" if b > top - c.lip_height else "below lip"
 
     def upright(b: float) -> str:
         heights = ((hot, "spreader"), (hot - film, "hot"), (cold + film, "legs"))
@@ -159,6 +171,7 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
 
     contacts = {
         frozenset(("hot", "layer")): c.hot_contact, frozenset(("layer", "plate")): c.rotor_contact,
+        frozenset(("layer", "lip")): c.rotor_contact,
     }  # fmt: skip
     if c.spreader_depth:
         contacts[frozenset(("spreader", "layer"))] = c.hot_contact
@@ -183,12 +196,19 @@ def _grid(c: Case, slot: float, fine: float) -> tuple[Array, Array]:
     beside = tile if tile < w else inside
     rim = beside + 0.3 * (w - beside)
     ledge = [(inside, tile, 8, 1.0)] if tile < w else []
+    onward = [(w + slot, end, 22, 1.3)]
+    if c.lip_height:
+        onward = [(w + slot, w + c.lip_width, 8, 1.2), (w + c.lip_width, end, 18, 1.3)]
     x = lines((0.0, inside, 6, 0.6), *ledge, (beside, rim, 6, 1.6), (rim, w, 10, 0.62), (w, w + 0.5 * slot, 5, 1.5),
-              (w + 0.5 * slot, w + slot, 5, 1.0 / 1.5), (w + slot, end, 22, 1.3), fine=fine)  # fmt: skip
+              (w + 0.5 * slot, w + slot, 5, 1.0 / 1.5), *onward, fine=fine)  # fmt: skip
     top, low, film, hot = c.layer_depth, 0.125 * c.layer_depth, PAD_FILM * c.pad_depth, -c.spreader_depth
+    layer, tip = [(low, top, 24, 1.0)], top - c.lip_height
+    if c.lip_height:
+        low = min(low, 0.5 * tip)
+        layer = [(low, tip, 8, 0.75), (tip, 0.5 * (tip + top), 12, 1.3), (0.5 * (tip + top), top, 8, 1.0)]
     cold, spreader = hot - c.pad_depth, [(hot, 0.0, 5, 1.0)] if c.spreader_depth else []
     y = lines((-c.floor_depth, cold, 9, 0.75), (cold, cold + film, 2, 1.5), (cold + film, hot - film, 6, 1.0),
-              (hot - film, hot, 4, 0.6), *spreader, (0.0, low, 8, 1.5), (low, top, 24, 1.0),
+              (hot - film, hot, 4, 0.6), *spreader, (0.0, low, 8, 1.5), *layer,
               (top, top + c.plate_depth, 8, 1.15), fine=fine)  # fmt: skip
     return x, y
 
@@ -199,9 +219,10 @@ def _materials(c: Case) -> dict[str, Material]:
     pad = Material(c.pad_conductivity, 100.0, c.pad_heat_capacity / c.pad_depth)
     through = c.conductance * (1.0 - 2.0 * PAD_FILM) * c.pad_depth
     shine = c.emissivity / (2.0 - c.emissivity)
-    found = {"plate": solid, "floor": solid, "ledge": solid, "hot": pad, "cold": pad,
+    found = {"plate": solid, "lip": solid, "floor": solid, "ledge": solid, "hot": pad, "cold": pad,
              "legs": Material(c.pad_conductivity, through, pad.heat_capacity),
              "air": Material(c.air_conductivity, c.air_conductivity, 0.0, c.gap * shine),
+             "below lip": Material(c.air_conductivity, c.air_conductivity, 0.0, (c.gap - c.lip_height) * shine),
              "slot": Material(c.air_conductivity, c.air_conductivity, 0.0)}  # fmt: skip
     if c.spreader_depth:
         sheet = Material(c.spreader_conductivity, c.spreader_conductivity, c.spreader_heat_capacity)

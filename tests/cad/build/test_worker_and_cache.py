@@ -10,17 +10,19 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import psutil
 import pytest
 from cad_designs import design_of, whole
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
-from tvimdesign.cad.build.build_plan import build_plan
+from tvimdesign.cad.build.build_plan import PICTURES, build_plan
 from tvimdesign.cad.build.cache import Cache, user_folder
 from tvimdesign.cad.build.read_tracking import TrackedDesign
 from tvimdesign.cad.build.worker import Done, Job, Work, WorkerPool
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.make import PartsProcess
 from tvimdesign.study.design import Design, write_design
 
 Run = Callable[..., Done]
@@ -282,3 +284,18 @@ def test_a_second_making_takes_over_everything_and_gives_the_same_files(
     assert len(second.reused) == len(build_plan(dimensions(design_of("paper", {}))))
     assert second.checks == first.checks
     assert {name: (tmp_path / "cad" / name).read_bytes() for name in second.files} == made
+
+
+def test_a_process_that_is_never_told_what_to_make_is_gone_with_its_owner() -> None:
+    with PartsProcess() as waiting:
+        process = psutil.Process(waiting.process)
+        assert process.is_running()
+    assert not process.is_running()
+
+
+def test_pictures_are_begun_before_all_else_once_the_parts_are_there() -> None:
+    plan = build_plan(dimensions(design_of("paper", {})))
+    assert plan[0].name == PICTURES
+    assert not plan[0].late
+    makers = {work.name for work in plan if work.late}
+    assert makers == {f"{name}_for_makers" for name in plan[0].needs}

@@ -10,6 +10,7 @@ import cadquery as cq
 import numpy as np
 import pytest
 from cad_designs import BEARING_BLOCKS, BLOCKS, design_of
+from sample_solids import box, of, one_solid
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.product_data import instances
@@ -26,28 +27,11 @@ from tvimdesign.cad.inspection.milling import milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
-from tvimdesign.cad.inspection.samples import samples
 from tvimdesign.cad.inspection.walls import wall_checks
 from tvimdesign.cad.parts.common_parts import mounts
 from tvimdesign.study.design import Design
 
 BED = (220.0, 220.0, 250.0)
-
-
-def box(x: float, y: float, z: float) -> cq.Workplane:
-    """A box that stands on z = 0."""
-    return cq.Workplane().box(x, y, z, centered=(True, True, False))
-
-
-def one_solid(work: cq.Workplane) -> cq.Solid:
-    solid = work.val()
-    assert isinstance(solid, cq.Shape)
-    return solid.Solids()[0]
-
-
-def of(checks: list[SolidCheck]) -> dict[str, SolidCheck]:
-    """The checks by what they are about."""
-    return {check.name.split(": ")[1]: check for check in checks}
 
 
 def walls(work: cq.Workplane) -> dict[str, SolidCheck]:
@@ -68,33 +52,6 @@ def milled(work: cq.Workplane) -> dict[str, SolidCheck]:
 def place_of(check: SolidCheck) -> Any:
     assert check.place is not None
     return np.array(check.place)
-
-
-# --- rays and samples ------------------------------------------------------------------------------------------------
-
-
-def test_rays_meet_a_box_where_its_faces_are() -> None:
-    half = np.array([7.0, 4.0, 2.5])
-    triangles = Triangles(solid_mesh(one_solid(cq.Workplane().box(*(2.0 * half)))))
-    draw = np.random.default_rng(1)
-    origins = draw.uniform(-0.99, 0.99, (500, 3)) * half
-    directions = draw.normal(size=(500, 3))
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
-    hits = triangles.first_hits(origins, directions)
-    expected = np.min((np.sign(directions) * half - origins) / directions, axis=1)
-    assert hits.distance == pytest.approx(expected, abs=1e-9)
-    outside = triangles.first_hits(origins + np.array([30.0, 0.0, 0.0]), np.tile([1.0, 0.0, 0.0], (500, 1)))
-    assert outside.missed.all()
-
-
-def test_no_point_of_the_surface_is_further_from_a_sample_than_the_spacing() -> None:
-    triangles = Triangles(solid_mesh(one_solid(box(23.0, 11.0, 5.0))))
-    found = samples(triangles, 1.5)
-    assert found.area.sum() == pytest.approx(2.0 * (23.0 * 11.0 + 23.0 * 5.0 + 11.0 * 5.0))
-    asked = np.random.default_rng(2).uniform(-0.5, 0.5, (300, 2)) * [23.0, 11.0]
-    top = found.point[found.normal[:, 2] > 0.9][:, :2]
-    away = np.linalg.norm(asked[:, None, :] - top[None, :, :], axis=2).min(axis=1)
-    assert away.max() < 1.5
 
 
 # --- walls -----------------------------------------------------------------------------------------------------------

@@ -71,19 +71,23 @@ def test_a_sheet_is_below_its_mean_as_a_fin_whose_edge_is_cooled(slenderness: fl
     )
     fine = np.linspace(0.0, 1.0, 4001)
     mean = np.trapezoid(found.sol(fine)[0], fine)
-    for place in columns.PLACES:
+    for place in columns.DENSE.places:
         assert columns.in_sheet(place, slenderness) == pytest.approx((mean - found.sol(place)[0]) / mean, abs=2e-4)
     if slenderness < 0.1:
-        for place in columns.PLACES:
+        for place in columns.DENSE.places:
             assert columns.fed_evenly(place) == pytest.approx(columns.in_sheet(place, slenderness), abs=1e-3)
 
 
-def test_columns_have_no_mean_of_their_own() -> None:
+@pytest.mark.parametrize("them", [columns.EVEN, columns.DENSE])
+def test_columns_have_no_mean_of_their_own(them: columns.Columns) -> None:
     heights = np.array([0.2, 0.5, 0.8])
     for shape in (columns.fed_evenly, lambda place: columns.in_sheet(place, 1.5)):
-        assert np.dot(columns.SHARES, [shape(place) for place in columns.PLACES]) == pytest.approx(0.0, abs=1e-3)
-    ends = np.array([columns.at_end(place, heights, 3.0, 0.1) for place in columns.PLACES])
-    assert columns.SHARES @ ends == pytest.approx(np.zeros(3), abs=0.02)
+        assert np.dot(them.shares, [shape(place) for place in them.places]) == pytest.approx(0.0, abs=1e-3)
+    ends = np.array([columns.at_end(place, heights, 3.0, 0.1) for place in them.places])
+    assert them.shares @ ends == pytest.approx(np.zeros(3), abs=0.02)
+    beside = np.array(columns.beside_wall(heights, 3.0, 0.01, 0.1, 0.9))
+    assert columns.DENSE.shares @ beside == pytest.approx(np.ones(3))
+    assert np.all(np.diff(beside, axis=0) < 0.0)
 
 
 @pytest.mark.parametrize("onward", [0.005, 0.02, 0.08, 0.5])

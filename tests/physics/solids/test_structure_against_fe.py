@@ -303,7 +303,8 @@ def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     block = vane.BlockBetween(moduli, depths, (mm["block_width"], mm["block_height"]), free)
     hanging, webs = mm["vane_thickness"], 2.0 * mm["slot_web"] * mm.get("slot_count", 1.0)
     standing = mm["housing_vane_thickness"]
-    plate = vane.on_plate(mm["rotor_thickness"], vane.strip_beside(middle(mm), mm["vane_count"], hanging))
+    strip = vane.strip_beside(middle(mm), mm["vane_count"], hanging)
+    plate = vane.on_plate(mm["rotor_thickness"], strip, mm["rotor_rim"])
     ground = vane.on_floor(mm["floor_thickness"], vane.strip_beside(middle(mm), mm["vane_count"], standing))
     hangs = vane.on_footing((youngs, shear), (mm["block_width"], hanging), block, plate)
     stands = vane.on_footing((youngs, shear), (webs, standing), block, ground)

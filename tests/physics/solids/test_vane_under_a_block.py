@@ -75,6 +75,16 @@ def test_a_root_s_moment_turns_the_plate_as_it_does_a_beam_on_which_six_alike_st
     assert found.aside == 0.0
 
 
+def test_a_rim_beyond_the_vane_bends_with_its_strips() -> None:
+    # As wide again as the vane, half the turn; pushed aside, the rim is no help.
+    def on(rim: float) -> vane.Vane:
+        footing = vane.Footing(4e-3, 8e-3, 0.0, 1.0, 2.0, rim)
+        return vane.on_footing((YOUNGS, SHEAR), (WIDTH, THICKNESS), between(1e-9), footing)
+
+    assert on(WIDTH).leaning == pytest.approx(0.5 * on(0.0).leaning, rel=1e-12)
+    assert on(WIDTH).aside == on(0.0).aside
+
+
 def between(modulus: float) -> vane.BlockBetween:
     return vane.BlockBetween((modulus, modulus), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
 

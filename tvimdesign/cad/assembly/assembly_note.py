@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -107,8 +108,14 @@ def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:
 
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
     """Steps of a module of these kinds of part, in order, as the data file has them."""
+    return [step for step in told() if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))]
+
+
+@cache
+def told() -> list[dict[str, Any]]:
+    """All steps of the data file."""
     written: list[dict[str, Any]] = yaml.safe_load(_STEPS.read_text("utf-8"))
-    return [step for step in written if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))]
+    return written
 
 
 class _Figures(dict[str, Any]):

@@ -29,10 +29,13 @@ def product(design: Design, kind: str) -> Product:
 
 def instances(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, cq.Solid],
-    known: Mapping[str, Mesh] | None = None,
+    known: Mapping[str, Mesh] | None = None, rotor_angle: float = 0.0,
 ) -> dict[str, Instance]:  # fmt: skip
-    """Mesh and place of every part at rest, by name; `known` are meshes of drawn parts that are made already."""
-    meshes = part_meshes(drawn, installed_coils(dims), known or {})
+    """Mesh and place of every part, by name; `placed` are the solids with the rotor at its angle [rad].
+
+    `known` are meshes of drawn parts that are made already.
+    """
+    meshes = part_meshes(drawn, installed_coils(dims, rotor_angle), known or {})
     return {name: Instance(meshes[kind_of(name)], placement(solid.location())) for name, solid in placed.items()}
 
 

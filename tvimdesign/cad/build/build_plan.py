@@ -71,10 +71,10 @@ def build_plan(dims: Dimensions) -> list[Work]:
         if is_of_structure(kind)
     ]
     return [
+        Work(name=PICTURES, do=_pictures, needs=kinds),  # begun before all else, once the parts are there
         *parts,
         *springs,
         Work(name="sizes", do=_sizes, needs=kinds),
-        Work(name=PICTURES, do=_pictures, needs=kinds),
         *clearances,
         *inspections,
         *(Work(name=kind, do=partial(_fixture, kind)) for kind in casting_jig.DRAWN),
@@ -166,7 +166,7 @@ def _sizes(job: Job) -> list[SolidCheck]:
 
 
 def _clearances(share: float, job: Job) -> list[SolidCheck]:
-    return clearance_checks(job.dims, _solids(job.needs), share, job.progress)
+    return clearance_checks(job.dims, _solids(job.needs), share, job.progress, _meshes(job.needs))
 
 
 def _inspect(kind: str, job: Job) -> list[SolidCheck]:

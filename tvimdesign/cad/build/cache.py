@@ -32,7 +32,7 @@ _HALF_MADE = 3600.0
 """Seconds after which a result that is not finished never will be."""
 _TRACE = "trace.json"
 _WRITABLE_BY_OTHERS = 0o022
-_LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "matplotlib", "numpy", "trimesh", "vtk")
+_LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "llvmlite", "manifold3d", "matplotlib", "numpy", "trimesh", "vtk")
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The child process that makes the parts: `python -m tvimdesign.cad.build.main DESIGN OUT`, a line of JSON a step.
+"""The child process that makes the parts: a line of JSON a step; `make.py` is the other end.
 
 It runs on its own because the CAD kernel can take a process with it, and starts a child of its own for every piece of
 work (`work.py`), because an operation of the kernel can hang.
@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import asdict
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -23,12 +24,15 @@ from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
-from tvimdesign.cad.make import HALF_MADE
+from tvimdesign.cad.make import HALF_MADE, WAITING
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
 
 if TYPE_CHECKING:
     from tvimdesign.cad.build.cache import Result
+
+_NEEDED = "tvimdesign.cad.build.build_plan"
+"""What loads the CAD kernel, and all that draws with it."""
 
 
 def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
@@ -111,12 +115,24 @@ def _hand_out(result: Result, out: Path) -> None:
 
 
 def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] = run) -> int:
-    """Run a job, which makes all parts unless told; returns the exit code. An error is a line of JSON too."""
+    """Run a job, which makes all parts unless told; returns the exit code. An error is a line of JSON too.
+
+    Told to wait, it loads the CAD kernel, and reads a line of JSON with the other arguments from standard input.
+    """
     follow_parent()
     # The kernel prints to standard output from C++; the parent reads only what is written to this copy of it.
     lines = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     try:
+        if arguments == [WAITING]:
+            from tvimdesign.cad.build.warm_up import warm_up
+
+            import_module(_NEEDED)
+            warm_up()
+            line = sys.stdin.readline()
+            if not line:
+                return 0
+            arguments = json.loads(line)
         design_path, out = (Path(argument) for argument in arguments[:2])
         job(design_path, out, float(arguments[2]), lines)
     except TvimError as error:

@@ -127,7 +127,7 @@ class DrawingRequirements:
 
 def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> DrawingRequirements:
     """What the drawing of a kind of part asks for, by the module's process."""
-    reported, method = _told(), choices["making_method"]
+    reported, method = told(), choices["making_method"]
     seats = [
         one for one in reported["seats"].get(kind, ())
         if _is_there(one, dims) and (method == "milled" or one.get("printed"))
@@ -175,7 +175,7 @@ def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tu
 def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
     """What else is said of a kind of part, for the choices of its design."""
     tang_hole = figure(dims.wire_diameter + 2.0 * dims.tang_clearance)
-    written = _told()["remarks"].get(kind, ())
+    written = told()["remarks"].get(kind, ())
     return [
         one["text"].format(tang_hole=tang_hole) for one in written
         if all(choices.get(name) == word for name, word in one["choices"].items())
@@ -237,6 +237,7 @@ def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> T
 
 
 @cache
-def _told() -> dict[str, Any]:
+def told() -> dict[str, Any]:
+    """What the data file says of the parts' drawings."""
     reported: dict[str, Any] = yaml.safe_load(_DATA.read_text(encoding="utf-8"))
     return reported

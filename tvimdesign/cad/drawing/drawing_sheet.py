@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import io
 import random
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from typing import Any
 
 import ezdxf
 import matplotlib as mpl
 from ezdxf.addons.drawing.config import BackgroundPolicy, ColorPolicy, Configuration, LineweightPolicy
 from ezdxf.addons.drawing.frontend import Frontend
-from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
-from ezdxf.addons.drawing.properties import BackendProperties, RenderContext
+from ezdxf.addons.drawing.properties import RenderContext
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.fonts import fonts
-from ezdxf.npshapes import NumpyPath2d, to_matplotlib_path
-from matplotlib.backends.backend_pdf import FigureCanvasPdf
-from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
+
+from tvimdesign.cad.drawing.pdf_page import PdfPage
 
 Point = tuple[float, float]
 SIZE = (420.0, 297.0)
@@ -40,7 +37,6 @@ TITLE_WIDTH, MARGIN = 180.0, 10.0
 TITLE_ROW = 8.0
 _TEXT = 2.5
 """Height of letters and figures on paper [mm]."""
-_INCH = 25.4
 
 
 @dataclass(frozen=True)
@@ -151,39 +147,19 @@ class DrawingSheet:
 
     def pdf(self) -> bytes:
         """The sheet as PDF in its true size."""
-        figure = Figure(figsize=(self.size[0] / _INCH, self.size[1] / _INCH))
-        FigureCanvasPdf(figure)
-        axes = figure.add_axes((0, 0, 1, 1))
-        axes.set_axis_off()
         look = Configuration(
             background_policy=BackgroundPolicy.WHITE, color_policy=ColorPolicy.BLACK,
             lineweight_policy=LineweightPolicy.ABSOLUTE, lineweight_scaling=1.0,
         )  # fmt: skip
-        backend = _Backend(axes, adjust_figure=False)
+        page = PdfPage(self.size, self.scale)
         with _fixed_chance():
-            Frontend(RenderContext(self.document), backend, config=look).draw_layout(self.space, finalize=True)
-        axes.set_aspect("auto")
-        axes.set_xlim(0.0, self.size[0] / self.scale)
-        axes.set_ylim(0.0, self.size[1] / self.scale)
-        stream = io.BytesIO()
-        says: dict[str, Any] = {"CreationDate": None, "Creator": "tvimdesign", "Producer": "tvimdesign"}
-        figure.savefig(stream, format="pdf", metadata=says)
-        return stream.getvalue()
+            Frontend(RenderContext(self.document), page, config=look).draw_layout(self.space, finalize=True)
+        return page.bytes()
 
 
 def ratio(scale: float) -> str:
     """A scale as it is written on a drawing."""
     return f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}"
-
-
-class _Backend(MatplotlibBackend):
-    """Fills letters by the sense in which their outlines run, as fonts mean it; ⌀ has two holes side by side."""
-
-    def draw_filled_paths(self, paths: Iterable[NumpyPath2d], properties: BackendProperties) -> None:
-        """Fill one letter."""
-        filled = to_matplotlib_path(paths, detect_holes=False)
-        # An artist and no patch: the axes would search each letter for its extremes, and the sheet's size is known.
-        self.ax.add_artist(PathPatch(filled, color=properties.color, linewidth=0, zorder=self._get_z()))
 
 
 @contextmanager
@@ -208,6 +184,7 @@ def _fixed_chance() -> Iterator[None]:
         random.setstate(before)
 
 
+@cache
 def _use_own_font() -> None:
     """Let drawings use the one font that is there on every machine, whatever else is installed."""
     folder = Path(mpl.get_data_path()) / "fonts" / "ttf"

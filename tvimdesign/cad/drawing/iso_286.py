@@ -39,7 +39,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
         return Limits(-0.5 * width, 0.5 * width)
     if letter in ("H", "h"):
         return Limits(0.0, width) if letter == "H" else Limits(-width, 0.0)
-    off = _MICRON * _at(_told()["deviations"][letter.lower()], size)
+    off = _MICRON * _at(told()["deviations"][letter.lower()], size)
     if letter == "k":
         return Limits(off, off + width)
     return Limits(off - width, off) if letter == "g" else Limits(-off, -off + width)
@@ -47,7 +47,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
 
 def standard_tolerance(grade: int, size: float) -> float:
     """Standard tolerance [mm] of a grade at a size [mm]."""
-    grades = _told()["grades"]
+    grades = told()["grades"]
     if grade not in grades:
         raise GeometryError(f"tolerance grade IT{grade} is not in {_DATA.name}: it has {', '.join(map(str, grades))}")
     return _MICRON * _at(grades[grade], size)
@@ -55,7 +55,7 @@ def standard_tolerance(grade: int, size: float) -> float:
 
 def _at(row: Sequence[int], size: float) -> int:
     """Value of a row of the table at a size [mm]."""
-    ends = (0.0, *_told()["up_to"])
+    ends = (0.0, *told()["up_to"])
     # What is a hair off a range's end for rounding belongs to the range.
     for value, (over, up_to) in zip(row, pairwise(ends), strict=True):
         if over < size <= up_to + _HAIR:
@@ -64,6 +64,7 @@ def _at(row: Sequence[int], size: float) -> int:
 
 
 @cache
-def _told() -> dict[str, Any]:
+def told() -> dict[str, Any]:
+    """What the data file has of ISO 286."""
     reported: dict[str, Any] = yaml.safe_load(_DATA.read_text(encoding="utf-8"))
     return reported

@@ -15,10 +15,13 @@ from OCP.GProp import GProp_GProps
 
 from tvimdesign.cad.assembly.assembly import place
 from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.product_data import instances
 from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.export.mesh import Mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, kind_of
 from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.cad.inspection.apart import PlacedBodies
 from tvimdesign.device.core.springs.leg_on_pin import pin_distance
 from tvimdesign.study.design import Design
 
@@ -61,15 +64,20 @@ def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid])
 
 
 def clearance_checks(
-    dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, say: Callable[[str], None]
-) -> list[SolidCheck]:
-    """Hold every part against every other one at rest; at a share of the stroke, those that do not move together."""
+    dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, say: Callable[[str], None],
+    known: Mapping[str, Mesh] | None = None,
+) -> list[SolidCheck]:  # fmt: skip
+    """Hold every part against every other one at rest; at a share of the stroke, those that do not move together.
+
+    `known` are meshes of the drawn parts that are made already, by kind.
+    """
     where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
     say(f"interference {where}")
     placed = place(dims, drawn, share * dims.stroke, say)
-    if share == 0.0:
+    if share == 0.0:  # most parts touch: to tell the others apart takes as long as to hold them against each other
         return list(interference_checks(placed, where))
-    return list(interference_checks(placed, where, lambda a, b: not _together(dims.mode, a, b)))
+    bodies = PlacedBodies(instances(dims, drawn, placed, known, share * dims.stroke))
+    return list(interference_checks(placed, where, lambda a, b: not _together(dims.mode, a, b), bodies.apart))
 
 
 def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
@@ -114,24 +122,28 @@ def bearing_checks(dims: Dimensions) -> Iterator[SolidCheck]:
 
 
 def interference_checks(
-    placed: Mapping[str, cq.Solid], where: str, wanted: Callable[[str, str], bool] = lambda _a, _b: True
-) -> Iterator[SolidCheck]:
-    """Common volume of every wanted pair whose boxes overlap; one check that says how many pairs are apart."""
+    placed: Mapping[str, cq.Solid], where: str, wanted: Callable[[str, str], bool] = lambda _a, _b: True,
+    apart: Callable[[str, str], bool] = lambda _a, _b: False,
+) -> Iterator[SolidCheck]:  # fmt: skip
+    """Common volume of every wanted pair whose boxes overlap; one check that says how many pairs are not.
+
+    Of pairs that are surely `apart` it is nothing, and is not computed.
+    """
     boxes = {name: solid.BoundingBox() for name, solid in placed.items()}
-    apart = 0
+    beside = 0
     for first, second in combinations(placed, 2):
         if not wanted(first, second):
             continue
         if not _overlap(boxes[first], boxes[second]):
-            apart += 1
+            beside += 1
             continue
-        common, place = _common(placed[first], placed[second])
+        common, place = (0.0, None) if apart(first, second) else _common(placed[first], placed[second])
         text = f"{first} and {second} share {common:.4g} mm3 {where}"
         yield SolidCheck(
             f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text,
             part=f"{first}, {second}", place=place or _between(boxes[first], boxes[second]), unit="mm³",
         )  # fmt: skip
-    yield SolidCheck(f"pairs apart {where}", apart, 0.0, True, f"{apart} pairs are apart by their boxes {where}")
+    yield SolidCheck(f"pairs apart {where}", beside, 0.0, True, f"{beside} pairs are apart by their boxes {where}")
 
 
 def _common(first: cq.Solid, second: cq.Solid) -> tuple[float, Place | None]:

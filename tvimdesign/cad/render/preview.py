@@ -10,10 +10,11 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.export.mesh import Instance, solid_mesh
+from tvimdesign.cad.export.mesh import Instance
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
 from tvimdesign.cad.render.camera import look, renderer_on_white
+from tvimdesign.cad.render.cut import Cutter, without
 from tvimdesign.cad.render.render import actors, legend, legend_height, write_png
 
 _SIZE = (1800, 800)
@@ -25,8 +26,10 @@ _HIDDEN = ("link", "link_dowel", "cover", "cover_screw")
 def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, Instance]) -> None:
     """Write the picture as PNG, whole or not at all."""
     opened = {name: instance for name, instance in placed.items() if kind_of(name) not in _HIDDEN}
+    size = 2.0 * dims.envelope_diameter + dims.envelope_height
+    quarter = Cutter([(0.0, -size), (size, -size), (size, 0.0), (0.0, 0.0)], -size, size)  # faces the camera
     for name in _CUT:
-        opened[name] = Instance(solid_mesh(_without_quarter(drawn[name], dims)), np.eye(4))
+        opened[name] = Instance(without(name, placed[name], quarter, drawn[name]), np.eye(4))
     kinds = MODULES[dims.mode].kinds(dims)
     views = []
     below = legend_height(kinds, _SIZE)
@@ -36,12 +39,6 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
         renderer.SetViewport(left, below, right, 1.0)
         views.append(renderer)
     write_png(path, _SIZE, [*views, legend(kinds, _SIZE)])
-
-
-def _without_quarter(solid: cq.Solid, dims: Dimensions) -> cq.Solid:
-    """The part without the quarter that faces the camera."""
-    size = 2.0 * dims.envelope_diameter + dims.envelope_height
-    return solid.cut(cq.Solid.makeBox(size, size, 2.0 * size, cq.Vector(0, -size, -size)))
 
 
 def _view(placed: Mapping[str, Instance], aspect: float) -> vtkRenderer:

@@ -13,9 +13,10 @@ from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPlaneCollection, vtkPolyD
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface
 
-from tvimdesign.cad.export.mesh import Instance, solid_mesh
+from tvimdesign.cad.export.mesh import Instance
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
 from tvimdesign.cad.render.camera import renderer_on_white, write_view
+from tvimdesign.cad.render.cut import Cutter, without
 from tvimdesign.cad.render.render import actors, poly_data, surface_actors
 
 _SIZE = (1500, 750)
@@ -40,8 +41,8 @@ def write_section(path: Path, solids: Mapping[str, cq.Solid], placed: Mapping[st
         elif _apart(instance, first, last):
             shown = actors(instance.mesh, instance.matrix, colour)
         else:
-            left = solids[name].cut(cutter)
-            shown = actors(solid_mesh(left), np.eye(4), colour) if left.Solids() else ()
+            left = without(name, instance, cutter, solids[name])
+            shown = actors(left, np.eye(4), colour) if len(left.faces) else ()
         for actor in shown:
             renderer.AddActor(actor)
     towards = 0.5 * (first + last)
@@ -67,14 +68,12 @@ def _azimuth(instance: Instance) -> float:
     return float(np.arctan2(y, x))
 
 
-def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> cq.Solid:
+def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> Cutter:
     """A sector about the axis that reaches beyond every part."""
     points = np.vstack([one.points() for one in placed.values()])
     low, high, reach = points[:, 2].min() - 1.0, points[:, 2].max() + 1.0, 4.0 * float(np.abs(points).max())
     corners = [(0.0, 0.0), *((reach * cos(a), reach * sin(a)) for a in np.linspace(first, last, 4))]
-    body = cq.Workplane().workplane(offset=low).polyline(corners).close().extrude(high - low).val()
-    assert isinstance(body, cq.Solid)
-    return body
+    return Cutter(corners, low, high)
 
 
 def _outwards(first: float, last: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:

@@ -33,6 +33,12 @@ def moment_now(
     return blocks_moment(shape_factor / share, vane_count, block_area, pcl_mean_radius)
 
 
+@quantities.helper()
+def column_shares() -> tuple[float, ...]:
+    """What of a block's height each row stands for [1]."""
+    return columns.EVEN.shares
+
+
 @quantities.helper(instant=True)
 def layer_temperatures(
     stack_profile: heat.Profile,
@@ -56,7 +62,7 @@ def layer_temperatures(
     return [
         stack_profile.cells
         - across * rows.below_mean(2.0 * place - 1.0, depths, 2.0 * block_depth / block_height, lost)
-        for place in columns.PLACES
+        for place in columns.EVEN.places
     ]
 
 

@@ -43,11 +43,12 @@ def rotor_vane(
     vane_web: Scalar,
     block_between: vane.BlockBetween,
     rotor_thickness: Scalar,
+    rotor_rim: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
 ) -> vane.Vane:
     """How one vane of the rotor gives, and the plate under its root."""
-    footing = vane.on_plate(rotor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, vane_thickness))
+    footing = vane.on_plate(rotor_thickness, vane.strip_beside(pcl_mean_radius, vane_count, vane_thickness), rotor_rim)
     moduli = structure_youngs_modulus, structure_shear_modulus
     return vane.on_footing(moduli, (block_width, vane_web), block_between, footing)
 

@@ -12,11 +12,11 @@ import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
+from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
-from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
@@ -164,51 +164,37 @@ def stack_links(
 
 
 @quantities.helper()
-def air_beside(
+def below_lips(
+    melt_lip: str,
+    melt_lip_height: Scalar,
+    rotor_rim: Scalar,
+    beside_area: Scalar,
+    edge_length: Scalar,
     pcl_thickness: Scalar,
-    pcl_conductivity_melt: Scalar,
-    pad_edge_contact: Scalar,
+    running_clearance: Scalar,
     air_conductivity: Scalar,
-    surface_emissivity: Scalar,
-    ambient_temperature: Scalar,
-    pcl_melting: polymer.Melting,
-) -> tuple[Scalar, Scalar]:
-    """Of the gap's air at the layer's free side the conductivity [W/m K], in series with the layer's; and the slot's
-    width over the gap's.
+    structure_conductivity: Scalar,
+) -> tuple[Scalar, ...]:
+    """What lips make the gap beside the arcs conduct better before each body of the strip [W/K].
 
-    The gap conducts better up than along, as its faces radiate, here as where the PCL is molten: it is an even one of
-    the mean conductivity sqrt(k_x k_y), x stretched by sqrt(k_y/k_x). The contact of the pads' edges is a slot of
-    still air.
+    They reach over the first of these, smoothly as they get wider than that, and on over the next.
     """
-    across = lumps.air_gap(1.0, pcl_thickness, air_conductivity, surface_emissivity, ("hot", 0), ("around", CORNER))
-    up = pcl_thickness * lumps.link_conductance(across, pcl_melting.end, ambient_temperature)
-    evenly = np.sqrt(air_conductivity * up)
-    return lumps.in_series(evenly, pcl_conductivity_melt), evenly / (pad_edge_contact * pcl_thickness)
-
-
-@quantities.helper()
-def side_links(
-    edge_length: Scalar, air_beside: tuple[Scalar, Scalar], structure_conductivity: Scalar
-) -> tuple[Link, ...]:
-    """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
-
-    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
-    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side.
-    """
-    conductivity, slot = air_beside
-    near, far = lumps.gap_end(slot)
-    through = edge_length * conductivity
-    corner = structure_conductivity * edge_length * lumps.corner_shape(near)
-    inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
-    return (
-        Link(("hot", 0), ("around", CORNER), lumps.in_series(near * through, corner), of_layer=inside),
-        Link(("hot", 0), ("beside", 0), far * through, of_layer=inside),
-    )
+    if melt_lip == NO_LIP:
+        return (0.0,) * len(STRIP)
+    lip = 1.0 / (running_clearance / air_conductivity + melt_lip_height / structure_conductivity)
+    more, left, found = lip - air_conductivity / pcl_thickness, rotor_rim, []
+    for share in STRIP:
+        width = share * beside_area / edge_length
+        covered = width * np.tanh(left / width)
+        found.append(more * covered * edge_length)
+        left = left - covered
+    return tuple(found)
 
 
 @quantities.helper()
 def plate_losses(
     beside_area: Scalar,
+    below_lips: tuple[Scalar, ...],
     pcl_thickness: Scalar,
     air_conductivity: Scalar,
     housing_coefficient: Scalar,
@@ -219,7 +205,7 @@ def plate_losses(
     rotor_thickness: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[lumps.Loss, ...]:
-    """Air between plate and floor beside the arcs, as thick as the layer, and what is below it.
+    """Air between plate and floor beside the arcs, as thick as the layer or less below lips, and what is below it.
 
     On the way lie a third of the plate's depth and half of the upper strip's.
     """
@@ -232,5 +218,6 @@ def plate_losses(
         area = share * beside_area
         gap = lumps.air_gap(area, pcl_thickness, air_conductivity, surface_emissivity,
                             ("beside", above), ("around", floor))  # fmt: skip
+        gap = gap._replace(conductance=gap.conductance + below_lips[above])
         found.append(lumps.Loss(lumps.behind(gap, area / faces, ambient_temperature), onward * area))
     return tuple(found)

@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER
+from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import columns, heat, peltier
 
 quantities = QuantityGroup(shared.group)
+
+
+def across(cold_end: ColdEnd | None) -> columns.Columns:
+    """Columns of the layer, with a lip at its end or without."""
+    return columns.EVEN if cold_end is None else columns.DENSE
+
+
+@quantities.helper()
+def column_shares(cold_end: ColdEnd | None) -> tuple[float, ...]:
+    """What of the arcs' width each column stands for [1]."""
+    return across(cold_end).shares
 
 
 @quantities.helper(instant=True)
@@ -23,6 +37,8 @@ def edge_drops(
     heater_along: Scalar,
     plate_to_edge: Scalar,
     uneven_sideways: Scalar,
+    cold_end: ColdEnd | None,
+    edge_length: Scalar,
 ) -> tuple[Scalar, Scalar]:
     """How far the edges of the pads' hot side and of the plate's face are below their means [K], by what they lose."""
     now, corner = stack_profile, stack_profile.around[CORNER]
@@ -31,8 +47,11 @@ def edge_drops(
         side = 0.5 * (now.hot + peltier.legs_temperature(now.hot, now.legs[0], now.cold))
     mean = np.mean(now.plate)
     even = stack.beside[0].conductance * (mean - now.beside[0])
+    given = pad_wall * (side - corner)
+    if cold_end is not None:
+        given = given + edge_length * cold_end.near * (now.hot - cold_end.edge(now))
     return (
-        pad_wall * (side - corner) / heater_along,
+        given / heater_along,
         (even + uneven_sideways * (now.plate[0] - mean)) / plate_to_edge,
     )
 
@@ -43,6 +62,7 @@ def layer_temperatures(
     stack: heat.Stack,
     edge_drops: tuple[Scalar, Scalar],
     air_beside: tuple[Scalar, Scalar],
+    cold_end: ColdEnd | None,
     plate_slenderness: Scalar,
     pcl_area: Scalar,
     edge_length: Scalar,
@@ -52,18 +72,34 @@ def layer_temperatures(
     """Temperatures of the layer's slices [K], in columns from the middle of an arc to its edge.
 
     The hot side's edge is colder, and so is the plate's; between them the layer falls evenly. At its free side it gives
-    heat to the gap.
+    heat to the gap or a lip.
     """
     count = len(stack_profile.cells)
     heights = (np.arange(count) + 0.5) / count
-    conductivity, slot = air_beside
     width = pcl_area / edge_length / pcl_depth
-    excess = conductivity / pcl_conductivity_melt * (stack_profile.hot - stack_profile.around[CORNER])
+    ends = _at_end(stack_profile, heights, width, air_beside, cold_end, pcl_conductivity_melt)
     pads, plate = edge_drops
     share = columns.way_through(stack, heights)
     found = []
-    for place in columns.PLACES:
+    for place, end in zip(across(cold_end).places, ends, strict=True):
         near, far = pads * columns.fed_evenly(place), plate * columns.in_sheet(place, plate_slenderness)
-        end = excess * columns.at_end(place, heights, width, slot)
-        found.append(stack_profile.cells - (near + (far - near) * share + end))
+        found.append(end - (near + (far - near) * share))
     return found
+
+
+def _at_end(
+    now: heat.Profile,
+    heights: Any,
+    width: Scalar,
+    air_beside: tuple[Scalar, Scalar],
+    cold_end: ColdEnd | None,
+    pcl_conductivity_melt: Scalar,
+) -> list[Scalar]:
+    """Temperatures of the slices in each column [K], by what leaves the layer at its end alone."""
+    if cold_end is not None:
+        lip = cold_end.edge(now)
+        warmer = columns.beside_wall(heights, width, cold_end.contact, cold_end.free, cold_end.share)
+        return [lip + (now.cells - lip) * one for one in warmer]
+    conductivity, slot = air_beside
+    excess = conductivity / pcl_conductivity_melt * (now.hot - now.around[CORNER])
+    return [now.cells - excess * columns.at_end(place, heights, width, slot) for place in columns.EVEN.places]

@@ -43,9 +43,11 @@ def plate_outside(pcl_area: Scalar, rotor_coefficient: Scalar, surface_emissivit
 
 
 @quantities.helper()
-def plate_mass(rotor_radius: Scalar, rotor_thickness: Scalar, structure_density: Scalar) -> Scalar:
-    """Mass of the rotor plate [kg]: above the arcs, and beside them."""
-    return np.pi * rotor_radius**2 * rotor_thickness * structure_density
+def plate_mass(
+    rotor_radius: Scalar, rotor_thickness: Scalar, melt_lip_moments: Section, structure_density: Scalar
+) -> Scalar:
+    """Mass of the rotor plate [kg]: above the arcs, and beside them with its lips."""
+    return (np.pi * rotor_radius**2 * rotor_thickness + melt_lip_moments.area) * structure_density
 
 
 @quantities.output("mm")
@@ -114,17 +116,19 @@ def rotor_beside(
     edge_length: Scalar,
     plate_to_edge: Scalar,
     rotor_thickness: Scalar,
+    melt_lip_moments: Section,
     structure_conductivity: Scalar,
     structure_density: Scalar,
     structure_specific_heat: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[lumps.Lump, ...]:
-    """Rotor plate beside the arcs: a strip along their edges."""
+    """Rotor plate beside the arcs: a strip along their edges, as deep as with its lips spread over it."""
+    depth = rotor_thickness + melt_lip_moments.area / beside_area
     sheet = structure_conductivity * rotor_thickness
     first, *others = lumps.strip(
         beside_area,
-        rotor_thickness * structure_density * structure_specific_heat,
+        depth * structure_density * structure_specific_heat,
         sheet * edge_length**2 / beside_area,
         lumps.Surface(1.0, rotor_coefficient, surface_emissivity, rotor_thickness / 3.0 / structure_conductivity),
     )

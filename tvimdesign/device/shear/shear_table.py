@@ -10,6 +10,7 @@ from tvimdesign.device.shear import (
     floor_heat,
     keys,
     layer_columns,
+    layer_end,
     layer_heat,
     layer_impedance,
     layer_shrinkage,
@@ -25,8 +26,8 @@ from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 ROOMS = (
-    rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, floor_heat, arc_volumes, arc_clearances,
-    melt_retention, tile_heat,
+    rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, floor_heat, arc_volumes,
+    arc_clearances, melt_retention, tile_heat,
 )  # fmt: skip
 GROUPS = (*tiles.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

@@ -17,7 +17,8 @@ export function draftOf(place) {
   let shown = null;
   return {
     show(message) {
-      words.textContent = message.words ? `No draft: ${message.words}` : "";
+      words.textContent = message.words ? `${shown ? "The drawing is the last module that could be drawn. " : ""}No draft: ${message.words}` : "";
+      place.classList.toggle("stale", Boolean(message.words));
       if (message.words) {
         if (!shown) place.replaceChildren(words);
         return;

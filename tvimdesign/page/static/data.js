@@ -11,16 +11,19 @@ export function dataOf(name) {
 /** The bytes that a figure carries, unpacked; null where it has none. */
 export async function binaryOf(name) {
   const held = document.getElementById(`binary-${name}`);
-  if (!held) return null;
+  return held ? unpacked(held) : null;
+}
+
+/** What an element of the page holds packed. */
+export function unpacked(held) {
   const packed = Uint8Array.from(atob(held.textContent), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
 /** Take other data and meshes from now on: a page that is open was given another design. */
 export function replaceData(data, binaries) {
   all = data;
-  for (const old of document.querySelectorAll("script[type='application/gzip']")) old.remove();
+  for (const old of document.querySelectorAll("script[type='application/gzip'][id]")) old.remove();
   for (const [name, packed] of Object.entries(binaries)) {
     const held = document.createElement("script");
     held.type = "application/gzip";

@@ -1,9 +1,11 @@
 // Starts the page: tables that sort, figures once they come near the screen or nothing else is to be done.
 import { draw, drawWhenNear } from "page/figures.js";
+import { serveFiles } from "page/files.js";
 import { makeSortable } from "page/tables.js";
 
 /** Bring the page to life; without it all text and tables are there as they are. */
 export function start() {
+  serveFiles();
   const all = bring(document);
   document.documentElement.dataset.ready = "yes";
   all.then(() => { document.documentElement.dataset.ready = "all"; });

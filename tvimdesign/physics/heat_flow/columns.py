@@ -7,17 +7,34 @@ Fundamentals of Heat and Mass Transfer, ch. 3), and sines over its depth (Carsla
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tvimdesign.physics.heat_flow.lumps import gap_end_depth
 from tvimdesign.physics.heat_flow.stack import Stack
+from tvimdesign.physics.heat_flow.walled_end import fallen
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
-PLACES, SHARES = tuple(0.5 * (1.0 + _NODES)), tuple(0.5 * _WEIGHTS)
-"""Columns, from the middle (0) to the edge (1) of the strip, and what of its width each stands for (Gauss)."""
 SINES = 3
+
+
+class Columns(NamedTuple):
+    """Columns of a strip: where they stand, and what of its width each stands for."""
+
+    places: tuple[float, ...]
+    """From the middle (0) to the edge (1)."""
+    shares: tuple[float, ...]
+
+
+def _by_root(count: int, power: float) -> Columns:
+    """So many of Gauss's nodes in a root of the way from the edge."""
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    root = 0.5 * (1.0 - nodes)
+    return Columns(tuple(1.0 - root**power), tuple(0.5 * power * weights * root ** (power - 1.0)))
+
+
+EVEN, DENSE = _by_root(4, 1.0), _by_root(4, 2.0)
+"""For a layer whose end closes a gap; for one that a wall cools, whose profile is steep there."""
 
 
 def way_through(stack: Stack, heights: Any) -> Any:
@@ -63,3 +80,18 @@ def at_end(place: float, heights: Any, width: Any, slot: Any) -> Any:
         falls = np.exp(-(1.0 - place) * whole) * (1.0 + np.exp(-2.0 * place * whole)) / (1.0 - np.exp(-2.0 * whole))
         found = found + 2.0 / (n * np.pi) * (falls - 1.0 / whole) * np.sin(n * np.pi * heights)
     return found * gap_end_depth(slot) / gap_end_depth(0.0)
+
+
+def beside_wall(heights: Any, width: Any, contact: Any, free: Any, share: Any) -> list[Any]:
+    """How warm a layer is in each column over its mean over the width, both above the wall at its end [1].
+
+    At the `heights` over its depth t and the width w/t, by what `walled_end.fallen` says of an even fall from face to
+    face, a `share` of which there is between layer and wall. Any other profile is taken to fall towards the wall by
+    the same share at each height. Contacts are as much more layer at its faces and its end, here each a share `contact`
+    of the whole.
+    """
+    layer = 1.0 - 2.0 * contact
+    above = contact + layer * heights
+    left = [1.0 - share * fallen(free, contact + layer * (1.0 - place) * width, above) for place in DENSE.places]
+    mean = sum(share * one for share, one in zip(DENSE.shares, left, strict=True))
+    return [one / mean for one in left]

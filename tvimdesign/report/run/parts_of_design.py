@@ -3,26 +3,63 @@
 from __future__ import annotations
 
 import json
+from contextlib import ExitStack
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts
+from tvimdesign.study.design import Design, write_design
 
 CAD_TIME_LIMIT = 300.0  # s
 
 
 def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
     """Make the parts of a design.json beside their checks.json. Raises GeometryError where they cannot be made."""
-    from tvimdesign.cad import make_cad
+    with PartsAhead() as parts:
+        parts.begin_with(design, out)
+        return parts.finish(progress)
 
-    progress("parts: starting the CAD kernel")
-    report = make_cad(design, out, CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
-    write_whole(out / "checks.json", (json.dumps(plain_report(report), indent=2) + "\n").encode())
-    progress("")
-    return report
+
+class PartsAhead:
+    """Parts made while a run goes on: the CAD kernel is loaded as the solver works, and begins with the answer."""
+
+    def __init__(self) -> None:
+        """Start the process that loads the kernel."""
+        from tvimdesign.cad.make import PartsProcess
+
+        self._stack = ExitStack()
+        self._process = self._stack.enter_context(PartsProcess())
+        self._out = Path()
+
+    def __enter__(self) -> PartsAhead:
+        """Return itself."""
+        return self
+
+    def __exit__(self, *raised: object) -> None:
+        """End the process if it has not ended."""
+        self._stack.close()
+
+    def begin(self, design: Design, out: Path) -> None:
+        """Let the parts be made into a folder, and come back at once."""
+        folder = Path(self._stack.enter_context(TemporaryDirectory()))
+        self.begin_with(write_design(design, folder / "design.json"), out)
+
+    def begin_with(self, design: Path, out: Path) -> None:
+        """Do so with a design.json, which is read while this goes on."""
+        self._out = out
+        self._process.begin(design, out)
+
+    def finish(self, progress: Progress) -> CadReport:
+        """Wait for the parts, and write their checks.json. Raises GeometryError where they cannot be made."""
+        progress("parts: starting the CAD kernel")
+        report = self._process.finish(CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+        write_whole(self._out / "checks.json", (json.dumps(plain_report(report), indent=2) + "\n").encode())
+        progress("")
+        return report
 
 
 def plain_report(report: CadReport) -> Parts:

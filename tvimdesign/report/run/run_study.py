@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +21,8 @@ from tvimdesign.study.tree import tree_of_file
 if TYPE_CHECKING:
     from tvimdesign.report.output.results_format import Parts
     from tvimdesign.report.run.answered_study import AnsweredStudy
+    from tvimdesign.report.run.parts_of_design import PartsAhead
+    from tvimdesign.solve.result import StudyResult
 
 
 def run_study(
@@ -31,45 +33,47 @@ def run_study(
     from tvimdesign.report.figures.plot_process import PlotProcess
     from tvimdesign.report.run.answered_study import (
         answer_study,
-        done_in_part,
         drawings,
         note_uncertainty,
         noting,
     )
     from tvimdesign.report.run.first_screen.run_screen import RunScreen
-    from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.keep_best import keeping_best
+    from tvimdesign.report.run.parts_of_design import PartsAhead
     from tvimdesign.report.run.refusal import leaving_the_reason
     from tvimdesign.report.run.run_page.run_page import write_run_page
     from tvimdesign.report.run.write_answer import finish, write_answer
-    from tvimdesign.report.run.yield_words import below_yield
 
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
+    without = how_to_install("cad") if cad and study.write.cad else ""
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
         best = stack.enter_context(keeping_best(folder))
         progress = stack.enter_context(progress_output())
         screen = stack.enter_context(RunScreen(study))
         drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
+        making = stack.enter_context(PartsAhead()) if cad and study.write.cad and not without else None
         with leaving_the_reason(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
-                tree, progress, prove=prove, sensitivities=sensitivities, folder=folder, early=best.then(screen.ask)
+                tree,
+                progress,
+                prove=prove,
+                sensitivities=sensitivities,
+                folder=folder,
+                early=best.then(_also(making, folder, screen.ask)),
             )
         found, failures = answered.result, answered.failures
-        parts = cad and study.write.cad and found.found
-        without = how_to_install("cad") if parts else ""
-        parts = parts and not without
         if drawing and found.found:
-            vector = parts or study.write.vector
+            vector = bool(making) or study.write.vector
             drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
         note_uncertainty(answered, screen.uncertainty())
-        design = write_answer(folder, answered)
+        write_answer(folder, answered)
         progress("")
         screen.tell(answered, folder, None if as_json else wide_console(), full=full)
-        if parts:
+        if making and found.found:
             with noting(failures):
-                answered.reported["cad"] = _parts(design, folder.path / "cad", progress, as_json, in_full=full)
+                answered.reported["cad"] = _parts(making, folder.path / "cad", progress, as_json, in_full=full)
         if drawing and found.found:
             progress("drawing the plots")
             folder.look_up_versions()
@@ -77,15 +81,38 @@ def run_study(
                 drawing.finish()
         write_run_page(folder, answered, screen.told(answered, timed=False))
         finish(folder, answered)
-    _say_last(answered, folder.path, failures, without, as_json=as_json)
+    _say_last(answered, folder.path, failures, without if found.found else "", as_json=as_json)
+    _end_as(answered)
+
+
+def _also(
+    making: PartsAhead | None, folder: ResultsFolder, ask: Callable[[StudyResult], None]
+) -> Callable[[StudyResult], None]:
+    """What is asked of an answer as soon as it is there, and before anything else its parts, where they are made."""
+
+    def told(answer: StudyResult) -> None:
+        if making and answer.found:
+            making.begin(answer.design, folder.path / "cad")
+        ask(answer)
+
+    return told
+
+
+def _end_as(answered: AnsweredStudy) -> None:
+    """Raise what a run that is written ends with, where it is no plain success."""
+    from tvimdesign.report.run.answered_study import done_in_part
+    from tvimdesign.report.run.infeasible_report import above_rating, complaint
+    from tvimdesign.report.run.yield_words import below_yield
+
+    found, table = answered.result, answered.study.table
     if not found.found:
-        raise InfeasibleError(complaint(found, answered.study.table))
-    if refused := above_rating(found, answered.study.table):
+        raise InfeasibleError(complaint(found, table))
+    if refused := above_rating(found, table):
         raise AboveRatingError(refused)
     if missed := below_yield(found):
         raise BelowYieldError(missed)
-    if failures:
-        raise done_in_part(failures)
+    if answered.failures:
+        raise done_in_part(answered.failures)
 
 
 def _say_last(
@@ -108,6 +135,7 @@ def _say_last(
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Make the parts of a design.json, or of a study, which is answered first."""
     from tvimdesign.report.run.answered_study import done_in_part, noting
+    from tvimdesign.report.run.parts_of_design import PartsAhead
 
     if source.suffix != ".json":
         run_study(source, out, overwrite=overwrite, cad=True, plots=False, as_json=as_json)
@@ -116,8 +144,9 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     failures: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
         kept = write_design(design, folder.path / "design.json")
-        with progress_output() as progress, noting(failures):
-            report = _parts(kept, folder.path, progress, as_json, in_full=True)
+        with progress_output() as progress, noting(failures), PartsAhead() as making:
+            making.begin_with(kept, folder.path)
+            report = _parts(making, folder.path, progress, as_json, in_full=True)
             if as_json:
                 print(json.dumps(report, indent=2))
             else:
@@ -127,14 +156,14 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         raise done_in_part(failures)
 
 
-def _parts(design: Path, out: Path, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
-    """Make the parts and print what was found. Raises GeometryError where a check fails."""
+def _parts(making: PartsAhead, out: Path, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
+    """Wait for the parts and print what was found. Raises GeometryError where a check fails."""
     from tvimdesign.report.run.first_screen.layout import block
     from tvimdesign.report.run.first_screen.run_screen import show
-    from tvimdesign.report.run.parts_of_design import make_parts_of, plain_report, refuse_failed
+    from tvimdesign.report.run.parts_of_design import plain_report, refuse_failed
     from tvimdesign.report.run.solid_checks import in_short, print_solid_checks
 
-    report = make_parts_of(design, out, progress)
+    report = making.finish(progress)
     console = wide_console()
     if not as_json and in_full:
         print_solid_checks(report.checks, console)

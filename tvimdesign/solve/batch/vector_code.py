@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import ctypes
 import math
-import struct
 from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-import llvmlite.binding as llvm
-
+from tvimdesign.base.machine_code import Lines, MachineCode, hexadecimal
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 LANES = 8
@@ -23,13 +21,9 @@ _I = f"<{LANES} x i64>"
 _B = f"<{LANES} x i1>"
 
 
-def _hexadecimal(value: float) -> str:
-    return f"0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X}"
-
-
 def constant(value: float) -> str:
     """A number in every lane."""
-    return f"<{', '.join([f'double {_hexadecimal(value)}'] * LANES)}>"
+    return f"<{', '.join([f'double {hexadecimal(value)}'] * LANES)}>"
 
 
 def whole(value: int) -> str:
@@ -37,26 +31,12 @@ def whole(value: int) -> str:
     return f"<{', '.join([f'i64 {value}'] * LANES)}>"
 
 
-class Lines:
-    """The body of a function while it is written: every line defines one new name."""
+class VectorLines(Lines):
+    """The body of a function of vectors while it is written."""
 
     def __init__(self) -> None:
         """Nothing is written yet."""
-        self.text: list[str] = []
-
-    def new(self, expression: str) -> str:
-        """Write a line, return the name it defines."""
-        name = f"%v{len(self.text)}"
-        self.text.append(f"  {name} = {expression}")
-        return name
-
-    def two(self, operation: str, a: str, b: str) -> str:
-        """An operation on two vectors of numbers."""
-        return self.new(f"{operation} {_V} {a}, {b}")
-
-    def intrinsic(self, name: str, *arguments: str) -> str:
-        """An operation LLVM knows for vectors."""
-        return self.new(f"call {_V} @llvm.{name}.v{LANES}f64({', '.join(f'{_V} {a}' for a in arguments)})")
+        super().__init__(_V, f"v{LANES}f64")
 
     def own(self, name: str, *arguments: str) -> str:
         """A function of this module."""
@@ -95,7 +75,7 @@ _LIBRARY = {"sin": 1, "cos": 1, "tan": 1, "asin": 1, "acos": 1, "atan": 1, "atan
 """Functions of the C library that are called lane by lane, with the count of their arguments."""
 
 
-def _both(operation: str) -> Callable[[Lines, str, str], str]:
+def _both(operation: str) -> Callable[[VectorLines, str, str], str]:
     return lambda w, a, b: w.two(operation, a, b)
 
 
@@ -111,7 +91,7 @@ def _each(name: str) -> Callable[..., str]:
     return lambda w, *a: w.each(name, *a)
 
 
-def _test(comparison: str) -> Callable[[Lines, str, str], str]:
+def _test(comparison: str) -> Callable[[VectorLines, str, str], str]:
     return lambda w, a, b: w.choose(comparison, a, b, _ONE, _ZERO)
 
 
@@ -166,8 +146,8 @@ def _offsets(function: Any, way: str) -> list[int]:
     return [sum(sizes[:i]) for i in range(count)]
 
 
-def _body(function: Any) -> Lines:
-    lines = Lines()
+def _body(function: Any) -> VectorLines:
+    lines = VectorLines()
     slots: dict[int, str] = {}
     rows_in, rows_out = _offsets(function, "in"), _offsets(function, "out")
     for k in range(function.n_instructions()):
@@ -216,14 +196,14 @@ def _own_functions() -> list[str]:
     """Exponential and logarithm in vectors, within two units of the last place."""
     text: list[str] = []
     for name, write in (("vexp", _write_exp), ("vlog", _write_log), ("vlog1p", _write_log1p)):
-        lines = Lines()
+        lines = VectorLines()
         found = write(lines)
         # Not written into their callers: that runs no faster, and takes five times as long to compile.
         text += [f"define internal {_V} @{name}({_V} %x) noinline {{", *lines.text, f"  ret {_V} {found}", "}"]
     return text
 
 
-def _write_exp(w: Lines) -> str:
+def _write_exp(w: VectorLines) -> str:
     """exp x = 2^n exp r with |r| <= ln(2)/2, whose Taylor series ends at r^13/13!."""
     x = w.intrinsic("minnum", w.intrinsic("maxnum", "%x", constant(-1000.0)), constant(1000.0))
     n = w.intrinsic("rint", w.two("fmul", x, constant(1.0 / math.log(2.0))))
@@ -239,7 +219,7 @@ def _write_exp(w: Lines) -> str:
     return w.choose("uno", "%x", "%x", "%x", found)
 
 
-def _write_log(w: Lines) -> str:
+def _write_log(w: VectorLines) -> str:
     """log x = e ln 2 + 2 artanh s, s = (m - 1)/(m + 1), with x = 2^e m and m between sqrt(1/2) and sqrt 2."""
     tiny = constant(2.2250738585072014e-308)
     x = w.choose("olt", "%x", tiny, w.two("fmul", "%x", constant(2.0**54)), "%x")
@@ -262,7 +242,7 @@ def _write_log(w: Lines) -> str:
     return w.choose("ult", "%x", _ZERO, constant(math.nan), found)
 
 
-def _write_log1p(w: Lines) -> str:
+def _write_log1p(w: VectorLines) -> str:
     """log(1 + x) = x log(u)/(u - 1), u = 1 + x as it is rounded (Kahan)."""
     u = w.two("fadd", "%x", _ONE)
     d = w.two("fsub", u, _ONE)
@@ -276,26 +256,10 @@ class Code:
 
     def __init__(self, text: str) -> None:
         """Compile for the processor this runs on."""
-        machine = _machine()
-        module = llvm.parse_assembly(text)
-        module.verify()
-        passes = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=1))
-        passes.getModulePassManager().run(module, passes)
-        self._engine = llvm.create_mcjit_compiler(module, machine)
-        self._engine.finalize_object()
+        self._code = MachineCode(text)
         pointer, number = ctypes.c_void_p, ctypes.c_int64
-        signature = ctypes.CFUNCTYPE(None, pointer, pointer, number, number, number, number)
-        self._call = signature(self._engine.get_function_address("kernel"))
+        self._call = self._code.function("kernel", (pointer, pointer, number, number, number, number))
 
     def __call__(self, given: int, found: int, in_stride: int, out_stride: int, begin: int, end: int) -> None:
         """Run columns `begin` to `end`, a multiple of LANES of them; the arrays are given by address."""
         self._call(given, found, in_stride, out_stride, begin, end)
-
-
-def _machine() -> Any:
-    llvm.initialize_native_target()
-    llvm.initialize_native_asmprinter()
-    target = llvm.Target.from_default_triple()
-    return target.create_target_machine(
-        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=1, jit=True
-    )

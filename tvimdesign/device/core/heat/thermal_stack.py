@@ -5,8 +5,8 @@ Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`,
 `cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
 `stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
 layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
-(`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `layer_temperatures` and `moment_now` what
-a partly molten layer is to the joint. `layer_heater.py` has the layer that its own current heats.
+(`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `layer_temperatures`, `column_shares` and
+`moment_now` what a partly molten layer is to the joint. `layer_heater.py` has the layer that its own current heats.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from tvimdesign.device.core.impedance.joint_impedance import joint_damping, join
 from tvimdesign.device.table.quantity import Phase, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import columns, heat, lumps, peltier
+from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import crystallization, polymer
@@ -267,6 +267,7 @@ def layer_moduli(
     stack_now: heat.Stack,
     slice_moduli: tuple[Scalar, Scalar],
     layer_temperatures: list[Scalar],
+    column_shares: tuple[float, ...],
     pcl_rheology: polymer.AnyRheology,
     frequency_now: Scalar,
 ) -> tuple[Scalar, Scalar]:
@@ -277,7 +278,7 @@ def layer_moduli(
     if stack_now.freezing is not None:
         return layer.series_modulus(*slice_moduli)
     omega = 2.0 * np.pi * frequency_now
-    return layer.melting_modulus(layer_temperatures, columns.SHARES, stack_now.melting, omega, pcl_rheology)
+    return layer.melting_modulus(layer_temperatures, column_shares, stack_now.melting, omega, pcl_rheology)
 
 
 @quantities.helper(instant=True)

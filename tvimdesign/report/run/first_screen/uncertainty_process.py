@@ -72,8 +72,10 @@ def main() -> None:
     gc.disable()  # a third of the time; the process is short
     for needed in ("scipy.special", "scipy.stats"):  # loaded while the solver works, used when modules are drawn
         import_module(needed)
+    from tvimdesign.base.machine_code import compile_quickly
     from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
 
+    compile_quickly()  # some thousand modules are drawn: the compiler would take longer than they do
     uncertainty = Uncertainty(Study.model_validate_json(sys.stdin.readline()))
     line = sys.stdin.readline()
     if line:

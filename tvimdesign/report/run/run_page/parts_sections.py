@@ -17,6 +17,8 @@ from tvimdesign.report.output.tables import number
 from tvimdesign.report.run.run_page.cycle_section import FIGURE as CYCLE
 
 FOLDER = "cad"
+_CARRIED = (".step", ".3mf", ".pdf")
+"""Files of parts that the page carries, by their ending; in this order, as there may not be room for all."""
 _LEVELS = ("failure", "warning", "pass")
 
 
@@ -121,6 +123,17 @@ def spring_section(cad: Path) -> list[Section]:
     heads = ("", "value", "unit", "tolerance", "note")
     found = [tuple(row[name] for name in ("name", "value", "unit", "tolerance", "note")) for row in rows]
     return [Section("spring", "Spring sheet", [grid("The spring", heads, found, right=(1,), code=())])]
+
+
+def carried_files(cad: Path) -> dict[str, bytes]:
+    """The files that a part, a row of the bill of materials or the spring sheet leads to, by their addresses."""
+    names = [name for row in _csv(cad / file_names.BILL_OF_MATERIALS) for name in row["files"].split()]
+    data = cad / file_names.ASSEMBLY_DATA
+    if data.exists():
+        names += [name for part in json.loads(data.read_text("utf-8"))["parts"] for name in part["files"]]
+    names.append(file_names.SPRING_SHEET)
+    kept = [name for ending in _CARRIED for name in dict.fromkeys(names) if name.endswith(ending)]
+    return {f"{FOLDER}/{name}": (cad / name).read_bytes() for name in kept if (cad / name).exists()}
 
 
 def _csv(path: Path) -> list[dict[str, str]]:

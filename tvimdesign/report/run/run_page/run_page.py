@@ -22,6 +22,7 @@ from tvimdesign.report.run.run_page.front_section import front_section
 from tvimdesign.report.run.run_page.glance import glance, requirements_section
 from tvimdesign.report.run.run_page.parts_sections import (
     FOLDER,
+    carried_files,
     checks_section,
     materials_section,
     preview,
@@ -55,7 +56,7 @@ def run_page(folder: ResultsFolder, answered: AnsweredStudy, told: Told) -> Page
         sections += _of_a_design(cad, answered, told)
     return Page(
         answer.design.name, f"{answer.design.mode} module", said, tone_of(said), glance(answered, told), preview(cad),
-        [*sections, *_last(folder, answered.tree)], made_by_words(folder), there(folder, _FILES),
+        [*sections, *_last(folder, answered.tree)], made_by_words(folder), there(folder, _FILES), carried_files(cad),
     )  # fmt: skip
 
 

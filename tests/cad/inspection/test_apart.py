@@ -1,0 +1,73 @@
+"""Which parts are surely apart by their meshes: never two that touch, or one inside the other."""
+
+from __future__ import annotations
+
+import cadquery as cq
+import numpy as np
+import pytest
+
+from tvimdesign.cad.export.mesh import Instance, solid_mesh
+from tvimdesign.cad.inspection.apart import ROOM, PlacedBodies
+from tvimdesign.cad.inspection.size_checks import interference_checks
+
+
+def cylinder(radius: float, height: float = 10.0) -> cq.Solid:
+    return cq.Solid.makeCylinder(radius, height)
+
+
+def at(solid: cq.Solid, x: float) -> Instance:
+    matrix = np.eye(4)
+    matrix[0, 3] = x
+    return Instance(solid_mesh(solid), matrix)
+
+
+@pytest.mark.parametrize(
+    ("gap", "apart"), [(-1.0, False), (0.0, False), (0.5 * ROOM, False), (1.5 * ROOM, True), (5.0, True)]
+)
+def test_parts_are_apart_where_their_meshes_are_further_than_they_may_be_off(gap: float, apart: bool) -> None:
+    placed = {"rotor": at(cylinder(5.0), 0.0), "cover": at(cylinder(5.0), 10.0 + gap)}
+    assert PlacedBodies(placed).apart("rotor", "cover") == apart
+
+
+def test_a_part_inside_the_material_of_another_is_not_apart() -> None:
+    placed = {"housing": at(cylinder(20.0, 30.0), 0.0), "link_dowel_1": at(cylinder(2.0).translate((0, 0, 10.0)), 0.0)}
+    assert not PlacedBodies(placed).apart("housing", "link_dowel_1")
+
+
+def test_a_part_in_the_bore_of_another_is_apart() -> None:
+    bored = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
+    placed = {"housing": at(bored, 0.0), "link_screw_1": at(cylinder(2.0, 30.0), 0.0)}
+    assert PlacedBodies(placed).apart("housing", "link_screw_1")
+
+
+def test_copies_of_a_part_that_is_near_are_held_against_it_exactly() -> None:
+    placed = {
+        "housing": at(cylinder(5.0), 0.0),
+        "pcl_arc_1": at(cylinder(5.0), 10.0),
+        "pcl_arc_2": at(cylinder(5.0), 50.0),
+    }
+    bodies = PlacedBodies(placed)
+    assert not bodies.apart("housing", "pcl_arc_1")
+    assert not bodies.apart("housing", "pcl_arc_2")
+
+
+def test_a_mesh_that_does_not_close_is_never_told_apart() -> None:
+    broken = at(cylinder(5.0), 50.0)
+    open_mesh = Instance(type(broken.mesh)(broken.mesh.vertices, broken.mesh.faces[1:]), broken.matrix)
+    assert not PlacedBodies({"housing": at(cylinder(5.0), 0.0), "cover": open_mesh}).apart("housing", "cover")
+
+
+def test_only_what_may_meet_is_held_against_each_other_and_the_check_says_the_same() -> None:
+    ring = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
+    solids = {"housing": ring, "link_screw_1": cylinder(2.0, 30.0), "rotor": cylinder(3.5, 30.0)}
+    bodies = PlacedBodies({name: at(solid, 0.0) for name, solid in solids.items()})
+    asked: list[tuple[str, str]] = []
+
+    def apart(first: str, second: str) -> bool:
+        asked.append((first, second))
+        return bodies.apart(first, second)
+
+    plain, quick = (list(interference_checks(solids, "at rest", **more)) for more in ({}, {"apart": apart}))
+    assert plain == quick
+    assert [check.ok for check in quick] == [True, False, False, True]
+    assert len(asked) == 3

@@ -1,0 +1,24 @@
+"""What many pieces of work need, loaded once before the first is begun: each is a fork of the process that has it."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from tvimdesign.cad.assembly import assembly_note
+from tvimdesign.cad.drawing import drawing_requirements, iso_286
+from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
+from tvimdesign.cad.inspection import ray_code
+
+_PICTURES = ("preview", "exploded", "section")
+_LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+
+
+def warm_up() -> None:
+    """Compile, read data files, find the font and its letters, load what renders."""
+    for read in (drawing_requirements.told, iso_286.told, assembly_note.told, ray_code.first_hits):
+        read()
+    sheet = DrawingSheet(1.0)
+    sheet.text(_LETTERS, (20.0, 20.0))
+    sheet.pdf()
+    for name in _PICTURES:
+        import_module(f"tvimdesign.cad.render.{name}")
