@@ -29,7 +29,7 @@ from tvimdesign.solve.nlp.transcription import Block, at_each, phase_block
 Array = NDArray[np.float64]
 
 
-FREEZING = 2.5
+FREEZING = 3.0
 """Elements of a freezing layer, whose edge runs through the cells, over those of a melting one."""
 
 
