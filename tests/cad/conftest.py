@@ -10,8 +10,8 @@ import pytest
 import quick_parts
 from cad_designs import BLOCKS, CASES, Made, design_of, whole
 
+from tvimdesign.base.kept_folder import FOLDER_VARIABLE
 from tvimdesign.cad import CadReport, make_cad
-from tvimdesign.cad.build.cache import FOLDER_VARIABLE
 from tvimdesign.cad.make import JOB
 from tvimdesign.study.design import Design, write_design
 

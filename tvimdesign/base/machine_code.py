@@ -7,7 +7,10 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import llvmlite
 import llvmlite.binding as llvm
+
+from tvimdesign.base.kept_code import find_code, keep_code
 
 
 class _Effort:
@@ -57,19 +60,29 @@ class MachineCode:
     """A compiled module; its machine code lives as long as this object."""
 
     def __init__(self, text: str) -> None:
-        """Compile the text of a module."""
+        """Compile the text of a module, or take what an earlier run has kept of it."""
         machine = _machine()
-        module = llvm.parse_assembly(text)
-        module.verify()
-        passes = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=1))
-        passes.getModulePassManager().run(module, passes)
-        self._engine = llvm.create_mcjit_compiler(module, machine)
+        compiler = (f"llvmlite {llvmlite.__version__}", _processor(), f"effort {_Effort.level}")
+        code = find_code(text, *compiler)
+        if code is None:
+            code = _compiled(text, machine)
+            keep_code(code, text, *compiler)
+        self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+        self._engine.add_object_file(llvm.ObjectFileRef.from_data(code))
         self._engine.finalize_object()
 
     def function(self, name: str, arguments: Sequence[type]) -> Callable[..., None]:
         """One of its functions that return nothing, as ctypes calls it."""
         signature = ctypes.CFUNCTYPE(None, *arguments)
         return signature(self._engine.get_function_address(name))
+
+
+def _compiled(text: str, machine: Any) -> bytes:
+    module = llvm.parse_assembly(text)
+    module.verify()
+    passes = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=1))
+    passes.getModulePassManager().run(module, passes)
+    return bytes(machine.emit_object(module))
 
 
 def _machine() -> Any:
@@ -79,3 +92,8 @@ def _machine() -> Any:
     return target.create_target_machine(
         cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=_Effort.level, jit=True
     )
+
+
+def _processor() -> str:
+    """What the code runs on."""
+    return " ".join((llvm.get_process_triple(), llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()))

@@ -1,10 +1,13 @@
-"""Ends a process with all that it has started: psutil knows the tree on systems without process groups, too."""
+"""Ends a process with all that it has started, or lets it wait for others: psutil does so on every system."""
 
 from __future__ import annotations
 
 import contextlib
 
 import psutil
+
+_POLITE = 10
+"""A process of this niceness has a tenth of a processor that another wants whole."""
 
 
 def end_process_tree(process: int) -> None:
@@ -24,6 +27,13 @@ def end_process_tree(process: int) -> None:
         for one in new:
             _kill(one)
     _kill(root)
+
+
+def give_way(process: int) -> None:
+    """Let a process, and those it starts from now on, compute where others leave a processor free."""
+    low = psutil.BELOW_NORMAL_PRIORITY_CLASS if psutil.WINDOWS else _POLITE
+    with contextlib.suppress(psutil.Error):
+        psutil.Process(process).nice(low)
 
 
 def _descendants(root: psutil.Process) -> list[psutil.Process]:

@@ -17,7 +17,7 @@ from cad_designs import design_of, whole
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
 from tvimdesign.cad.build.build_plan import PICTURES, build_plan
-from tvimdesign.cad.build.cache import Cache, user_folder
+from tvimdesign.cad.build.cache import Cache
 from tvimdesign.cad.build.read_tracking import TrackedDesign
 from tvimdesign.cad.build.worker import Done, Job, Work, WorkerPool
 from tvimdesign.cad.cad_report import SolidCheck
@@ -214,31 +214,6 @@ def test_a_thicker_layer_leaves_the_pins_as_they_were(run: Run) -> None:
     again = run(pins, layer, pcl_thickness=1.1e-3)
     assert again.reused == ["link_dowel"]
     assert again.failed == {}
-
-
-def test_results_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "here"))
-    assert user_folder() == tmp_path / "here"
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "file/below"))
-    assert user_folder() is None
-    monkeypatch.setenv("TVIMDESIGN_CACHE", "")
-    assert user_folder() is None
-    (tmp_path / "link").symlink_to(tmp_path / "here")
-    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "link"))
-    assert user_folder() is None
-    (tmp_path / "here").chmod(0o777)
-    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "here"))
-    assert user_folder() == tmp_path / "here"
-    assert (tmp_path / "here").stat().st_mode & 0o777 == 0o700
-    monkeypatch.setattr(os, "getuid", lambda: 12345)
-    assert user_folder() is None
-    monkeypatch.undo()
-    monkeypatch.delenv("TVIMDESIGN_CACHE")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert user_folder() == tmp_path / "tvimdesign/cad"
 
 
 STUCK = """

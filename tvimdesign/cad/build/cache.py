@@ -12,7 +12,6 @@ import hashlib
 import json
 import os
 import shutil
-import stat
 import tempfile
 import time
 from collections.abc import Iterator, Mapping
@@ -24,14 +23,11 @@ from typing import Any
 from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.cad.cad_report import SolidCheck
 
-FOLDER_VARIABLE = "TVIMDESIGN_CACHE"
-"""Environment variable that names the folder of kept results; empty keeps none from one run to the next."""
 _MOST = 16
 """Results of one piece of work that are kept; the one not used for the longest goes first."""
 _HALF_MADE = 3600.0
 """Seconds after which a result that is not finished never will be."""
 _TRACE = "trace.json"
-_WRITABLE_BY_OTHERS = 0o022
 _LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "llvmlite", "manifold3d", "matplotlib", "numpy", "trimesh", "vtk")
 
 
@@ -146,28 +142,6 @@ def _age(path: Path) -> float:
         return -path.lstat().st_mtime
     except OSError:
         return 0.0
-
-
-def user_folder() -> Path | None:
-    """The user's folder of kept results; None where none are to be kept, or it cannot be written or trusted.
-
-    What is kept is used as it is, so a link, or a folder of another user, is not taken; the user's own is made private.
-    """
-    named = os.environ.get(FOLDER_VARIABLE)
-    home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
-    if named == "":
-        return None
-    folder = Path(named) if named else Path(home) / "tvimdesign" / "cad"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        found = folder.lstat()
-        if stat.S_ISLNK(found.st_mode) or (hasattr(os, "getuid") and found.st_uid != os.getuid()):
-            return None
-        if found.st_mode & _WRITABLE_BY_OTHERS:
-            folder.chmod(0o700)
-    except OSError:
-        return None
-    return folder if os.access(folder, os.W_OK) else None
 
 
 def code_digest() -> str:

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
+from tvimdesign.base.kept_folder import FOLDER_VARIABLE, kept_folder
 from tvimdesign.base.record import Record
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
@@ -34,6 +35,9 @@ if TYPE_CHECKING:
 _NEEDED = "tvimdesign.cad.build.build_plan"
 """What loads the CAD kernel, and all that draws with it."""
 
+_KEPT = "cad"
+"""What the user's folder of parts is called."""
+
 
 def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     """Make what is not kept from before, put all files into `out`; tells `lines` each step, then what came of it."""
@@ -46,14 +50,14 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
     from tvimdesign.cad.build.build_plan import PICTURES, build_plan
-    from tvimdesign.cad.build.cache import Cache, user_folder
+    from tvimdesign.cad.build.cache import Cache
     from tvimdesign.cad.build.read_tracking import TrackedDesign
     from tvimdesign.cad.build.worker import WorkerPool
     from tvimdesign.cad.geometry.dimensions import dimensions
 
     with ExitStack() as stack:
         prefix = HALF_MADE.removesuffix("*")
-        own = user_folder() or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
+        own = kept_folder(_KEPT) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
         workshop = WorkerPool(
             TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), timeout_s,
@@ -75,10 +79,8 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
 
 def _not_kept() -> list[str]:
     """A word where the user names a folder for kept results that cannot be one."""
-    from tvimdesign.cad.build.cache import FOLDER_VARIABLE, user_folder
-
     named = os.environ.get(FOLDER_VARIABLE)
-    if not named or user_folder() is not None:
+    if not named or kept_folder(_KEPT) is not None:
         return []
     return [f"nothing is kept for the next run: {named} ({FOLDER_VARIABLE}) is a link, no folder, or another user's"]
 

@@ -21,6 +21,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import follow_parent, start_child
+from tvimdesign.base.process_tree import give_way
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.whole_files import write_whole
 
@@ -44,6 +45,7 @@ class PlotProcess:
             "tvimdesign.report.figures.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
+        give_way(self._child.pid)  # to the solver, and to what the first screen waits for
 
     def __enter__(self) -> PlotProcess:
         """Return itself."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from tvimdesign.base.errors import GeometryError
+from tvimdesign.base.process_tree import give_way
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output.progress import Progress
@@ -33,6 +34,7 @@ class PartsAhead:
 
         self._stack = ExitStack()
         self._process = self._stack.enter_context(PartsProcess())
+        give_way(self._process.process)  # to the solver, and to what the first screen waits for
         self._out = Path()
 
     def __enter__(self) -> PartsAhead:
