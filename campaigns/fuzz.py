@@ -136,9 +136,9 @@ def in_processes(chunks: Iterable[Chunk], jobs: int) -> Iterable[Chunk]:
             its.close()
             at_work[child.sentinel] = child, chunk, at, mine
         for ready in wait([*at_work, *(mine for *_, mine in at_work.values())]):
-            key = ready if isinstance(ready, int) else next(k for k, one in at_work.items() if one[3] is ready)
+            key = ready if isinstance(ready, int) else next((k for k, one in at_work.items() if one[3] is ready), None)
             if key not in at_work:
-                continue
+                continue  # its end was heard before its word
             child, chunk, at, mine = at_work.pop(key)
             try:
                 found: Chunk = mine.recv()

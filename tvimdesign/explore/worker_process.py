@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 from tvimdesign.base.child_process import start_child
+from tvimdesign.base.process_tree import give_way
 
 Told = dict[str, Any]
 _STARTS = 2
@@ -42,8 +43,14 @@ Job = TypeVar("Job", bound=Work)
 class WorkerProcess(Generic[Job]):
     """A worker process, and the one job that waits for it. To be used in an event loop."""
 
-    def __init__(self, module: str, arguments: Sequence[str], told: Callable[[Job, Told], None]) -> None:
-        """Start the worker, a module with arguments; `told` is called with all it says of a job."""
+    def __init__(
+        self, module: str, arguments: Sequence[str], told: Callable[[Job, Told], None], *, behind: bool = False
+    ) -> None:
+        """Start the worker, a module with arguments; `told` is called with all it says of a job.
+
+        One that stands `behind` computes where other processes leave a processor free.
+        """
+        self._behind = behind
         self._module, self._arguments, self._told = module, list(arguments), told
         self._loop = asyncio.get_running_loop()
         self._under_way: Job | None = None
@@ -89,6 +96,8 @@ class WorkerProcess(Generic[Job]):
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8", bufsize=1,
             start_new_session=True,
         )  # fmt: skip
+        if self._behind:
+            give_way(self._child.pid)
         self._thread = threading.Thread(target=self._read, args=(self._child,), daemon=True)
         self._thread.start()
 

@@ -12,7 +12,7 @@ from typing import Any
 from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, quoted, step
 from tvimdesign.study.text.named_file import printable
 from tvimdesign.study.text.python_values import node_of
-from tvimdesign.study.text.renamed import new_name, renamed
+from tvimdesign.study.text.renamed import new_name, renamed, renamed_value
 from tvimdesign.study.text.source import check_characters, read_text
 from tvimdesign.study.text.values import misfit
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text, compose
@@ -173,9 +173,10 @@ def with_value(tree: StudyTree, name: str, value: Node, source: str, problems: t
     if len(steps) == 1 and name not in SECTIONS:
         root = _without_variable(root, new_name(name))
         steps = ["module", name]
+    value = renamed_value(value, steps[0], source)
     root = _put(root, [new_name(word) for word in steps], value, source, "")
     changes = tree.changes if tree.changes[-1:] == (source,) else (*tree.changes, source)
-    return replace(tree, root=renamed(root, source), changes=changes, problems=(*tree.problems, *problems))
+    return replace(tree, root=root, changes=changes, problems=(*tree.problems, *problems))
 
 
 def _without_variable(root: Mapping, name: str) -> Mapping:

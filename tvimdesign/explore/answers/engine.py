@@ -78,8 +78,9 @@ class Engine:
         free = self._freed(state)
         if state.way == "evaluate":
             study = self._read(tree_of(self._base, state))
-            values = self._evaluated(study, {})
-            shown = {**shown_design(study, free, values.values), "curves": finite_data(values.curves)}
+            known = given(study)
+            values = self._evaluated(study, known, {})
+            shown = {**shown_design(study, free, known, values.values), "curves": finite_data(values.curves)}
             return Answer({"status": "", **shown}, None, _module(study, values.values, values.words))
         listed = _listed(free, state)
         study = self._read(set_values(tree_of(self._base, state), listed)) if listed else free
@@ -91,8 +92,9 @@ class Engine:
             return Answer({"status": "no optimum near the last one; the search from every start follows"})
         self._last = moved
         found = {name: float(moved.run.inputs[self._problem_index(name)]) for name in study.vary}
-        evaluated = self._evaluated(study, found)
-        shown = shown_design(study, free, evaluated.values, moved.binding, moved.ends)
+        known = given(study)
+        evaluated = self._evaluated(study, known, found)
+        shown = shown_design(study, free, known, evaluated.values, moved.binding, moved.ends)
         shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in found.items()}}
         shown["curves"], shown["iterations"] = finite_data(evaluated.curves), moved.run.start.iterations
         return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))
@@ -128,9 +130,8 @@ class Engine:
         self._reference_of, self._references = asked, {name: value or 1.0 for name, value in found.items()}
         return self._references
 
-    def _evaluated(self, study: Study, found: Mapping[str, float]) -> Evaluated:
-        """Raises InputError in the study's words where there is no such module."""
-        known = given(study)
+    def _evaluated(self, study: Study, known: Mapping[str, Any], found: Mapping[str, float]) -> Evaluated:
+        """Raises InputError in the study's words where there is no such module; `known` is what the study gives."""
         model = self._model(study, known)
         evaluated = model.evaluate(model.inputs({**known, **found}))
         with np.errstate(invalid="ignore"):
@@ -163,12 +164,13 @@ class Engine:
         answered = answer_study(tree, progress, search=self._near if stage == "exact" else optimize)
         found, table = answered.result, answered.study.table
         design = found.design
-        shown = shown_design(answered.study, free, design.values)
+        known = given(answered.study)
+        shown = shown_design(answered.study, free, known, design.values)
         shown["status"] = "" if found.found else complaint(found, table)
         shown["found"] = found.found
         with suppress(TvimError):
             at = {name: design.values[name] for name in free.vary if name in design.values}
-            evaluated = self._evaluated(answered.study, at)
+            evaluated = self._evaluated(answered.study, known, at)
             shown["curves"] = finite_data(evaluated.curves)
         shown["at"] = {
             name: text_of(free, name, design.choices.get(name, design.values.get(name, 0.0))) for name in free.vary

@@ -14,23 +14,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.batch.batch_model import SLOW
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
+from tvimdesign.solve.batch.kernel import Kernel, stacked
 from tvimdesign.solve.batch.phase_kernel import Steps
 from tvimdesign.study import Study, given
 
 Array = NDArray[np.float64]
 Curves = dict[str, dict[str, list[float]]]
 
-_STEPS = Steps(of_pace=28, in_window=4, close=4, first=0.125)
-"""Two thirds of the steps that tolerances take, at most: half the time, and times within 0.2 % still (a test)."""
+_STEPS = Steps(of_pace=20, in_window=4, close=4, first=0.125)
+"""Half of the steps that tolerances take, at most: half the time, and times within 0.2 % still (a test)."""
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")
 _SHOWN = 24
 """Moments of a phase that are drawn."""
+_CURVES = ("hot_side", "near_face", "far_face", "joint_impedance", "electrical_power")
 
 
 @dataclass(frozen=True)
@@ -113,6 +116,8 @@ class QuickModel:
             pace = self._pace
             if pace is not None:
                 kernel.course(np.delete(self.model.start, self._fixed), pace)  # compiled when first called
+            for drawn in self._maps.values():
+                drawn.compile()
         except NotImplementedError:
             return  # an operation without a vector form: CVODES goes on
         self._kernel = kernel
@@ -123,11 +128,22 @@ class _Drawn:
 
     def __init__(self, model: DeviceFunctions, name: str) -> None:
         phase = model.phases[name]
-        self._temperatures = phase.temperatures.map(_SHOWN)
-        self._impedance = phase.impedance_now.map(_SHOWN)
-        self._power = phase.watch(["electrical_power"]).map(_SHOWN)
-        self._far_face = 3 + model.cells
         self._sign, self._current = phase.phase.sign, model.index[phase.phase.current_input]
+        state, current = ca.SX.sym("state", phase.state_size), ca.SX.sym("current")
+        inputs = ca.SX.sym("inputs", len(model.names))
+        given = [state, current, inputs]
+        kelvin, impedance, power = (
+            function.call(given, True, False)[0]
+            for function in (phase.temperatures, phase.impedance_now, phase.watch(["electrical_power"]))
+        )
+        rows = ca.vertcat(kelvin[1], kelvin[2], kelvin[3 + model.cells], impedance, power)
+        self._function = ca.Function("drawn", given, [rows], {"cse": True})
+        self._mapped = self._function.map(_SHOWN)
+        self._kernel: Kernel | None = None
+
+    def compile(self) -> None:
+        """Compile for all moments at once. Raises NotImplementedError."""
+        self._kernel = Kernel(self._function)
 
     def curves(self, inputs: Array, times: Array, states: Array, end: float) -> dict[str, list[float]]:
         """Time [s], temperatures [degC] of pads and layer's faces, impedance [N*m/rad] and power [W]."""
@@ -139,11 +155,10 @@ class _Drawn:
         at = line.at(moments / times[-1])
         currents = np.full((1, _SHOWN), self._sign * inputs[self._current])
         columns = np.repeat(inputs[:, None], _SHOWN, axis=1)
-        celsius = np.asarray(self._temperatures(at, currents, columns)) - ZERO_CELSIUS
-        found = {"time": moments, "hot_side": celsius[1], "near_face": celsius[2], "far_face": celsius[self._far_face]}
-        for name, function in (("joint_impedance", self._impedance), ("electrical_power", self._power)):
-            found[name] = np.asarray(function(at, currents, columns)).ravel()
-        return {name: column.tolist() for name, column in found.items()}
+        kernel = self._kernel
+        rows = kernel(stacked(at, currents, columns)) if kernel else np.asarray(self._mapped(at, currents, columns))
+        rows[:3] -= ZERO_CELSIUS
+        return {"time": moments.tolist(), **dict(zip(_CURVES, rows.tolist(), strict=True))}
 
 
 def _line(course: list[tuple[float, Array]]) -> tuple[Array, Array]:

@@ -12,7 +12,7 @@ from tvimdesign.report.output.tables import NOTHING, margin_text, number
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words
 from tvimdesign.solve.optimizer.ratings import exceeded, kept
 from tvimdesign.solve.result import ConstraintCheck
-from tvimdesign.study import Study, given
+from tvimdesign.study import Study
 
 _ROUNDING = 1e-6
 """Margin that is what a solver leaves of zero."""
@@ -21,17 +21,18 @@ Shown = dict[str, Any]
 
 
 def shown_design(
-    study: Study, free: Study, values: Mapping[str, float], binding: Collection[str] = (),
+    study: Study, free: Study, known: Mapping[str, Any], values: Mapping[str, float], binding: Collection[str] = (),
     ends: Mapping[str, str] | None = None,
 ) -> Shown:  # fmt: skip
     """A module's values (SI, by full name) for the page; `free` is the study with what it varies.
 
-    `binding` are limits that press, `ends` variables that press against an end of their range.
+    `known` is what the study gives, `binding` are limits that press, `ends` variables that press against an end of
+    their range.
     """
     table = study.table
     return {
         "values": [_finite(from_si(values[name], table.unit(name))) for name in value_names(free)],
-        "limits": limits_shown(study, values, binding),
+        "limits": limits_shown(study, known, values, binding),
         "warnings": ratings_shown(study, values),
         "variables": {
             name: {"value": _finite(from_si(values[name], table.unit(name))), "end": (ends or {}).get(name, "")}
@@ -46,24 +47,35 @@ def value_names(study: Study) -> list[str]:
     return [name for name in study.table.names(study.operating_points) if name.partition("@")[0] not in seen]
 
 
-def limits_shown(study: Study, values: Mapping[str, float], binding: Collection[str]) -> list[Shown]:
+def limits_shown(
+    study: Study, known: Mapping[str, Any], values: Mapping[str, float], binding: Collection[str]
+) -> list[Shown]:
     """Every requirement, and the rules that press or are broken; what is broken first."""
-    limits = constraints_of(study, study.table, given(study))
-    rows = [_limit(limit, values[limit.output], study.table, limit.name in binding) for limit in limits]
-    told = [row for row in rows if row["origin"] == "require" or row["stands"] != "kept"]
+    stand = [
+        (limit, _stands(limit, values[limit.output], study.table, limit.name in binding))
+        for limit in constraints_of(study, study.table, known)
+    ]
+    told = [
+        _limit(limit, values[limit.output], study.table, stands) for limit, stands in stand
+        if limit.origin == "require" or stands != "kept"
+    ]  # fmt: skip
     return sorted(told, key=lambda row: ("broken", "binds", "kept").index(row["stands"]))
 
 
-def _limit(limit: Constraint, value: float, table: Table, presses: bool) -> Shown:
-    is_kept = kept(limit, value, table)
+def _stands(limit: Constraint, value: float, table: Table, presses: bool) -> str:
+    if not kept(limit, value, table):
+        return "broken"
+    return "binds" if presses or -float(limit.residual(value)) <= NOTHING else "kept"
+
+
+def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
     margin = -float(limit.residual(value))
     check = ConstraintCheck(
         text=in_words(limit, table), output=limit.output, value=value, margin=margin, scale=limit.scale,
-        absolute=limit.absolute, kept=is_kept, worst=margin, origin=limit.origin, part_of=limit.part_of,
+        absolute=limit.absolute, kept=stands != "broken", worst=margin, origin=limit.origin, part_of=limit.part_of,
     )  # fmt: skip
     unit = table.unit(limit.output)
     got = value if abs(margin) > _ROUNDING else limit.limit
-    stands = "broken" if not is_kept else "binds" if presses or margin <= NOTHING else "kept"
     return {
         "name": limit.name, "of": limit.part_of or limit.output, "sense": limit.sense, "text": check.text,
         "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(), "margin": margin_text(check, table),
@@ -83,6 +95,8 @@ def finite_data(data: Any) -> Any:
     """Plain data with none in place of numbers that JSON does not have."""
     if isinstance(data, Mapping):
         return {name: finite_data(one) for name, one in data.items()}
+    if isinstance(data, list) and data and isinstance(data[0], float):
+        return [one if math.isfinite(one) else None for one in data]
     if isinstance(data, list | tuple):
         return [finite_data(one) for one in data]
     return None if isinstance(data, float) and not math.isfinite(data) else data

@@ -35,4 +35,4 @@ class Drafter(WorkerProcess[DraftJob]):
 
     def __init__(self, told: Callable[[DraftJob, Told], None]) -> None:
         """Start it; `told` is called with what it says of a job."""
-        super().__init__(WORKER, [], told)
+        super().__init__(WORKER, [], told, behind=True)

@@ -73,13 +73,15 @@ def changed(base: StudyTree, state: State, change: Change, study: Study) -> Stat
     """
     if isinstance(change, SetValue) and not change.text.strip():
         raise InputError(f"{change.name}: no value; type one with its unit")
+    ways: tuple[Way, ...] = ("evaluate", "optimize")
     if isinstance(change, SetValue) and change.name in study.vary:
         after = state.model_copy(update={"at": {**state.at, change.name: change.text}})
+        ways = ("evaluate",)  # what is free to move is not in the other's study
     else:
         path, value = _path_and_value(change, study)
         after = state.model_copy(update={"changes": {**state.changes, path: value}})
-    read_tree(tree_of(base, after, "evaluate"), lambda _: study.table, lambda _: study.catalog)
-    read_tree(tree_of(base, after, "optimize"), lambda _: study.table, lambda _: study.catalog)
+    for way in ways:
+        read_tree(tree_of(base, after, way), lambda _: study.table, lambda _: study.catalog)
     return after
 
 

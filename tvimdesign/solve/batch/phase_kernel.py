@@ -143,10 +143,9 @@ class PhaseKernel:
             window = integrate.window(min(step, (self.horizon - integrate.time) / self.steps.in_window))
             if keep is not None:
                 keep += [(window.begin + i * window.step, one) for i, one in enumerate(window.states[:-1])]
-            for event in range(len(self.events)):
-                here = np.flatnonzero(np.isinf(times[event]) & ~lost & (window.gaps[event] >= 0.0))
-                if not here.size:
-                    continue
+            passed = np.isinf(times) & ~lost & (window.gaps >= 0.0)
+            for event in np.flatnonzero(passed.any(axis=1)).tolist():
+                here = np.flatnonzero(passed[event])
                 found = integrate.close(window, event, here, paths=event == self.ends)
                 times[event, here] = found.times
                 if event == self.ends:

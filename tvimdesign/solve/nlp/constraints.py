@@ -66,7 +66,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     own = list(dict.fromkeys(asked))
     taken = {(limit.output, limit.sense) for limit in own}
     for row in table.outputs:
-        for rule in row.rules if row.exists(options) else ():
+        for rule in row.rules if row.rules and row.exists(options) else ():
             if (row.name, rule.sense) not in taken:
                 own.append(make_constraint(table, row.name, rule.sense, rule.value, rule.reason))
     return own

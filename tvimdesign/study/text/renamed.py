@@ -36,10 +36,22 @@ def renamed(root: yaml_text.Mapping, file: str) -> yaml_text.Mapping:
         name: (key, _renamed(value, found) if name in _SECTIONS else value)
         for name, (key, value) in root.entries.items()
     }
+    _tell(found, file)
+    return replace(root, entries=sections)
+
+
+def renamed_value(value: Node, section: str, source: str) -> Node:
+    """The same of a value that is put into a section."""
+    found: dict[str, str] = {}
+    value = _renamed(value, found) if section in _SECTIONS else value
+    _tell(found, source)
+    return value
+
+
+def _tell(found: dict[str, str], file: str) -> None:
     if found:
         names = ", ".join(f"{old} is now {new}" for old, new in found.items())
-        warnings.warn(f"{file}: {names}; the old names are read until the next release", RenamedWarning, stacklevel=2)
-    return replace(root, entries=sections)
+        warnings.warn(f"{file}: {names}; the old names are read until the next release", RenamedWarning, stacklevel=3)
 
 
 def _renamed(node: Node, found: dict[str, str]) -> Node:
