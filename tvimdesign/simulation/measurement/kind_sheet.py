@@ -83,7 +83,15 @@ class KindSheet:
                 found[name] = parse_quantity(text, self.settings[name]["unit"])
             except UnitError as error:
                 raise InputError(f"--set {name}: {error}") from None
+            _refuse_beyond(name, found[name], self.settings[name])
         return found
+
+
+def _refuse_beyond(name: str, value: float, setting: Mapping[str, Any]) -> None:
+    """Raise InputError for a number that is not among those a setting may be."""
+    low, high = setting.get("from", value), setting.get("to", value)
+    if not low <= value <= high:
+        raise InputError(f"--set {name}: {value:g} is not between {low} and {high}")
 
 
 def _changes(block: Block, name: str) -> bool:

@@ -215,6 +215,8 @@ def test_melting_between_two_temperatures(tmp_path: Path) -> None:
     ("kind", "given", "said"),
     [
         ("pads", {}, "no kind of measurement is named 'pads'; did you mean pad?"),
+        ("frequency_sweep", {"largest_modes": "13"}, "--set largest_modes: 13 is not between 1 and 12"),
+        ("frequency_sweep", {"largest_modes": "0"}, "--set largest_modes: 0 is not between 1 and 12"),
         ("torque_angle", {"arms": "1 mm"}, "--set arms: torque_angle has no such setting; did you mean arm?"),
         ("torque_angle", {"arm": "1 kg"}, "--set arm: '1 kg'"),
         ("pad", {}, "no column is current; pad needs current, voltage"),
