@@ -7,7 +7,7 @@ import time
 import psutil
 from support import is_at_work
 
-from tvimdesign.base.process_tree import end_process_tree
+from tvimdesign.base.process_tree import end_process_tree, give_way
 
 CHILD = "import time; time.sleep(60)"
 PARENT = f"""
@@ -36,3 +36,16 @@ def test_a_process_that_is_gone_is_none_to_end() -> None:
     process = subprocess.Popen([sys.executable, "-c", ""])
     process.wait()
     end_process_tree(process.pid)
+
+
+def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> None:
+    code = (
+        "import subprocess, sys; sys.stdin.readline(); "
+        "print(subprocess.run([sys.executable, '-c', 'import psutil; print(psutil.Process().nice())'], "
+        "capture_output=True, text=True).stdout)"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as one:
+        give_way(one.pid)
+        said, _ = one.communicate("go on\n")
+    assert int(said) > psutil.Process().nice()
+    give_way(one.pid)  # it has ended: nobody is to give way

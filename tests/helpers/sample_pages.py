@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -50,12 +51,14 @@ def answered_study() -> AnsweredStudy:
     return answered
 
 
-def run_page(folder: Path, *, parts: bool = True) -> Path:
-    """Write the page into a folder, with parts or without; returns its path."""
+def run_page(folder: Path, *, parts: bool = True, more: Mapping[str, bytes] | None = None) -> Path:
+    """Write the page into a folder, with parts or without, and with `more` files of parts; returns its path."""
     answered = answered_study()
     with ResultsFolder(folder) as results:
         if parts:
             write_parts(folder / "cad")
+            for name, data in (more or {}).items():
+                (folder / "cad" / name).write_bytes(data)
         write_run_page(results, answered, Told(doubts=answered.reported["doubts"]))
         results.finish("evaluated", {}, {})
     return folder / FILE

@@ -7,7 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import axe_playwright_python
+import numpy as np
 import pytest
+import sample_pages
 from opened_page import Opened
 
 from tvimdesign.page.blocks import Cell, Grid, Head, Page, Section
@@ -29,6 +31,19 @@ def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path)
     assert [url for url in found.requests if url.startswith("file:")] == [report.as_uri()]
     assert found.complaints == []
     assert report.stat().st_size < MOST
+
+
+def test_a_page_that_carries_megabytes_is_there_within_two_seconds(opened: Open, tmp_path: Path) -> None:
+    heavy = np.random.default_rng(1).bytes(4_000_000)  # files of parts: nothing to compress
+    page = sample_pages.run_page(tmp_path / "run", more={"print/housing.3mf": heavy})
+    assert 5_000_000 < page.stat().st_size < MOST
+    loaded = "performance.getEntriesByType('navigation')[0].loadEventEnd"
+    times = []
+    for _ in range(3):  # the least of three: a busy machine has its pauses
+        found = opened(page).page
+        found.wait_for_function(f"{loaded} > 0")
+        times.append(float(found.evaluate(loaded)))
+    assert min(times) < 2000.0
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def end_process_tree(process: int) -> None:
 
 def give_way(process: int) -> None:
     """Let a process, and those it starts from now on, compute where others leave a processor free."""
-    low = psutil.BELOW_NORMAL_PRIORITY_CLASS if psutil.WINDOWS else _POLITE
+    low: int = getattr(psutil, "BELOW_NORMAL_PRIORITY_CLASS", _POLITE)  # Windows has classes in place of numbers
     with contextlib.suppress(psutil.Error):
         psutil.Process(process).nice(low)
 

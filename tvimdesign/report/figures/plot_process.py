@@ -21,8 +21,8 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import follow_parent, start_child
-from tvimdesign.base.process_tree import give_way
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.process_tree import give_way
 from tvimdesign.base.whole_files import write_whole
 
 TIME_LIMIT = 120.0  # s

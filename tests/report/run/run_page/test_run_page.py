@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import json
+import time
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
 import html5lib
+import numpy as np
 import pytest
 import sample_pages
 from support import ROOT, Command
 
 from tvimdesign.page.blocks import Grid
+from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.first_screen.screen import Told
 from tvimdesign.report.run.run_page.glance import facts_of, glance
 from tvimdesign.report.run.run_page.reasons import assumptions_section, moves
+from tvimdesign.report.run.run_page.run_page import write_run_page
 
 
 def words(element: Element) -> str:
@@ -59,6 +63,16 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
     warnings = [words(one).removeprefix("Warning ").partition(";write ")[0] for one in first.findall(".//ul/li")]
     assert len(warnings) == 6
     assert [one for one in warnings if one not in summary] == []
+
+
+def test_a_page_costs_a_run_less_than_a_second(answered: AnsweredStudy, tmp_path: Path) -> None:
+    with ResultsFolder(tmp_path / "run") as results:
+        sample_pages.write_parts(tmp_path / "run/cad")
+        (tmp_path / "run/cad/print/housing.3mf").write_bytes(np.random.default_rng(1).bytes(4_000_000))
+        began = time.process_time()
+        write_run_page(results, answered, Told(doubts=answered.reported["doubts"]))
+        assert time.process_time() - began < 1.0
+        results.finish("evaluated", {}, {})
 
 
 def test_a_run_without_parts_says_how_to_make_them(tmp_path: Path) -> None:
