@@ -38,6 +38,8 @@ from ngsolve import (
 
 BETWEEN_PLATES = 0.25
 """Poisson's ratio of rigid modules: pressed between stiff plates they are as stiff as three times the shear modulus."""
+RUBBER = 100.0
+"""Bulk over shear modulus from which a pad hardly changes its volume."""
 METAL = 0.33
 """Poisson's ratio of a spreader where its shear modulus is not told."""
 
@@ -46,7 +48,9 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     """Stiffness of the joint at the core's top and of each part [N*m/rad]; stresses at 1 N*m [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
-    whole = Glue(joint_solids.parts(folder, mm, coarser))
+    is_rubber = values.get("peltier_bulk_modulus", 0.0) > RUBBER * values["peltier_shear_modulus"]
+    pressed = joint_solids.RUBBER if is_rubber else joint_solids.PRESSED
+    whole = Glue(joint_solids.parts(folder, mm, coarser, pressed))
     joint_solids.refine(whole, mm, coarser)
     joint_solids.name_faces(whole, mm)
     sizes = {"maxh": 12.0 * coarser, "grading": 0.6, "curvaturesafety": 1.0, "segmentsperedge": 0.5}

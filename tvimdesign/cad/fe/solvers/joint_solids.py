@@ -12,8 +12,9 @@ from netgen.occ import Axis, Box, Cylinder, Dir, HalfSpace, OCCGeometry, Pnt, Ve
 FOOT, EDGE = 0.5, 2.0
 """Elements at the core's foot and along the arcs' edges [mm]."""
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
-PRESSED = 0.4
-"""Size of elements in a pad that is pressed, over its thickness."""
+PRESSED, RUBBER = 0.4, 0.25
+"""Size of elements in a pad that is pressed, over its thickness; and in one that hardly changes its volume, which is held
+by what its faces keep from moving: 0.4 has that a fifth too stiff."""
 WINDOW = 0.125, 0.2
 """Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]."""
 PAD_GAP = 0.2
@@ -44,8 +45,8 @@ def sectors(mm: dict[str, float], bottom: float, top: float, wider: float = 0.0,
     return found
 
 
-def parts(folder: Path, mm: dict[str, float], coarser: float) -> list[Any]:
-    """Solids that carry the torque, named, with the size of their elements."""
+def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = PRESSED) -> list[Any]:
+    """Solids that carry the torque, named, with the size of their elements; of pads that are pressed, over thickness."""
 
     def read(name: str) -> Any:
         return OCCGeometry(str(folder / f"{name}.step")).shape
@@ -61,8 +62,9 @@ def parts(folder: Path, mm: dict[str, float], coarser: float) -> list[Any]:
         housing = _ring_housing(read("housing"), mm, [read(path.stem) for path in sorted(heaters)])
     else:
         housing = _arc_housing(read("housing"), mm, _tile_pockets(mm) if rigid else _pad_pockets(mm))
+    kinds = _pressed(folder, mm, pressed) if blocks else _sheared(folder, mm)
     found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
-    found += [(read(name), label, size) for name, label, size in (_pressed if blocks else _sheared)(folder, mm)]
+    found += [(read(name), label, size) for name, label, size in kinds]
     if rigid:
         found += [(one, "spreader", SIZES["layer"]) for one in sectors(mm, -mm["spreader_depth"], 0.0)]
     elif not blocks:
@@ -73,13 +75,13 @@ def parts(folder: Path, mm: dict[str, float], coarser: float) -> list[Any]:
     return [shape for shape, _, _ in found]
 
 
-def _pressed(folder: Path, mm: dict[str, float]) -> list[tuple[str, str, float]]:
+def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[str, str, float]]:
     """Files of the blocks of one sense, which are pressed, and of what they press on, with name and size of elements.
 
     Blocks are counted around the axis from a rotor's vane, heaters from a housing's: each has two of them.
     """
     row = round(mm["tiles_per_block"]) if mm["spreader_depth"] else 1
-    thin = PRESSED * mm["peltier_thickness"]
+    thin = pressed * mm["peltier_thickness"]
     kinds = {"pcl_block": ("pcl", SIZES["layer"], 1, 1), "peltier_pad": ("pad", thin, 0, row)}
     if mm["spreader_depth"]:
         kinds |= {"spreader": ("spreader", SIZES["layer"], 0, 1)}
