@@ -44,7 +44,9 @@ def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> 
         "print(subprocess.run([sys.executable, '-c', 'import psutil; print(psutil.Process().nice())'], "
         "capture_output=True, text=True).stdout)"
     )
-    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as one:
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as one:
         give_way(one.pid)
         said, _ = one.communicate("go on\n")
     assert int(said) > psutil.Process().nice()

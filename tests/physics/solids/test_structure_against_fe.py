@@ -58,12 +58,12 @@ BORED = [name for name in (*SHEAR, *SPREAD) if "link_screw_hole" in SHIPPED[name
 
 
 FOOT_OF_WRIST = "its foot bears 8.5 % more in FE than by the form, which is held to 8"
-DEEP_BLOCK = "a block deeper than high turns on its pad, which the form does not know: 1.21 of FE"
+DEEP_BLOCK = "blocks deeper than high, unlike all that the form was fitted to: 1.21 of FE, and why is not known"
 FINE_PADS = "1.047 of FE, since its pads have four elements over their thickness"
 
 
 def known(names: Sequence[str], why: Mapping[str, str]) -> list[Any]:
-    """Cases, of which some are known to miss: told in validation/fe_structure/README.md, and no longer once they hold."""
+    """Cases, of which some are known to miss: told in validation/fe_structure/README.md."""
     return [
         pytest.param(one, marks=pytest.mark.xfail(reason=why[one], strict=True)) if one in why else one for one in names
     ]
