@@ -13,8 +13,8 @@ FOOT, EDGE = 0.5, 2.0
 """Elements at the core's foot and along the arcs' edges [mm]."""
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
 PRESSED, RUBBER = 0.4, 0.25
-"""Size of elements in a pad that is pressed, over its thickness; and in one of rubber, which keeps its volume and is held
-by what its faces keep from moving: 0.4 has it a fifth too stiff."""
+"""Size of elements in a pad that is pressed, over its thickness; and in one of rubber, which keeps its volume and is
+held by what its faces keep from moving: 0.4 has it a fifth too stiff."""
 WINDOW = 0.125, 0.2
 """Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]."""
 PAD_GAP = 0.2
@@ -46,7 +46,7 @@ def sectors(mm: dict[str, float], bottom: float, top: float, wider: float = 0.0,
 
 
 def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = PRESSED) -> list[Any]:
-    """Solids that carry the torque, named, with the size of their elements; `pressed` is that of pads over thickness."""
+    """Solids that carry the torque, named, with the size of their elements; `pressed`: of pads, over thickness."""
 
     def read(name: str) -> Any:
         return OCCGeometry(str(folder / f"{name}.step")).shape
