@@ -122,3 +122,9 @@ def test_too_few_values_are_refused() -> None:
     few = problem(X[:2], lambda values: values["a"] + values["b"] * X[:2], one, other, over=X[:2])
     with pytest.raises(InputError, match="2 values do not give 2 parameters"):
         fitted(few)
+
+
+def test_a_parameter_whose_bounds_leave_it_no_room_is_refused() -> None:
+    slope = Parameter("slope", "1", "", 1e5, most=1e-200)
+    with pytest.raises(InputError, match=r"slope: the data suggest 1e\+05 1; look for a wrong number"):
+        fitted(problem(3.0 * X, lambda values: values["slope"] * X, slope))

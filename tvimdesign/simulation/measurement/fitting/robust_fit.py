@@ -72,6 +72,10 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
             "the equations give no number at the start of the fit; look at units and ranges of the columns"
         )
     _refuse_wild(residuals, start)
+    for one in residuals.problem.parameters:
+        least, most = one.bounds
+        if not least < most:
+            raise InputError(f"{one.name}: the data suggest {one.start:.0e} {one.unit}; look for a wrong number")
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
     inner = start
     for _ in range(_PASSES):
