@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -20,6 +21,13 @@ pytest_plugins = ["shared_models", "shear_designs"]
 os.environ["NUMBA_DISABLE_JIT"] = "1"
 # As the command line does: tests make many objects and keep most, and looking for garbage among them takes its time.
 gc.set_threshold(200_000, 20, 20)
+
+# A shell lets what it starts in the background ignore interrupts, as nohup does; tests send some, and children inherit
+# what is ignored.
+for _name, _usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):
+    _number = getattr(signal, _name, None)
+    if _number is not None and signal.getsignal(_number) is signal.SIG_IGN:
+        signal.signal(_number, _usual)
 
 # A test that is right is right on a machine that is busy, too.
 settings.register_profile("any machine", deadline=None)
