@@ -60,6 +60,10 @@ def compliance(time: Any, modes: Modes) -> Any:
     return one.map(count)(ca.MX(time).T, ca.repmat(given, 1, count)).T
 
 
+_NONE = np.finfo(float).tiny
+"""Compliance [1/Pa] that is none: one over it is no number."""
+
+
 def tests_of(block: Block, settings: Settings) -> list[MeltTest]:
     """The creep of a table, and the recovery in it where there is one: compliance above zero."""
     if block.settings.get("recovery", "0").strip() not in {"", "0"}:
@@ -68,7 +72,7 @@ def tests_of(block: Block, settings: Settings) -> list[MeltTest]:
             "table with the creep before it, with the stress in a column"
         )
     time, found, loaded = _compliance(block, settings)
-    good = (time > 0.0) & ((found > 0.0) | ~loaded)
+    good = (time > 0.0) & ((found > _NONE) | ~loaded)
     time, found, loaded = time[good], found[good], loaded[good]
     if np.sum(loaded) < LEAST_ROWS:
         raise InputError(f"{block.file}:{block.lines[0]}: no three rows under load with a compliance above zero")
