@@ -95,7 +95,7 @@ def finite_data(data: Any) -> Any:
     """Plain data with none in place of numbers that JSON does not have."""
     if isinstance(data, Mapping):
         return {name: finite_data(one) for name, one in data.items()}
-    if isinstance(data, list) and data and isinstance(data[0], float):
+    if isinstance(data, list) and all(type(one) is float for one in data):
         return [one if math.isfinite(one) else None for one in data]
     if isinstance(data, list | tuple):
         return [finite_data(one) for one in data]
