@@ -12,8 +12,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-_PARENT, _ALIVE = "TVIMDESIGN_PARENT", "TVIMDESIGN_ALIVE"
-"""Environment variables: the parent's number; the pipe that ends with it, where the kernel does not tell of its end."""
+PARENT, _ALIVE = "TVIMDESIGN_PARENT", "TVIMDESIGN_ALIVE"
+"""Environment variables of a child: the parent's number; the pipe that ends with it, where the kernel does not tell of its end."""
 _PR_SET_PDEATHSIG = 1
 
 
@@ -21,7 +21,7 @@ def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> s
     """Start a module of this package as a process that speaks UTF-8 and ends with this one; `options` are Popen's."""
     here = str(Path(__file__).parents[2])
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
-    own = {"PYTHONPATH": os.pathsep.join(paths), "PYTHONIOENCODING": "utf-8", _PARENT: str(os.getpid())}
+    own = {"PYTHONPATH": os.pathsep.join(paths), "PYTHONIOENCODING": "utf-8", PARENT: str(os.getpid())}
     environment = {**os.environ, **own}
     if _needs_pipe():
         pipe = _pipe_of_this_process()
@@ -46,7 +46,7 @@ def hear(process: subprocess.Popen[str], put: Callable[[str | None], object]) ->
 
 def follow_parent(parent: int | None = None) -> None:
     """End this process when its parent ends: the one that started it, or `parent` where this one was forked."""
-    expected = parent or int(os.environ.get(_PARENT, "0"))
+    expected = parent or int(os.environ.get(PARENT, "0"))
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     elif parent is None and _ALIVE in os.environ:

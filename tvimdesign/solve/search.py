@@ -14,6 +14,7 @@ from tvimdesign.solve.discrete.enumeration import enumerate_all
 from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
+from tvimdesign.solve.discrete.second_process import second_process
 from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
@@ -72,18 +73,24 @@ def _optimize(
     refuse_too_many(families, sizes)
     combinations = sizes.count * sum(family.count for family in families)
     building = Trees(study, reference, progress, objectives, deadline, sizes)
-    trees += building.of(families)
-    listed = any(relaxation.sizes.names for relaxation in trees)
-    hopeless = all(relaxation.hopeless() for relaxation in trees)
     free: list[tuple[Relaxation, Run]] = []
-    for relaxation in trees:
-        if not (free and deadline.passed):
-            free += [(relaxation, run) for run in relaxation.starts(1 if hopeless else None)]
-    for relaxation in trees:
-        free += [(relaxation, run) for run in relaxation.from_other_records(trees)]
+    with second_process(study, reference, objectives, deadline, combinations) as helper:
+        trees += building.of(families)
+        listed = any(relaxation.sizes.names for relaxation in trees)
+        hopeless = all(relaxation.hopeless() for relaxation in trees)
+        for relaxation in trees:
+            if not (free and deadline.passed):
+                free += [(relaxation, run) for run in relaxation.starts(1 if hopeless else None)]
+        for relaxation in trees:
+            free += [(relaxation, run) for run in relaxation.from_other_records(trees)]
+        search = BranchAndBound(trees, study.solver.alternatives, helper)
+        if helper is not None:
+            helper.begin(trees)
+        if listed:
+            search.run()
     choosing: Choosing | None = None
     if listed:
-        choosing, found = _choose(trees, building.exact(), combinations, study.solver)
+        choosing, found = _choose(search, building.exact(), combinations, study.solver)
     else:
         found = free
         choosing = _chosen(free, combinations, study.solver) if combinations > 1 else None
@@ -168,11 +175,10 @@ def _reconciled(
 
 
 def _choose(
-    trees: Sequence[Relaxation], exact: ExactCombinations, combinations: int, asked: SolverOptions
+    search: BranchAndBound, exact: ExactCombinations, combinations: int, asked: SolverOptions
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
-    """The best combinations by branch and bound, and where that is asked for by solving all."""
-    search = BranchAndBound(trees, asked.alternatives)
-    search.run()
+    """The best combinations that branch and bound found, and where that is asked for by solving all."""
+    trees = search.trees
     stopped = trees[0].optimizer.deadline.met
     found, proof = dict(search.found), SolverEffort()
     pruned, improved = search.pruned, 0.0

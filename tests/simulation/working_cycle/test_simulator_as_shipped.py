@@ -29,3 +29,14 @@ def test_an_event_that_a_second_look_just_misses_is_found_where_it_is() -> None:
     shown, tight = Simulator(model).run_to_show(model.start), fine(model).run(model.start)
     for name in ("softening_time", "stiffening_time", "equilibrium_stiffening_time"):
         assert shown.values[name] == pytest.approx(tight.values[name], rel=2e-5), name
+
+
+def test_a_phase_that_is_over_at_once_is_not_sampled_as_finely_for_ever() -> None:
+    """What else happens in it may take hours: stretches of 10 ms up to then were a hang, of gigabytes."""
+    study = read_study(ROOT / "studies" / "paper_shear.yaml")
+    model = DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+    simulator = Simulator(model)
+    usual = simulator.run(model.start, phases=["softening"])
+    fine_sampled = simulator.run(model.start, phases=["softening"], stretches={"softening": 0.01})
+    assert len(fine_sampled.trajectories["softening"].times) < 5_000
+    assert fine_sampled.values["softening_time"] == pytest.approx(usual.values["softening_time"], rel=2e-4)

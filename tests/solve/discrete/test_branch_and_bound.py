@@ -141,13 +141,14 @@ def test_a_box_is_split_where_a_number_is_farthest_from_its_sizes(
     centre: tuple[float, float], halves: tuple[Box, Box]
 ) -> None:
     bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), centre)
-    assert BranchAndBound(cast("list[Relaxation]", [bowl]), 1)._halves(_node(bowl)) == halves
+    node = _node(bowl)
+    assert BranchAndBound(cast("list[Relaxation]", [bowl]), 1)._division(node).halves(node.box) == halves
 
 
 def test_a_box_that_was_never_solved_is_split_in_the_middle_of_its_longest_list() -> None:
     bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
-    search = BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
-    assert search._halves(_node(bowl, solved=False)) == (((0, 2), (0, 1)), ((0, 2), (2, 3)))
+    search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, solved=False)
+    assert search._division(node).halves(node.box) == (((0, 2), (0, 1)), ((0, 2), (2, 3)))
 
 
 @pytest.mark.parametrize("fails", [False, True])
@@ -155,8 +156,7 @@ def test_halves_lie_one_deeper_than_the_box_they_are_of(fails: bool) -> None:
     bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
     search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, depth=3)
     bowl.fails = fails
-    for box in search._halves(node):
-        search._bound(node, box)
+    search._divide([node])
     assert [one.depth for one in search._open] == [4, 4]
 
 

@@ -19,6 +19,7 @@ from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Array, Trajectory
 
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
+_EQUAL_STRETCHES = 64  # of a shorter one; each after them is twice as long, too, as another event may take for ever
 MOST_STEPS = 50  # of Newton; a steady state takes less than ten
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
 
@@ -107,7 +108,8 @@ class PhaseSimulator:
             constant = np.isinf(profile.next_corner(time))
             if constant and np.max(np.abs(rate)) * (horizon - time) < STALLED:
                 break
-            length = 2.0 * length if length >= FIRST_STRETCH else stretch
+            doubles = length >= FIRST_STRETCH or len(pieces) >= _EQUAL_STRETCHES
+            length = 2.0 * length if doubles else stretch
         return self._summary(found, pieces, constants, profile)
 
     def trace(self, inputs: Array, profile: CurrentProfile, before: Array | None, end: float) -> Trajectory:

@@ -15,7 +15,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.solve.discrete.box_tasks import Answer, BoxSolver, OneProcess, Task
 from tvimdesign.solve.discrete.discrete_choices import SAME_SIZE, Box, is_one
+from tvimdesign.solve.discrete.pseudo_costs import PseudoCosts
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.nlp.solver_run import Run
 
@@ -25,6 +27,8 @@ _NEXT_RECORDS = 3
 """Records of each mixture, by cost, that are tried beside a tree's first combination."""
 _DATA = 20
 """Boxes between two words of progress."""
+_AT_ONCE = 4
+"""Boxes that are divided at once, whoever answers the tasks that come of it: so the search is the same everywhere."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +43,22 @@ class Node:
     number: int
 
 
+@dataclass(frozen=True)
+class Division:
+    """Where a box is divided: along which list, after which size."""
+
+    axis: int
+    after: int
+    moves: tuple[float, float]
+    """How far the number lies from the nearest size of each half, in shares of it."""
+
+    def halves(self, box: Box) -> tuple[Box, Box]:
+        """The half with the smaller sizes, and the one with the larger."""
+        first, last = box[self.axis]
+        before, behind = box[: self.axis], box[self.axis + 1 :]
+        return (*before, (first, self.after), *behind), (*before, (self.after + 1, last), *behind)
+
+
 @dataclass
 class BranchAndBound:
     """One search over the trees of all records; `found` are the runs of single combinations, by tree and box."""
@@ -46,6 +66,8 @@ class BranchAndBound:
     trees: Sequence[Relaxation]
     keep: int
     """Combinations that are to be found for certain: bounds are held against the last of them."""
+    solver: BoxSolver | None = None
+    """This process unless given."""
     found: dict[tuple[int, Box], Run] = field(default_factory=dict)
     inside: float = 0.0
     """Largest share by which a design within a box was better than the box's bound."""
@@ -54,23 +76,27 @@ class BranchAndBound:
     _told: int = 0
     _tried_others: set[int] = field(default_factory=set)
     _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
+    _pseudo_costs: dict[int, PseudoCosts] = field(default_factory=dict)
+    """By tree."""
 
     def run(self) -> None:
         """Search until no box promises better."""
         self._bounded = [np.zeros(relaxation.sizes.shape, dtype=bool) for relaxation in self.trees]
+        begun: list[Task] = []
         for relaxation in self.trees:
             whole = relaxation.sizes.whole
             for optimum in relaxation.optima:
                 self._add(relaxation, whole, optimum.start.objective, optimum, 0)
-                self._try(relaxation, relaxation.sizes.nearest(relaxation.values(optimum), whole), optimum)
+                nearest = relaxation.sizes.nearest(relaxation.values(optimum), whole)
+                begun.append(Task(relaxation.place, nearest, optimum, "exactly"))
             if not relaxation.optima:
                 self._add(relaxation, whole, -math.inf, None, 0)
+        self._try(begun)
         while self._open and not self.stopped:
-            node = self._open.pop(min(range(len(self._open)), key=lambda i: self._urgency(self._open[i])))
-            if node.bound >= self.cutoff:
-                self._bounded[node.relaxation.place][_slices(node.box)] = True
-            else:
-                self._split(node)
+            nodes = [node for node in self._most_urgent() if not self._left(node)]
+            self._try([task for node in nodes for task in self._combinations_of(node)])
+            self._divide([node for node in nodes if not is_one(node.box)])
+            for node in nodes:
                 self._tell(node.relaxation)
         if not self.stopped:
             self._begin_afresh()
@@ -82,16 +108,19 @@ class BranchAndBound:
 
     def _begin_afresh(self) -> None:
         """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
-        best = sorted(self.found, key=lambda key: (order(self.found[key]), key))
-        for place, box in best[: self.keep]:
-            if self.stopped:
-                return
+        best = sorted(self.found, key=lambda key: (order(self.found[key]), key))[: self.keep]
+        for (place, box), again in self._answers([Task(*key, None, "thoroughly") for key in best]):
             before = self.found[place, box]
-            again = self.trees[place].thoroughly(box, None)
-            if again is not None and order(again) < order(before):
-                self.found[place, box] = again
+            if again.run is not None and order(again.run) < order(before):
+                self.found[place, box] = again.run
                 objective = before.start.objective
-                self.inside = max(self.inside, (objective - again.start.objective) / abs(objective))
+                self.inside = max(self.inside, (objective - again.run.start.objective) / abs(objective))
+
+    def _answers(self, tasks: Sequence[Task]) -> list[tuple[tuple[int, Box], Answer]]:
+        """Tasks answered, by tree and box; none any more once the time is over."""
+        solver = self.solver or OneProcess(self.trees)
+        answers = [] if self.stopped else solver.solve(tasks)
+        return [((task.place, task.box), answer) for task, answer in zip(tasks, answers, strict=False)]
 
     @property
     def cutoff(self) -> float:
@@ -110,81 +139,126 @@ class BranchAndBound:
         deep = 0.0 if math.isfinite(self.cutoff) else -float(node.depth)
         return deep, node.bound, node.number
 
-    def _split(self, node: Node) -> None:
-        if is_one(node.box):
-            self._try(node.relaxation, node.box, node.run)
-            return
-        if node.run is not None and node.relaxation.sizes.are_sizes(node.relaxation.values(node.run), node.box):
-            self._try(
-                node.relaxation, node.relaxation.sizes.nearest(node.relaxation.values(node.run), node.box), node.run
-            )
-        for box in self._halves(node):
-            self._bound(node, box)
+    def _most_urgent(self) -> list[Node]:
+        """The next boxes, taken from those that are open."""
+        nodes = sorted(self._open, key=self._urgency)[:_AT_ONCE]
+        self._open = [node for node in self._open if node not in nodes]
+        return nodes
 
-    def _bound(self, node: Node, box: Box) -> None:
-        """Solve one half of a box, and keep it where it may hold better combinations."""
-        relaxation, near = node.relaxation, node.run
-        if near is not None and relaxation.sizes.hold(relaxation.values(near), box):
-            self._add(relaxation, box, node.bound, near, node.depth + 1)
+    def _left(self, node: Node) -> bool:
+        """Whether a box promises nothing better than what is known; it is noted as left then."""
+        if node.bound < self.cutoff:
+            return False
+        self._bounded[node.relaxation.place][_slices(node.box)] = True
+        return True
+
+    def _combinations_of(self, node: Node) -> list[Task]:
+        """The one combination of a box, or the one that its best design is."""
+        relaxation, run = node.relaxation, node.run
+        if is_one(node.box):
+            return [Task(relaxation.place, node.box, run, "exactly")]
+        if run is None or not relaxation.sizes.are_sizes(relaxation.values(run), node.box):
+            return []
+        return [Task(relaxation.place, relaxation.sizes.nearest(relaxation.values(run), node.box), run, "exactly")]
+
+    def _divide(self, nodes: Sequence[Node]) -> None:
+        """Solve both halves of each box, and keep those that may hold better combinations."""
+        halves: list[tuple[Node, Division, int]] = []
+        for node in nodes:
+            division, values = self._division(node), node.run and node.relaxation.values(node.run)
+            for side, box in enumerate(division.halves(node.box)):
+                if values and node.relaxation.sizes.hold(values, box):
+                    self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
+                else:
+                    halves.append((node, division, side))
+        tasks = [
+            Task(node.relaxation.place, division.halves(node.box)[side], node.run, "within")
+            for node, division, side in halves
+        ]
+        for (node, division, side), (key, found) in zip(halves, self._answers(tasks), strict=False):
+            self._take(node, division, side, key[1], found)
+
+    def _take(self, node: Node, division: Division, side: int, box: Box, found: Answer) -> None:
+        """Keep one half, and learn from how much worse it is."""
+        if found.run is None and not found.certain:
+            self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
             return
-        run, certain = relaxation.best_within(box, near)
-        if run is None:
-            if not certain:
-                self._add(relaxation, box, node.bound, near, node.depth + 1)
-            return
-        objective = run.start.objective
+        risen = None
+        if found.run is not None:
+            objective = found.run.start.objective
+            self._add(node.relaxation, box, objective, found.run, node.depth + 1)
+            risen = (objective - node.bound) / abs(node.bound)
         if math.isfinite(node.bound):
-            self.inside = max(self.inside, (node.bound - objective) / abs(node.bound))
-        self._add(relaxation, box, objective, run, node.depth + 1)
+            self.inside = max(self.inside, -(risen or 0.0))
+            self._pseudo_costs_of(node).learn(division.axis, side, division.moves[side], risen)
 
     def _add(self, relaxation: Relaxation, box: Box, bound: float, run: Run | None, depth: int) -> None:
         self._open.append(Node(relaxation, box, bound, run, depth, self._made))
         self._made += 1
 
-    def _try(self, relaxation: Relaxation, box: Box, near: Run | None) -> None:
-        """Solve one combination; the better of two where another box came to it too, and promises better."""
-        key = (relaxation.place, box)
-        if key in self.found and near is not None:
-            known, promised = self.found[key].start.objective, near.start.objective
-            if known <= promised + GAP * abs(promised):
-                return
-        run, _ = relaxation.exactly(box, near)
-        if run is not None and (key not in self.found or order(run) < order(self.found[key])):
-            best = min((one.start.objective for one in self.found.values()), default=math.inf)
-            self.found[key] = run
-            if run.start.objective < best:
-                self._say(relaxation)
-            self._try_other_records(relaxation, box, run)
+    def _try(self, tasks: Sequence[Task]) -> None:
+        """Solve combinations; the better of two where another box came to one too, and promises better."""
+        first: dict[tuple[int, Box], Task] = {}
+        for task in tasks:
+            if self._promises(task):
+                first.setdefault((task.place, task.box), task)
+        others: list[Task] = []
+        for key, (run, _) in self._answers(list(first.values())):
+            if run is not None and (key not in self.found or order(run) < order(self.found[key])):
+                others += self._found(key, run)
+        if others:
+            self._try(others)
 
-    def _try_other_records(self, relaxation: Relaxation, box: Box, run: Run) -> None:
-        """Solve what differs from a tree's first combination in one record: good ones rule out much from then on."""
+    def _promises(self, task: Task) -> bool:
+        """Whether a combination is new, or the run nearby better than what is known of it."""
+        known = self.found.get((task.place, task.box))
+        if known is None or task.near is None:
+            return True
+        promised = task.near.start.objective
+        return known.start.objective > promised + GAP * abs(promised)
+
+    def _found(self, key: tuple[int, Box], run: Run) -> list[Task]:
+        """Keep a combination's design; what is to be tried beside the first one of its tree."""
+        relaxation = self.trees[key[0]]
+        best = min((one.start.objective for one in self.found.values()), default=math.inf)
+        self.found[key] = run
+        relaxation.note(run)
+        if run.start.objective < best:
+            self._say(relaxation)
         if relaxation.place in self._tried_others:
-            return
+            return []
         self._tried_others.add(relaxation.place)
-        for axis in range(len(box) - len(relaxation.sizes.mixtures), len(box)):
-            for place in range(min(_NEXT_RECORDS, len(relaxation.sizes.sizes[axis]))):
-                if place != box[axis][0] and not self.stopped:
-                    self._try(relaxation, (*box[:axis], (place, place), *box[axis + 1 :]), run)
+        return self._other_records(relaxation, key[1], run)
 
-    def _halves(self, node: Node) -> tuple[Box, Box]:
-        """Split where a number lies farthest from its sizes, in shares of it; else the longest list in the middle."""
-        sizes = node.relaxation.sizes
+    def _other_records(self, relaxation: Relaxation, box: Box, run: Run) -> list[Task]:
+        """What differs from a combination in one record: good ones rule out much from then on."""
+        return [
+            Task(relaxation.place, (*box[:axis], (place, place), *box[axis + 1 :]), run, "exactly")
+            for axis in range(len(box) - len(relaxation.sizes.mixtures), len(box))
+            for place in range(min(_NEXT_RECORDS, len(relaxation.sizes.sizes[axis])))
+            if place != box[axis][0]
+        ]
+
+    def _division(self, node: Node) -> Division:
+        """Where a box is best divided: by pseudo-costs; where every number has one of its sizes, the longest list."""
+        sizes, best, most = node.relaxation.sizes, None, 0.0
         values = node.relaxation.values(node.run) if node.run is not None else {}
-        chosen, cut, far = -1, 0, 0.0
-        for i, (name, listed, (first, last)) in enumerate(zip(sizes.names, sizes.sizes, node.box, strict=True)):
+        for axis, (name, listed, (first, last)) in enumerate(zip(sizes.names, sizes.sizes, node.box, strict=True)):
             if first == last or name not in values:
                 continue
             below = int(np.searchsorted(listed[first : last + 1], values[name] * (1.0 + SAME_SIZE), side="right"))
             below = min(max(first + below - 1, first), last - 1)
-            distance = min(sizes.apart(i, values[name], listed[place]) for place in (below, below + 1))
-            if distance > far:
-                chosen, cut, far = i, below, distance
-        if chosen < 0 or far <= SAME_SIZE:
-            chosen = max(range(len(node.box)), key=lambda i: node.box[i][1] - node.box[i][0])
-            cut = sum(node.box[chosen]) // 2
-        first, last = node.box[chosen]
-        before, after = node.box[:chosen], node.box[chosen + 1 :]
-        return (*before, (first, cut), *after), (*before, (cut + 1, last), *after)
+            moves = tuple(sizes.apart(axis, values[name], listed[place]) for place in (below, below + 1))
+            score = self._pseudo_costs_of(node).score(axis, moves)
+            if min(moves) > SAME_SIZE and score > most:
+                best, most = Division(axis, below, moves), score
+        if best is None:
+            axis = max(range(len(node.box)), key=lambda i: node.box[i][1] - node.box[i][0])
+            best = Division(axis, sum(node.box[axis]) // 2, (0.0, 0.0))
+        return best
+
+    def _pseudo_costs_of(self, node: Node) -> PseudoCosts:
+        return self._pseudo_costs.setdefault(node.relaxation.place, PseudoCosts())
 
     def _tell(self, relaxation: Relaxation) -> None:
         self._told += 1

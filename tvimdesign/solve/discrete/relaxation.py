@@ -21,7 +21,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 
-_CLOSE = 0.1
+_CLOSE = 0.02
 """Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
 whether the limits can be kept there at all."""
 
@@ -45,7 +45,7 @@ class Relaxation:
     """A run for each different optimum that the starts came to with every size free, the best first."""
     best: Run | None = field(init=False, default=None)
     """The best run so far that converged with every size from its list."""
-    _ends: list[Run] = field(init=False, default_factory=list)
+    ends: list[Run] = field(init=False, default_factory=list)
     """Where the starts came to instead, if none of them came to an optimum."""
 
     def __post_init__(self) -> None:
@@ -78,7 +78,7 @@ class Relaxation:
             runs.append(run)
             if not self.sizes.names:
                 run.start = replace(run.start, choices=dict(self.records))
-                self._note(run)
+                self.note(run)
         runs = NeighboringOptima(self.optimizer).improve(runs)
         self._take(runs)
         return runs
@@ -108,7 +108,7 @@ class Relaxation:
             objective = run.start.objective
             if all(abs(objective - o.start.objective) > SAME_OPTIMUM * abs(objective) for o in self.optima):
                 self.optima.append(run)
-        self._ends = [] if self.optima else runs
+        self.ends = [] if self.optima else runs
         self._sort_records()
 
     def _from_one_of_each(self, begin: Array) -> Run:
@@ -222,17 +222,18 @@ class Relaxation:
 
     def _named(self, run: Run, box: Box) -> Run:
         run.start = replace(run.start, choices=self.choices(box))
-        self._note(run)
+        self.note(run)
         return run
 
-    def _note(self, run: Run) -> None:
+    def note(self, run: Run) -> None:
         """Keep the best."""
         if run.start.converged and (self.best is None or order(run) < order(self.best)):
             self.best = run
 
     def _begins(self, ends: Mapping[str, Ends], near: Run | None) -> list[Array]:
         """Inputs to start from, moved into the ends: those of the run nearby, of the optima, of the study's start."""
-        others = [run for run in (*self.optima, *self._ends) if run is not near]
+        known = (*self.optima, *self.ends)
+        others = [run for run in known if near is None or not np.array_equal(run.unknowns, near.unknowns)]
         found = [*(run.inputs for run in ([near] if near else []) + others), self.optimizer.model.start]
         moved = []
         for inputs in found:
