@@ -73,16 +73,11 @@ def _optimize(
     refuse_too_many(families, sizes)
     combinations = sizes.count * sum(family.count for family in families)
     building = Trees(study, reference, progress, objectives, deadline, sizes)
-    free: list[tuple[Relaxation, Run]] = []
     with second_process(study, reference, objectives, deadline, combinations) as helper:
         trees += building.of(families)
         listed = any(relaxation.sizes.names for relaxation in trees)
         hopeless = all(relaxation.hopeless() for relaxation in trees)
-        for relaxation in trees:
-            if not (free and deadline.passed):
-                free += [(relaxation, run) for run in relaxation.starts(1 if hopeless else None)]
-        for relaxation in trees:
-            free += [(relaxation, run) for run in relaxation.from_other_records(trees)]
+        free = _free_runs(trees, 1 if hopeless else None, deadline)
         search = BranchAndBound(trees, study.solver.alternatives, helper)
         if helper is not None:
             helper.begin(trees)
@@ -172,6 +167,17 @@ def _reconciled(
         return best, None
     conflict_search.run.start = replace(conflict_search.run.start, choices=best.start.choices)
     return conflict_search.run, conflict_search.conflict_set
+
+
+def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline) -> list[tuple[Relaxation, Run]]:
+    """The runs of each tree from every start, or so many at `most`, with every size free."""
+    free: list[tuple[Relaxation, Run]] = []
+    for relaxation in trees:
+        if not (free and deadline.passed):
+            free += [(relaxation, run) for run in relaxation.starts(most)]
+    for relaxation in trees:
+        free += [(relaxation, run) for run in relaxation.from_other_records(trees)]
+    return free
 
 
 def _choose(

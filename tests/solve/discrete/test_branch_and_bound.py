@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -62,6 +62,9 @@ class Bowl:
     def exactly(self, box: Box, near: Any) -> tuple[Any, bool]:
         return self.best_within(box, near)
 
+    def note(self, run: Any) -> None:
+        """A tree keeps its best; a bowl does not."""
+
     def thoroughly(self, box: Box, near: Any) -> Any:
         return self.best_within(box, near)[0]
 
@@ -107,6 +110,21 @@ def test_a_bowl_over_two_thousand_combinations_takes_a_few_runs() -> None:
     assert sizes.count == 2197
     assert min(run.start.objective for run in search.found.values()) == pytest.approx(min(bowl.enumerated()))
     assert bowl.solved < 40
+
+
+def test_a_list_whose_entries_are_as_good_as_one_another_is_divided_last() -> None:
+    """The first number is far from its sizes and costs nothing, the second is near and costs much."""
+    listed = tuple(4.0**power for power in range(8))
+    bowl = Bowl(0, Sizes(("a", "b"), (listed, (10.0, 11.0, 12.0, 13.0))), (2.0, 11.4), (1e-9, 1.0), 5.0, 0.0)
+    node, search = _node(bowl), BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
+    assert search._division(node).axis == 0
+    search._divide([node])
+    costly = next(one for one in search._open if one.run is not None and one.run is not node.run)
+    near = replace(node, box=((0, 7), (0, 3)))
+    search._pseudo_costs_of(node).learn(1, 0, 0.03, 0.05)
+    search._pseudo_costs_of(node).learn(1, 1, 0.05, 0.05)
+    assert costly.bound == pytest.approx(5.0, rel=1e-6)
+    assert search._division(near).axis == 1
 
 
 def test_neighbours_in_an_enumeration_differ_by_one_size() -> None:
@@ -167,9 +185,9 @@ def test_a_combination_solved_afresh_counts_where_it_is_better(again: float | No
 
     afresh = None if again is None else run(again)
     tree: Any = SimpleNamespace(
-        thoroughly=lambda _box, _near: afresh, optimizer=SimpleNamespace(deadline=Deadline())
+        place=0, thoroughly=lambda _box, _near: afresh, optimizer=SimpleNamespace(deadline=Deadline())
     )  # fmt: skip
-    search = BranchAndBound([tree], 1, {(0, ((0, 0),)): run(10.0)})
+    search = BranchAndBound([tree], 1, found={(0, ((0, 0),)): run(10.0)})
     search._begin_afresh()
     assert search.found[0, ((0, 0),)].start.objective == kept
     assert search.inside == pytest.approx(inside)

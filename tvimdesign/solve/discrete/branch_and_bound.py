@@ -248,7 +248,7 @@ class BranchAndBound:
                 continue
             below = int(np.searchsorted(listed[first : last + 1], values[name] * (1.0 + SAME_SIZE), side="right"))
             below = min(max(first + below - 1, first), last - 1)
-            moves = tuple(sizes.apart(axis, values[name], listed[place]) for place in (below, below + 1))
+            moves = (sizes.apart(axis, values[name], listed[below]), sizes.apart(axis, values[name], listed[below + 1]))
             score = self._pseudo_costs_of(node).score(axis, moves)
             if min(moves) > SAME_SIZE and score > most:
                 best, most = Division(axis, below, moves), score

@@ -1,0 +1,121 @@
+"""Two processes find what one finds, to the last bit; one that dies leaves its tasks to the other."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import psutil
+import pytest
+
+from tvimdesign.base.child_process import PARENT
+from tvimdesign.solve.discrete import second_process
+from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task
+from tvimdesign.solve.discrete.second_process import TwoProcesses
+from tvimdesign.solve.nlp.deadline import Deadline
+from tvimdesign.solve.nlp.solution import Choosing
+from tvimdesign.solve.search import optimize
+from tvimdesign.study import Study, read_study_text
+
+STUDY = """
+mode: shear
+module: {transmission: unity}
+vary:
+  spring_material: {choose: [music_wire, stainless_302]}
+  wire_diameter: {catalog: metric, from: 2.2 mm, to: 2.8 mm}
+  coil_count: {from: 3, to: 5, step: 0.5}
+  coil_diameter: [12 mm, 30 mm]
+  pcl_outer_radius: [32 mm, 40 mm]
+  current: [0.3 A, 2 A]
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  holding_torque: ">= 12 N.m"
+accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin, current_margin]
+minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
+solver: {starts: 1, cells: 6, elements: 2, alternatives: 3}
+"""
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    """Forty combinations or so."""
+    return read_study_text(STUDY, "a test")
+
+
+@pytest.fixture(scope="module")
+def alone(study: Study) -> Choosing:
+    """What one process finds."""
+    found = optimize(study).choosing
+    assert found is not None
+    return found
+
+
+def _by_two(study: Study, monkeypatch: pytest.MonkeyPatch) -> Choosing:
+    monkeypatch.setattr(second_process, "WORTH", 1)
+    monkeypatch.delenv(PARENT, raising=False)
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    found = optimize(study).choosing
+    assert found is not None
+    return found
+
+
+def test_two_processes_find_what_one_finds(study: Study, alone: Choosing, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+    ask = TwoProcesses._ask
+
+    def counted(self: TwoProcesses, tasks: Any, waiting: Any, answers: dict[int, Answer]) -> None:
+        ask(self, tasks, waiting, answers)
+        asked.append(len(self._worked))
+
+    monkeypatch.setattr(TwoProcesses, "_ask", counted)
+    together = _by_two(study, monkeypatch)
+    assert sum(asked) > 3  # the other process had its share
+    assert [one.objective for one in together.best] == [one.objective for one in alone.best]
+    assert [one.choices for one in together.best] == [one.choices for one in alone.best]
+    assert together.work == alone.work
+    assert (together.solved, together.pruned) == (alone.solved, alone.pruned)
+
+
+def test_a_process_that_dies_leaves_its_tasks(
+    study: Study, alone: Choosing, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    rounds: list[int] = []
+    solve, children = TwoProcesses.solve, []
+
+    def dying(self: TwoProcesses, tasks: list[Task]) -> list[Answer]:
+        rounds.append(len(tasks))
+        children.append(self._child)
+        if len(rounds) == 2:
+            self._child.kill()
+        return solve(self, tasks)
+
+    monkeypatch.setattr(TwoProcesses, "solve", dying)
+    together = _by_two(study, monkeypatch)
+    assert len(rounds) > 2
+    assert [one.objective for one in together.best] == [one.objective for one in alone.best]
+    assert not psutil.pid_exists(children[0].pid)
+
+
+def test_none_is_started_in_a_child_of_ours_nor_for_a_few_combinations(
+    study: Study, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[Any] = []
+    monkeypatch.setattr(second_process, "TwoProcesses", started.append)
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    deadline = Deadline(10.0)
+    monkeypatch.setenv(PARENT, "1")
+    second_process.second_process(study, None, (), deadline, second_process.WORTH)
+    monkeypatch.delenv(PARENT)
+    second_process.second_process(study, None, (), deadline, second_process.WORTH - 1)
+    assert not started
+    second_process.second_process(study, None, (), deadline, second_process.WORTH)
+    assert len(started) == 1
+
+
+def test_one_process_answers_in_the_order_of_the_tasks() -> None:
+    class Tree:
+        def best_within(self, box: Any, _near: Any) -> tuple[None, bool]:
+            return None, box == ((1, 1),)
+
+    trees: Any = [Tree()]
+    tasks = [Task(0, ((i, i),), None, "within") for i in range(3)]
+    assert [one.certain for one in OneProcess(trees).solve(tasks)] == [False, True, False]
