@@ -118,7 +118,7 @@ def test_a_list_whose_entries_are_as_good_as_one_another_is_divided_last() -> No
     bowl = Bowl(0, Sizes(("a", "b"), (listed, (10.0, 11.0, 12.0, 13.0))), (2.0, 11.4), (1e-9, 1.0), 5.0, 0.0)
     node, search = _node(bowl), BranchAndBound(cast("list[Relaxation]", [bowl]), 1)
     assert search._division(node).axis == 0
-    search._divide([node])
+    search._divide(node)
     costly = next(one for one in search._open if one.run is not None and one.run is not node.run)
     near = replace(node, box=((0, 7), (0, 3)))
     search._pseudo_costs_of(node).learn(1, 0, 0.03, 0.05)
@@ -174,7 +174,7 @@ def test_halves_lie_one_deeper_than_the_box_they_are_of(fails: bool) -> None:
     bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
     search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, depth=3)
     bowl.fails = fails
-    search._divide([node])
+    search._divide(node)
     assert [one.depth for one in search._open] == [4, 4]
 
 

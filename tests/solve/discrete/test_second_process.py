@@ -59,16 +59,16 @@ def _by_two(study: Study, monkeypatch: pytest.MonkeyPatch) -> Choosing:
 
 
 def test_two_processes_find_what_one_finds(study: Study, alone: Choosing, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[int] = []
-    ask = TwoProcesses._ask
+    used: list[Task] = []
+    use = TwoProcesses._used
 
-    def counted(self: TwoProcesses, tasks: Any, waiting: Any, answers: dict[int, Answer]) -> None:
-        ask(self, tasks, waiting, answers)
-        asked.append(len(self._worked))
+    def counted(self: TwoProcesses, task: Task) -> Answer:
+        used.append(task)
+        return use(self, task)
 
-    monkeypatch.setattr(TwoProcesses, "_ask", counted)
+    monkeypatch.setattr(TwoProcesses, "_used", counted)
     together = _by_two(study, monkeypatch)
-    assert sum(asked) > 3  # the other process had its share
+    assert len(used) > 3  # the other process had its share
     assert [one.objective for one in together.best] == [one.objective for one in alone.best]
     assert [one.choices for one in together.best] == [one.choices for one in alone.best]
     assert together.work == alone.work
@@ -81,12 +81,12 @@ def test_a_process_that_dies_leaves_its_tasks(
     rounds: list[int] = []
     solve, children = TwoProcesses.solve, []
 
-    def dying(self: TwoProcesses, tasks: list[Task]) -> list[Answer]:
+    def dying(self: TwoProcesses, tasks: list[Task], ahead: list[Task]) -> list[Answer]:
         rounds.append(len(tasks))
         children.append(self._child)
         if len(rounds) == 2:
             self._child.kill()
-        return solve(self, tasks)
+        return solve(self, tasks, ahead)
 
     monkeypatch.setattr(TwoProcesses, "solve", dying)
     together = _by_two(study, monkeypatch)

@@ -21,6 +21,11 @@ class Task:
     near: Run | None
     way: Literal["within", "exactly", "thoroughly"]
 
+    @property
+    def key(self) -> tuple[int, Box, str, int]:
+        """By which the same task is known, as long as its run nearby is kept."""
+        return self.place, self.box, self.way, id(self.near)
+
 
 class Answer(NamedTuple):
     """The best design, and where there is none, whether that is certain."""
@@ -32,17 +37,17 @@ class Answer(NamedTuple):
 class BoxSolver(Protocol):
     """Answers tasks; none depends on another, nor on who answers it."""
 
-    def solve(self, tasks: Sequence[Task]) -> list[Answer]:
-        """The answers, in the order of the tasks."""
+    def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
+        """The answers, in the order of the tasks; tasks `ahead` are likely to be asked next."""
 
 
 @dataclass(frozen=True)
 class OneProcess:
-    """Answers each task here, one after the other."""
+    """Answers each task here, one after the other, and none ahead."""
 
     trees: Sequence[Relaxation]
 
-    def solve(self, tasks: Sequence[Task]) -> list[Answer]:
+    def solve(self, tasks: Sequence[Task], _ahead: Sequence[Task] = (), /) -> list[Answer]:
         """The answers, in the order of the tasks."""
         return [answer(self.trees, task) for task in tasks]
 

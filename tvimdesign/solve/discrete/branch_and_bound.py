@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from heapq import nsmallest
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +28,8 @@ _NEXT_RECORDS = 3
 """Records of each mixture, by cost, that are tried beside a tree's first combination."""
 _DATA = 20
 """Boxes between two words of progress."""
-_AT_ONCE = 4
-"""Boxes that are divided at once, whoever answers the tasks that come of it: so the search is the same everywhere."""
+_AHEAD = 2
+"""Boxes that are likely to be divided next: a second process divides them ahead, so that the search is the same."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,11 +94,15 @@ class BranchAndBound:
                 self._add(relaxation, whole, -math.inf, None, 0)
         self._try(begun)
         while self._open and not self.stopped:
-            nodes = [node for node in self._most_urgent() if not self._left(node)]
-            self._try([task for node in nodes for task in self._combinations_of(node)])
-            self._divide([node for node in nodes if not is_one(node.box)])
-            for node in nodes:
-                self._tell(node.relaxation)
+            node = min(self._open, key=self._urgency)
+            self._open.remove(node)
+            if node.bound >= self.cutoff:
+                self._bounded[node.relaxation.place][_slices(node.box)] = True
+                continue
+            self._try(self._combinations_of(node))
+            if not is_one(node.box):
+                self._divide(node)
+            self._tell(node.relaxation)
         if not self.stopped:
             self._begin_afresh()
 
@@ -109,18 +114,22 @@ class BranchAndBound:
     def _begin_afresh(self) -> None:
         """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
         best = sorted(self.found, key=lambda key: (order(self.found[key]), key))[: self.keep]
-        for (place, box), again in self._answers([Task(*key, None, "thoroughly") for key in best]):
-            before = self.found[place, box]
+        for key, again in zip(best, self._answers([Task(*key, None, "thoroughly") for key in best]), strict=False):
+            before = self.found[key]
             if again.run is not None and order(again.run) < order(before):
-                self.found[place, box] = again.run
+                self.found[key] = again.run
                 objective = before.start.objective
                 self.inside = max(self.inside, (objective - again.run.start.objective) / abs(objective))
 
-    def _answers(self, tasks: Sequence[Task]) -> list[tuple[tuple[int, Box], Answer]]:
-        """Tasks answered, by tree and box; none any more once the time is over."""
+    def _answers(self, tasks: Sequence[Task]) -> list[Answer]:
+        """Tasks answered; none any more once the time is over."""
         solver = self.solver or OneProcess(self.trees)
-        answers = [] if self.stopped else solver.solve(tasks)
-        return [((task.place, task.box), answer) for task, answer in zip(tasks, answers, strict=False)]
+        return [] if self.stopped else solver.solve(tasks, self._ahead())
+
+    def _ahead(self) -> list[Task]:
+        """What will be asked if the next boxes are divided."""
+        nodes = [node for node in self._open if node.bound < self.cutoff and not is_one(node.box)]
+        return [task for node in nsmallest(_AHEAD, nodes, key=self._urgency) for task in self._halves(node)[1]]
 
     @property
     def cutoff(self) -> float:
@@ -139,19 +148,6 @@ class BranchAndBound:
         deep = 0.0 if math.isfinite(self.cutoff) else -float(node.depth)
         return deep, node.bound, node.number
 
-    def _most_urgent(self) -> list[Node]:
-        """The next boxes, taken from those that are open."""
-        nodes = sorted(self._open, key=self._urgency)[:_AT_ONCE]
-        self._open = [node for node in self._open if node not in nodes]
-        return nodes
-
-    def _left(self, node: Node) -> bool:
-        """Whether a box promises nothing better than what is known; it is noted as left then."""
-        if node.bound < self.cutoff:
-            return False
-        self._bounded[node.relaxation.place][_slices(node.box)] = True
-        return True
-
     def _combinations_of(self, node: Node) -> list[Task]:
         """The one combination of a box, or the one that its best design is."""
         relaxation, run = node.relaxation, node.run
@@ -161,22 +157,23 @@ class BranchAndBound:
             return []
         return [Task(relaxation.place, relaxation.sizes.nearest(relaxation.values(run), node.box), run, "exactly")]
 
-    def _divide(self, nodes: Sequence[Node]) -> None:
-        """Solve both halves of each box, and keep those that may hold better combinations."""
-        halves: list[tuple[Node, Division, int]] = []
-        for node in nodes:
-            division, values = self._division(node), node.run and node.relaxation.values(node.run)
-            for side, box in enumerate(division.halves(node.box)):
-                if values and node.relaxation.sizes.hold(values, box):
-                    self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
-                else:
-                    halves.append((node, division, side))
-        tasks = [
-            Task(node.relaxation.place, division.halves(node.box)[side], node.run, "within")
-            for node, division, side in halves
-        ]
-        for (node, division, side), (key, found) in zip(halves, self._answers(tasks), strict=False):
-            self._take(node, division, side, key[1], found)
+    def _divide(self, node: Node) -> None:
+        """Solve both halves of a box, and keep those that may hold better combinations."""
+        division, tasks = self._halves(node)
+        solved = {task.box: found for task, found in zip(tasks, self._answers(tasks), strict=False)}
+        asked = {task.box for task in tasks}
+        for side, box in enumerate(division.halves(node.box)):
+            if box in solved:
+                self._take(node, division, side, box, solved[box])
+            elif box not in asked:  # the best design lies in it
+                self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
+
+    def _halves(self, node: Node) -> tuple[Division, list[Task]]:
+        """Where a box is divided, and those of its halves that its best design does not lie in."""
+        division, sizes = self._division(node), node.relaxation.sizes
+        values = node.run and node.relaxation.values(node.run)
+        boxes = [box for box in division.halves(node.box) if not (values and sizes.hold(values, box))]
+        return division, [Task(node.relaxation.place, box, node.run, "within") for box in boxes]
 
     def _take(self, node: Node, division: Division, side: int, box: Box, found: Answer) -> None:
         """Keep one half, and learn from how much worse it is."""
@@ -203,7 +200,7 @@ class BranchAndBound:
             if self._promises(task):
                 first.setdefault((task.place, task.box), task)
         others: list[Task] = []
-        for key, (run, _) in self._answers(list(first.values())):
+        for key, (run, _) in zip(first, self._answers(list(first.values())), strict=False):
             if run is not None and (key not in self.found or order(run) < order(self.found[key])):
                 others += self._found(key, run)
         if others:
@@ -267,7 +264,8 @@ class BranchAndBound:
 
     def _say(self, relaxation: Relaxation) -> None:
         """How far the search is, and the best objective so far."""
-        left, best = len(self._open), min((run.start.objective for run in self.found.values()), default=None)
+        left = len(self._open)
+        best = min((run.start.objective for run in self.found.values()), default=None)
         so_far = "" if best is None else f", objective {best:.5g} so far"
         said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
         relaxation.optimizer.progress(said)

@@ -14,14 +14,14 @@ import signal
 import subprocess
 import sys
 import threading
-from collections import deque
 from collections.abc import Sequence
+from functools import partial
 from types import TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import PARENT, follow_parent, start_child
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task, answer
-from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.trees import Trees
@@ -53,15 +53,31 @@ class _Found(NamedTuple):
     ends: list[Run]
 
 
+class _Heard(NamedTuple):
+    """The other process's answer to a task, which is kept as its key is good as long as it is."""
+
+    task: Task
+    answer: Answer
+    work: SolverEffort
+
+
 class TwoProcesses:
-    """The process, and this one: each answers the next task. One that has died leaves this one to answer all."""
+    """The process, and this one: each answers the next task, the other one those ahead where none is left.
+
+    What the other one has answered is used where it is asked, so that the search goes the way that it goes alone. One
+    that has died leaves this one to answer all.
+    """
 
     def __init__(self, asked: _Asked) -> None:
         """Start it, and let it build its problems."""
         self._trees: Sequence[Relaxation] = ()
         self._alive = True
-        self._worked: list[tuple[int, SolverEffort]] = []
-        """By tree, not yet counted there."""
+        self._changed = threading.Condition()
+        self._waiting: list[Task] = []
+        """Tasks that nobody has begun, the most urgent first."""
+        self._under_way: Task | None = None
+        """The other process's task."""
+        self._heard: dict[tuple[int, Box, str, int], _Heard] = {}
         self._child = start_child(
             "tvimdesign.solve.discrete.second_process",
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
@@ -75,51 +91,76 @@ class TwoProcesses:
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
         """End the process."""
         self._child.kill()
+        with self._changed:
+            self._alive = False
+            self._changed.notify_all()
         self._child.communicate()
 
     def begin(self, trees: Sequence[Relaxation]) -> None:
         """Say what the starts came to; tasks are of these trees from now on."""
         self._trees = trees
         self._write([_Found(tree.sizes, tree.optima, tree.ends) for tree in trees])
+        threading.Thread(target=self._hand_on, daemon=True).start()
 
-    def solve(self, tasks: Sequence[Task]) -> list[Answer]:
-        """The answers, in the order of the tasks; each process takes the next one when it has answered one."""
-        here, answers = OneProcess(self._trees), dict[int, Answer]()
-        waiting = deque(range(len(tasks) if self._alive else 0))
-        there = threading.Thread(target=self._ask, args=(tasks, waiting, answers), daemon=True)
-        there.start()
-        with contextlib.suppress(IndexError):
+    def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
+        """The answers, in the order of the tasks."""
+        with self._changed:
+            begun = {self._under_way.key} if self._under_way else set()
+            known = begun | self._heard.keys()
+            self._waiting = [task for task in (*tasks, *ahead) if task.key not in known]
+            self._changed.notify_all()
+        here = OneProcess(self._trees)
+        mine = {task.key: here.solve([task])[0] for task in iter(partial(self._next_of, tasks), None)}
+        return [mine[task.key] if task.key in mine else self._used(task) for task in tasks]
+
+    def _next_of(self, tasks: Sequence[Task]) -> Task | None:
+        """One of these tasks that nobody has begun; None once the other process has answered the last of them."""
+        keys = {task.key for task in tasks}
+        with self._changed:
             while True:
-                place = waiting.popleft()
-                answers[place] = here.solve([tasks[place]])[0]
-        there.join()
-        for place, work in self._worked:
-            self._trees[place].work = SolverEffort.total([self._trees[place].work, work])
-        self._worked.clear()
-        return [answers[i] if i in answers else here.solve([task])[0] for i, task in enumerate(tasks)]
+                for task in self._waiting:
+                    if task.key in keys:
+                        self._waiting.remove(task)
+                        return task
+                if self._under_way is None or self._under_way.key not in keys:
+                    return None
+                self._changed.wait()
 
-    def _ask(self, tasks: Sequence[Task], waiting: deque[int], answers: dict[int, Answer]) -> None:
-        """Hand one task after the other to the process, in a thread: the solver here lets it run meanwhile."""
+    def _used(self, task: Task) -> Answer:
+        """The other process's answer; what it took counts as work of the tree here."""
+        heard = self._heard[task.key]
+        tree = self._trees[task.place]
+        tree.work = SolverEffort.total([tree.work, heard.work])
+        return heard.answer
+
+    def _hand_on(self) -> None:
+        """Hand one task after the other to the process, in a thread: the solver lets it run meanwhile."""
         assert self._child.stdout is not None
-        with contextlib.suppress(IndexError):  # none is left
-            while self._alive:
-                place = waiting.popleft()
-                self._write(tasks[place])
-                try:
-                    found, work = pickle.load(self._child.stdout)
-                except _LOST:  # it has died
-                    self._alive = False
+        while True:
+            with self._changed:
+                while self._alive and not self._waiting:
+                    self._changed.wait()
+                if not self._alive:
                     return
-                answers[place] = found
-                self._worked.append((tasks[place].place, work))
+                task = self._under_way = self._waiting.pop(0)
+            self._write(task)
+            heard: _Heard | None = None
+            with contextlib.suppress(*_LOST):
+                heard = _Heard(task, *pickle.load(self._child.stdout))
+            with self._changed:
+                if heard is None:
+                    self._alive = False
+                    self._waiting.insert(0, task)
+                else:
+                    self._heard[task.key] = heard
+                self._under_way = None
+                self._changed.notify_all()
 
     def _write(self, what: Any) -> None:
         assert self._child.stdin is not None
-        try:
+        with contextlib.suppress(OSError):  # that it has died is seen when it is to be heard
             pickle.dump(what, self._child.stdin)
             self._child.stdin.flush()
-        except OSError:
-            self._alive = False
 
 
 def second_process(
