@@ -37,6 +37,24 @@ assert not found, found
     assert "Commands:" in done.stdout
 
 
+def test_an_interrupt_while_the_interpreter_takes_itself_down_does_not_change_the_exit_code(tmp_path: Path) -> None:
+    text = """
+import atexit, os, signal
+from tvimdesign.cli import main
+atexit.register(os.kill, os.getpid(), signal.SIGINT)
+atexit.register(os.kill, os.getpid(), signal.SIGTERM)
+main._command = lambda: 3
+main.main()
+"""
+    (tmp_path / "ends.py").write_text(text)
+    paths = os.pathsep.join([str(ROOT), str(tmp_path)])
+    done = subprocess.run(
+        [sys.executable, "-m", "ends"], env={**os.environ, "PYTHONPATH": paths}, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (3, "")
+
+
 def test_an_interrupt_while_the_interpreter_runs_a_string_ends_with_the_code_of_its_signal(tmp_path: Path) -> None:
     text = """
 from tvimdesign.cli import main

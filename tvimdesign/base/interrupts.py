@@ -43,6 +43,15 @@ def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
             _times.clear()
 
 
+def ignore_interrupts() -> None:
+    """From here on interrupts do nothing: for a process whose work is done, and whose exit code says so.
+
+    Python's own handler would end it by the signal while it takes itself down.
+    """
+    for number in _SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+
+
 def interrupt_came() -> bool:
     """Whether an interrupt came, whatever has become of it."""
     return bool(_received)

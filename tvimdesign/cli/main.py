@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import sys
 import warnings
@@ -12,7 +13,7 @@ import typer
 
 from tvimdesign.base import interrupts
 from tvimdesign.base.errors import InputError, OutputError, RenamedWarning, TvimError
-from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
+from tvimdesign.base.interrupts import heeding_interrupts, ignore_interrupts, raise_pending
 from tvimdesign.cli.commands import app
 from tvimdesign.cli.output_streams import drop_what_cannot_be_written, flush_output, speak_plainly
 
@@ -24,6 +25,7 @@ def main() -> None:
     warnings.showwarning = _show_warning
     speak_plainly()
     gc.set_threshold(200_000, 20, 20)  # a command makes many objects and keeps most: looking for garbage costs 5 %
+    atexit.register(ignore_interrupts)
     with heeding_interrupts():
         code = _guarded(_command)
         drop_what_cannot_be_written()

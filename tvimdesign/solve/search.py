@@ -176,6 +176,9 @@ def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline
         if not (free and deadline.passed):
             free += [(relaxation, run) for run in relaxation.starts(most)]
     for relaxation in trees:
+        if not any(one.optima for one in trees) and not deadline.passed:
+            free += [(relaxation, run) for run in relaxation.from_all_over()]
+    for relaxation in trees:
         free += [(relaxation, run) for run in relaxation.from_other_records(trees)]
     return free
 

@@ -15,8 +15,8 @@ from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.enumeration import enumerate_all
-from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.solution import Choosing, Solution, SolverEffort
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize

@@ -13,7 +13,7 @@ from explored import SMALL
 from tvimdesign.base.interrupts import heeding_interrupts, interrupt_came
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
+from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import given, read_study_text
 

@@ -10,8 +10,9 @@ from itertools import islice
 import numpy as np
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
-from tvimdesign.solve.discrete.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
+from tvimdesign.solve.infeasibility.wide_search import designs_all_over
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
@@ -81,6 +82,19 @@ class Relaxation:
                 self.note(run)
         runs = NeighboringOptima(self.optimizer).improve(runs)
         self._take(runs)
+        return runs
+
+    def from_all_over(self) -> list[Run]:
+        """Runs from designs all over the ranges that keep the arithmetic limits."""
+        runs: list[Run] = []
+        self.optimizer.progress("no start keeps all limits: looking all over the ranges")
+        for design in designs_all_over(self.optimizer):
+            begin = self._mixed(design, {})
+            run = self._solved({}, begin=begin, unknowns=self.optimizer.simulated_guess(begin))
+            run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
+            runs.append(run)
+        if any(run.start.converged for run in runs):
+            self._take(runs)
         return runs
 
     def from_other_records(self, others: Iterable[Relaxation]) -> list[Run]:
@@ -268,8 +282,14 @@ class Relaxation:
         self.work.count(run.start, warm=True)
         return run
 
-    def _solved(self, ends: Mapping[str, Ends], warm: Run | None = None, begin: Array | None = None) -> Run:
-        run = self.optimizer.solve(ends, warm=warm, begin=begin)
+    def _solved(
+        self,
+        ends: Mapping[str, Ends],
+        warm: Run | None = None,
+        begin: Array | None = None,
+        unknowns: Array | None = None,
+    ) -> Run:
+        run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
         self.work.count(run.start, warm=warm is not None)
         return run
 

@@ -179,10 +179,19 @@ class Optimizer:
     def guess(self, inputs: Array) -> Array:
         """The unknowns at a point, with the switch simulated there; with the start's where that does not end.
 
-        Nothing is simulated where a body takes no heat: CVODES needs seconds to give that up.
+        Nothing is simulated where a body takes no heat: CVODES needs seconds to give that up. A link that corrects
+        another one may be below zero and counts as such a body, so that most modules with a structure begin with the
+        start's switch. Simulated there, three of 21 studies ended in worse optima (`ankle` 1.4 %) and none in a better.
         """
-        cycle = self.multistart.trial(inputs) if self.multistart.heats(inputs) else None
-        return self.vector.at(inputs, cycle or self.multistart.cycle)
+        return (self.simulated_guess if self.multistart.heats(inputs) else self.first_guess)(inputs)
+
+    def simulated_guess(self, inputs: Array) -> Array:
+        """The same, simulated whatever there takes heat."""
+        return self.vector.at(inputs, self.multistart.trial(inputs) or self.multistart.cycle)
+
+    def first_guess(self, inputs: Array) -> Array:
+        """The unknowns at a point, with the switch simulated at the study's start."""
+        return self.vector.at(inputs, self.multistart.cycle)
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]

@@ -20,6 +20,7 @@ from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
+_NO_MODULE = 1e3
 
 Array = NDArray[np.float64]
 
@@ -46,6 +47,12 @@ class FeasibilityScreen:
         unknowns = [free.to_unknown(inputs[optimizer.model.index[free.name]]) for free in optimizer.free]
         residuals = np.asarray(self._at(unknowns)).ravel()
         return float(np.max(residuals, initial=-np.inf)) if np.all(np.isfinite(residuals)) else np.inf
+
+    def worst(self, unknowns: Array) -> Array:
+        """The most by which designs break a limit, a column of the free numbers' unknowns each."""
+        residuals = np.asarray(self._at(unknowns)).reshape(self._count, -1)
+        worst: Array = np.max(residuals, axis=0, initial=-1.0)
+        return np.nan_to_num(worst, nan=_NO_MODULE, posinf=_NO_MODULE)
 
     def _residuals(self, unknowns: Any) -> Any:
         """Those of the arithmetic limits at the free numbers' unknowns; margins for what spreads are left out."""

@@ -1,0 +1,48 @@
+"""Designs all over the ranges keep what depends on no cycle; where there are none, none is found."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
+from tvimdesign.solve.infeasibility.wide_search import designs_all_over
+from tvimdesign.solve.nlp.solver_run import Array, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.search import optimize
+from tvimdesign.study import read_study
+
+
+def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
+    optimizer = Optimizer(read_study(ROOT / "studies/paper_shear.yaml"))
+    screen = FeasibilityScreen(optimizer)
+    designs = list(designs_all_over(optimizer))
+    assert len(designs) == 3
+    assert all(screen.broken(inputs) < 0.0 for inputs in designs)
+    assert not np.allclose(designs[0], designs[1], rtol=1e-3)
+    unknowns = np.array([
+        [free.to_unknown(inputs[optimizer.model.index[free.name]]) for inputs in designs] for free in optimizer.free
+    ])  # fmt: skip
+    together = screen.worst(unknowns)
+    assert np.allclose(together, [screen.broken(inputs) for inputs in designs])
+
+
+def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no start comes to a design, those from all over do: here every start is made to fail."""
+    study = read_study(ROOT / "studies/paper_shear.yaml")
+    usual = optimize(study)
+    starts = Relaxation._from_one_of_each
+
+    def failing(self: Relaxation, begin: Array) -> Run:
+        run = starts(self, begin)
+        run.start = replace(run.start, converged=False)
+        return run
+
+    monkeypatch.setattr(Relaxation, "_from_one_of_each", failing)
+    found = optimize(study)
+    assert found.status == "optimal"
+    assert found.objective <= usual.objective * (1.0 + 1e-6)
