@@ -45,6 +45,7 @@ const CHARTS = [
 /** Curves of softening and stiffening on one axis of time. */
 export function liveCurves(place) {
   let curves = {};
+  let waits = 0;
   const pairs = (column) => {
     let begin = 0;
     return Object.values(curves).filter(({ time }) => time).flatMap((phase) => {
@@ -58,8 +59,14 @@ export function liveCurves(place) {
     xAxis: axis("Time (s)", look, { scale: false }), yAxis: axis(label, look, { type: log ? "log" : "value", nameGap: 44 }),
     series: Object.entries(columns).map(([column, name], i) => lineOf(name, pairs(column), i, look)),
   })));
-  return (told) => {
-    curves = told;
+  const draw = () => {
+    waits = 0;
     for (const one of charts) one.show();
+  };
+  // Numbers stand before curves are drawn, which takes longer; of several answers before a frame the last is drawn.
+  return (told) => {
+    if (told === curves) return;
+    curves = told;
+    waits ||= requestAnimationFrame(draw);
   };
 }
