@@ -44,6 +44,8 @@ addEventListener("keydown", (event) => {
   if (event.key === "z") { event.preventDefault(); send({ kind: event.shiftKey ? "redo" : "undo" }); }
 });
 
+const SOON = 150; // ms; a drag's answer comes sooner, and shows all that a state does
+let shows = 0;
 const HEARD = {
   state(message) {
     state = message;
@@ -59,9 +61,11 @@ const HEARD = {
     pins.show(state, last);
     front.show(state);
     HEARD.parts(state.parts);
-    if (last) show(last);
+    shows ||= setTimeout(() => { shows = 0; if (last) show(last); }, SOON);
   },
   answer(message) {
+    clearTimeout(shows);
+    shows = 0;
     document.documentElement.dataset.number = message.number;
     document.documentElement.dataset.stage = message.shown.stage;
     told.textContent = "";
