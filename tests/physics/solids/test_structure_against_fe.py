@@ -55,7 +55,6 @@ def foot_rise(mm: dict[str, float]) -> float:
 BORED = [name for name in (*SHEAR, *SPREAD) if "link_screw_hole" in SHIPPED[name]["mm"]]
 """What the holes in a core are is known of the optima of today alone."""
 WRIST, MILLED = "wrist_compression, shipped", "machined_compression, shipped"
-MISS = pytest.mark.xfail(strict=True, reason="known, told in validation/fe_structure/README.md")
 WITHOUT_FOOT = [one for one in (*BORED, *BLOCKS) if one != WRIST]
 OTHER_VANES = [one for one in BLOCKS if one not in (WRIST, MILLED)]
 
@@ -64,7 +63,7 @@ OTHER_VANES = [one for one in BLOCKS if one not in (WRIST, MILLED)]
     "name",
     [
         *WITHOUT_FOOT,
-        pytest.param(WRIST, marks=MISS),  # FE has 1.093 of what the form has there, which is held to 8 %
+        pytest.param(WRIST, marks=pytest.mark.xfail(strict=True, reason="foot: 1.093 of the form in FE, held to 8 %")),
     ],
 )
 def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
@@ -307,8 +306,10 @@ def test_of_two_ledges_the_outer_bears_all_where_nothing_leads_out_from_the_inne
     "name",
     [
         *OTHER_VANES,
-        pytest.param(WRIST, marks=MISS),  # rotor's vanes 1.21 of FE: blocks deeper than high, as none that was fitted
-        pytest.param(MILLED, marks=MISS),  # rotor's vanes 1.047 of FE, held to 4 %: fitted to a coarse mesh of its pads
+        # No block deeper than high was among those that the vanes' form was fitted to.
+        pytest.param(WRIST, marks=pytest.mark.xfail(strict=True, reason="rotor's vanes: 1.21 of FE, held to 4 %")),
+        # The form was fitted to a mesh too coarse for pads of rubber.
+        pytest.param(MILLED, marks=pytest.mark.xfail(strict=True, reason="rotor's vanes: 1.047 of FE, held to 4 %")),
     ],
 )
 def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from support import ROOT
@@ -12,6 +13,7 @@ from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.trees import Trees
 from tvimdesign.solve.nlp.deadline import Deadline
+from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.study import read_study
 
 
@@ -31,12 +33,25 @@ def test_modules_that_no_limit_rules_out_come_to_an_optimum_from_their_own_start
 
 
 @pytest.mark.slow
-def test_records_without_an_optimum_are_begun_at_the_others_optimum(trees: list[Relaxation]) -> None:
+def test_records_without_an_optimum_are_begun_at_the_others_optimum(
+    trees: list[Relaxation], monkeypatch: pytest.MonkeyPatch
+) -> None:
     first = trees[0]
     if not first.optima:
         first.starts()
-    last = replace(first)  # as it is before anything is solved
+    last, begun = replace(first), list[Array]()  # `last` is as `first` was before anything was solved
+    solve = last.optimizer.solve
+
+    def noted(*given: Any, begin: Array, **more: Any) -> Run:
+        begun.append(begin)
+        return solve(*given, begin=begin, **more)
+
+    monkeypatch.setattr(last.optimizer, "solve", noted)
     (run,) = last.from_other_records([first])
+    index, best = last.optimizer.model.index, first.optima[0].start.end
+    sizes = [name for name in last.optimizer.study.vary if name in best]
+    assert sizes
+    assert [begun[0][index[name]] for name in sizes] == pytest.approx([best[name] for name in sizes])
     assert run.start.converged
     assert last.optima == [run]
     assert last.from_other_records([first]) == []
