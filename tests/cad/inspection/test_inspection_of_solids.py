@@ -355,3 +355,13 @@ def test_support_at_the_levels_that_are_said_is_told_and_no_fault() -> None:
     assert printed(work, supported=[4.0])["overhang"].level == "warning"
     turned = work.rotate((0, 0, 0), (1, 0, 0), 180.0)
     assert printed(turned, "top", supported=[-5.0])["overhang"].level == "pass"
+
+
+@pytest.mark.parametrize("bearing", ["none", "ball_6803"])
+def test_a_printed_housing_stands_on_support_where_its_note_says(bearing: str) -> None:
+    # A hub with seats from both ends has a lip between them, whose lower face hangs in the lower seat.
+    design = design_of("reference", BLOCKS | {"bearing": bearing, "core_radius": 0.0085}, "compression")
+    dims = dimensions(design)
+    found = {check.name: check for check in part_checks(design, dims, "housing", drawn_parts(dims)["housing"])}
+    assert found["housing: overhang"].level == "pass"
+    assert ("in 2 places" in found["housing: overhang"].text) == (bearing != "none")

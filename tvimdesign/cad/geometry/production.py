@@ -23,8 +23,8 @@ class Production:
 PRODUCTION = {
     "housing": Production(
         down="bottom", drawn=True,
-        why="feet and skirt on the bed: posts, hub and seats grow upwards and come out round; only the floor needs "
-        "support, in the open space under it",
+        why="feet and skirt on the bed: posts, hub and seats grow upwards and come out round; only the floor, and "
+        "where there are bearings the lip between them, stand on support, in the open space under them",
     ),
     "rotor": Production(
         down="top", drawn=True,
@@ -88,5 +88,6 @@ PRODUCTION = {
 def supported_levels(kind: str, dims: Dimensions) -> tuple[float, ...]:
     """Levels [mm] at which `PRODUCTION` says that a part stands on support as it is printed, in the open."""
     if kind == "housing":
-        return (-dims.floor_thickness,)
+        lip = (dims.hub_bottom_level + dims.lower_seat_depth,) if dims.bearing_width > 0.0 else ()
+        return (-dims.floor_thickness, *lip)
     return (dims.rotor_top_level, dims.pin_top_level) if kind == "rotor" else ()
