@@ -26,7 +26,7 @@ from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
-from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
+from tvimdesign.cad.drawing.drawing_sheet import TITLE_WIDTH, DrawingSheet, Field
 from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.number_text import around
 from tvimdesign.cad.drawing.placed_view import apart
@@ -366,3 +366,15 @@ print(hashlib.sha256(sheet.dxf()).hexdigest())
 )  # fmt: skip
 def test_azimuths_are_written_as_short_as_their_pattern(azimuths: list[float], words: str) -> None:
     assert around(azimuths) == words
+
+
+def test_letters_are_narrowed_where_a_field_of_the_title_block_is_too_short() -> None:
+    sheet = DrawingSheet(1.0)
+    sheet.title_block("pad", [[Field("Material", "Thermoelectric module " * 4), Field("Module", "An elbow")]])
+    no_text_lies_on_another("pad", sheet.document)
+    long, short = (
+        next(one for one in sheet.space.query("TEXT") if one.dxf.text.startswith(begin))
+        for begin in ("Thermo", "An elbow")
+    )
+    assert short.dxf.width == 1.0
+    assert text_size(long).width == pytest.approx(0.5 * TITLE_WIDTH - 3.0, rel=1e-6)

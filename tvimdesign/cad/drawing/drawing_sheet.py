@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
+from math import inf
 from pathlib import Path
 
 import ezdxf
@@ -97,9 +98,11 @@ class DrawingSheet:
         """Straight lines between places on paper."""
         self.space.add_lwpolyline([self.at(point) for point in points], dxfattribs={"layer": layer})
 
-    def text(self, text: str, at: Point, height: float = _TEXT, align: str = "BOTTOM_LEFT") -> None:
-        """One line of text at a place on paper."""
+    def text(self, text: str, at: Point, height: float = _TEXT, align: str = "BOTTOM_LEFT", room: float = inf) -> None:
+        """One line of text at a place on paper, its letters narrowed where it is longer than its `room` [mm]."""
         entity = self.space.add_text(text, height=height / self.scale, dxfattribs={"layer": "TEXT", "style": "SHEET"})
+        if room < inf and (length := fonts.make_font(_FONT, height).text_width(text)) > room:
+            entity.dxf.width = room / length
         entity.set_placement(self.at(at), align=TextEntityAlignment[align])
 
     def column(self, lines: Sequence[str], at: Point, pitch: float = 4.6, height: float = _TEXT) -> None:
@@ -120,7 +123,7 @@ class DrawingSheet:
                 if x > left:
                     self.lines([(x, level - TITLE_ROW), (x, level)], "FINE")
                 self.text(one.label, (x + 1.5, level - 0.8), 1.6, "TOP_LEFT")
-                self.text(one.text, (x + 1.5, level - TITLE_ROW + 1.4), _TEXT)
+                self.text(one.text, (x + 1.5, level - TITLE_ROW + 1.4), room=one.share * TITLE_WIDTH - 3.0)
                 x += one.share * TITLE_WIDTH
         self.text(title, (left + 3.0, top - 1.0 * TITLE_ROW), 5.0)
         self._first_angle((left + TITLE_WIDTH - 28.0, top - 0.75 * TITLE_ROW))
