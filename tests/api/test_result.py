@@ -170,7 +170,7 @@ def test_show_prints_what_a_run_prints(result: tvim.Result, capsys: pytest.Captu
 
 
 def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
-    study = tvim.example("front_shear").set(
+    study = tvim.example("paper_shear").set(  # `front_shear` asks for a yield at every point: a minute of the processor
         {"front.points": 3, "front.of": ["response_time", "module_mass"], "solver.starts": 1}
     )
     result = study.run(progress=False)
