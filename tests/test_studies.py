@@ -209,6 +209,7 @@ def test_the_csv_holds_what_the_json_holds(runs: Runs) -> None:
     assert float(rows["module_mass"]["value"]) == pytest.approx(values["module_mass"]["value"])
 
 
+@pytest.mark.slow
 def test_a_run_is_the_same_run_twice_in_another_process(process: Command, runs: Runs, tmp_path: Path) -> None:
     study = next(path for path in STUDIES if path.stem == "paper_shear")
     process("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "out")

@@ -50,6 +50,7 @@ def outputs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[list[Any]]:
         yield found
 
 
+@pytest.mark.slow
 def test_its_cells_up_to_the_first_figure_show_a_study_and_its_optimum(tmp_path: Path) -> None:
     first = next(i for i, cell in enumerate(CODE) if ".plot(" in "".join(cell["source"]))
     with notebook(tmp_path, CODE[: first + 1]) as found:

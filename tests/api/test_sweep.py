@@ -26,6 +26,7 @@ def grid() -> tvim.Sweep:
     return tvim.example("paper_as_published").sweep(EVALUATED, progress=False)
 
 
+@pytest.mark.slow
 def test_a_cell_at_the_optimum_s_own_value_is_the_optimum(optimised: tvim.Sweep, result: tvim.Result) -> None:
     assert result["pcl_thickness"].value == pytest.approx(0.6, rel=1e-6)  # the end of its range, where it binds
     # Mass and volume trade along a flat valley there, so what is minimised says whether it is the same optimum.
@@ -35,6 +36,7 @@ def test_a_cell_at_the_optimum_s_own_value_is_the_optimum(optimised: tvim.Sweep,
     assert cell == pytest.approx(alone, rel=SAME_OPTIMUM)
 
 
+@pytest.mark.slow
 def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Sweep) -> None:
     assert optimised.warm_solves == 3
     cell = optimised[2]

@@ -41,6 +41,7 @@ def test_the_newest_of_a_drag_is_answered_and_those_between_are_passed_over(tmp_
     assert last["shown"]["variables"]["current"]["value"] < first["shown"]["variables"]["current"]["value"]
 
 
+@pytest.mark.slow
 def test_where_there_is_no_module_the_page_is_told_why_none_is_drawn_and_drafts_follow_again(tmp_path: Path) -> None:
     async def dragged() -> list[dict[str, Any]]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import pytest
 from support import ROOT, environment
 
 
+@pytest.mark.slow
 def test_the_last_line_says_how_many_tests_no_browser_has_run() -> None:
     words = ["tests/page/test_page_in_a_browser.py", "-q", "-k", "sorts or filtered", "-p", "no:cacheprovider"]
     found = subprocess.run(

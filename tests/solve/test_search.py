@@ -55,6 +55,7 @@ def as_shipped() -> Solution:
     return solution
 
 
+@pytest.mark.slow
 def test_ten_random_starts_come_to_one_optimum() -> None:
     solution = _solve(_study(SMALL.replace("starts: 1", "starts: 11")))
     assert all(start.converged for start in solution.starts)

@@ -237,6 +237,7 @@ def test_the_printed_rotor_needs_support_under_its_plate(
     assert found["overhang"].value == pytest.approx(plate + tops_of_pins, rel=0.01)
 
 
+@pytest.mark.slow
 def test_pads_of_a_milled_module_stand_on_walls_that_the_mill_makes_where_the_rule_says_so() -> None:
     for offset, kept in ((0.02, False), (-0.4, True)):
         sizes = {"corner_radius": 0.8e-3, "running_clearance": 1e-3, "slot_corner_offset": offset * 1e-3}

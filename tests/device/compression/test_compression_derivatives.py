@@ -45,6 +45,7 @@ def shown_by_simulation(squeezed_model: DeviceFunctions, squeezed_simulator: Sim
     return dict(zip(EVENTS, differences(times, squeezed_model.start, which, 1e-3), strict=True))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("event", EVENTS)
 def test_response_times_have_the_derivatives_that_simulations_show(
     event: str, squeezed_model: DeviceFunctions, squeezed_switch: Cycle, shown_by_simulation: dict[str, np.ndarray]

@@ -25,6 +25,7 @@ def lined(make: Make, sheet: tuple[float, float, float], **kwargs: Any) -> heat.
     return make(liner=liner, **kwargs)
 
 
+@pytest.mark.slow
 def test_steady_heat_passes_the_liner_and_its_bond_in_series(bare_stack: Make, integrate: Run) -> None:
     stack = lined(
         bare_stack, (1e-3, 0.29, 1.56e6), hot_contact=4000.0, plate_contact=500.0, plate_conductivity=0.8,

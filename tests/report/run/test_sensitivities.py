@@ -15,6 +15,8 @@ from tvimdesign.solve.result import answer
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities
 from tvimdesign.study import read_study_text
 
+pytestmark = pytest.mark.slow
+
 STUDY = """
 mode: shear
 vary:

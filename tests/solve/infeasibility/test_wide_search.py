@@ -31,6 +31,7 @@ def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
     assert np.allclose(together, [screen.broken(inputs) for inputs in designs])
 
 
+@pytest.mark.slow
 def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no start comes to a design, those from all over do: here every start is made to fail."""
     study = read_study(ROOT / "studies/paper_shear.yaml")

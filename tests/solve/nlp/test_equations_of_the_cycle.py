@@ -132,6 +132,7 @@ def test_the_cycle_depends_on_what_one_expects_it_to(solved: Solved, build: Call
     assert by["stiffening_time"]["pcl_thickness"] > 0.0  # a thicker layer takes longer
 
 
+@pytest.mark.slow
 def test_a_layer_whose_frozen_edge_runs_through_the_cells_has_elements_enough() -> None:
     """With as many as for softening, `wrist_joint` as it starts would be off by 0.6 %, with twice as many by 0.2 %."""
     study = read_study(Path(__file__).parents[3] / "studies" / "wrist_joint.yaml")

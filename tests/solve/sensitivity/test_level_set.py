@@ -12,6 +12,8 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, _root, level_set
 
+pytestmark = pytest.mark.slow
+
 WANTED = 70.0
 CURRENTS = [1.4, 1.8, 2.2]  # too weak, enough at every place, too strong at some
 THICKNESSES = [0.05e-3, 0.6e-3, 2e-3]

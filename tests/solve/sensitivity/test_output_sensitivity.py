@@ -23,6 +23,8 @@ from tvimdesign.solve.sensitivity.output_sensitivity import (
 )
 from tvimdesign.study import read_study, read_study_text
 
+pytestmark = pytest.mark.slow
+
 CELLS, ELEMENTS = 12, 12
 OF_CYCLE = (
     "response_time", "softening_time", "stiffening_time", "frozen_time", "far_face_cooling_time", "cycle_time",

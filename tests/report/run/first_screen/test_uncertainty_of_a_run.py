@@ -57,6 +57,7 @@ def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedMod
     assert (said["limits"], said["tolerances"]) == (len(expected.kept), "standard")
 
 
+@pytest.mark.slow
 def test_a_kernel_for_the_study_says_the_same_of_a_design_as_one_for_the_design(
     found: StudyResult, module: ResolvedModule, model: UncertaintyModel
 ) -> None:
