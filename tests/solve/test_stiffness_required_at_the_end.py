@@ -54,6 +54,7 @@ def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
         assert found.design.values[name] == pytest.approx(last, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_optimiser_keeps_a_stiffness_at_the_end_that_the_simulation_confirms() -> None:
     free = _answer().design.values["softened_stiffness"]
     limit = free - 0.25 * (free - 4.0)

@@ -194,6 +194,7 @@ def test_hold_behind_a_structure_relaxes_with_its_longer_time() -> None:
     assert inner[1] == 0.0
 
 
+@pytest.mark.slow
 @NAMED
 @pytest.mark.parametrize("precompression", [0.0, 0.02, 0.3])
 def test_gap_after_a_hold_by_a_rigid_structure_is_what_relaxed_less_the_precompression(

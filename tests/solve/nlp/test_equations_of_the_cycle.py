@@ -107,6 +107,7 @@ def solved(build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cyc
     return solve(build(), switch_of("as it is"), 12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", VARIABLES)
 def test_stiffening_and_holding_have_the_derivatives_that_simulations_show(
     name: str, build: Callable[..., DeviceFunctions], solved: Solved

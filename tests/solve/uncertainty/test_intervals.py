@@ -213,6 +213,7 @@ def test_what_varies_and_what_is_not_known_are_never_one_yield() -> None:
     assert 0.0 <= alone.holds.share <= min(alone.held.values(), default=1.0)
 
 
+@pytest.mark.slow
 def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
     # A softening limit in the middle of what the time may be is kept by about half.
     middle = float(np.median([found().intervals["softening_time"].low, found().intervals["softening_time"].high]))
