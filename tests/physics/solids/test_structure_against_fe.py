@@ -383,3 +383,11 @@ def test_a_bar_pushed_along_evenly_keeps_a_twelfth_of_what_it_would_under_all_of
     x = (np.arange(1000) + 0.5) / 1000 * length - 0.5 * length
     energy = count * np.mean((push * x) ** 2) * length / (youngs * section)
     assert structure.hoop_compliance(youngs, section, length, count, radius) == pytest.approx(energy, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("name", "angle"), [("wrist_compression, shipped", 39.6), ("compare_compression, shipped", 27.8)]
+)
+def test_a_block_s_force_leans_out_of_its_vane_as_in_fe(name: str, angle: float) -> None:
+    # FE of the force on the face between block and vane, validation/fe_structure/lean_out.py.
+    assert np.degrees(leaning_out(SHIPPED[name])[0]) == pytest.approx(angle, rel=0.04)
