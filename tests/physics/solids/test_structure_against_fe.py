@@ -9,7 +9,7 @@ import yaml
 from support import ROOT
 
 from tvimdesign.physics.layers import annular_lap, shear_lag
-from tvimdesign.physics.solids import structure, vane
+from tvimdesign.physics.solids import structure, vane, wedge
 
 FOLDER = ROOT / "validation"
 JOINTS = yaml.safe_load((FOLDER / "fe_structure/results.yaml").read_text())
@@ -46,31 +46,46 @@ def bores(mm: dict[str, float]) -> tuple[structure.Bores, structure.Bores]:
     return found, structure.Bores(pins, mm["link_dowel_depth"], circle)
 
 
-def foot_rise(mm: dict[str, float]) -> float:
-    among = structure.foot_rise_among_vanes if "vane_count" in mm else structure.foot_rise_on_plate
-    length = mm["link_bottom_level"] - mm["rotor_top_level"]
-    return float(among(mm["core_radius"], length, mm["rotor_thickness"], *bores(mm)))
+def foot_rise(case: dict[str, Any]) -> float:
+    mm, _, _ = read(case)
+    foot = mm["core_radius"], mm["link_bottom_level"] - mm["rotor_top_level"], mm["rotor_thickness"]
+    if "vane_count" not in mm:
+        return float(structure.foot_rise_on_plate(*foot, *bores(mm)))
+    if "block_depth" not in mm:  # the oldest cases do not tell what cups the plate
+        return float(structure.foot_rise_among_vanes(*foot, *bores(mm)))
+    angle, _, plate = leaning_out(case)
+    cupped = wedge.foot_bending(angle, block_between(case).arm, mm["core_radius"], plate)
+    return float(np.hypot(structure.foot_rise_among_vanes(*foot, *bores(mm)), cupped))
+
+
+def block_between(case: dict[str, Any]) -> vane.BlockBetween:
+    """A block and its pad, or the modules and the spreader behind it."""
+    mm, _, _ = read(case)
+    moduli = case["frozen_shear_modulus"] * 1e9, case["pad_shear_modulus"] * 1e9
+    depths = mm["block_depth"], mm["peltier_thickness"], mm.get("spreader_depth", 0.0)
+    free = mm["vane_height"] - mm["block_height"]
+    return vane.BlockBetween(moduli, depths, (mm["block_width"], mm["block_height"]), free)
+
+
+def leaning_out(case: dict[str, Any]) -> tuple[float, wedge.Sideways, wedge.PlateAround]:
+    """Angle of a block's force beside the rotor's vane [rad], what that gives sideways, and the plate."""
+    mm, youngs, shear = read(case)
+    plate = wedge.PlateAround(mm["rotor_thickness"], mm["core_radius"], middle(mm), mm["vane_count"])
+    section, block = (mm["block_width"], mm["vane_thickness"]), block_between(case)
+    side = wedge.sideways((youngs, shear), section, block, vane.ROTOR_SPREAD, plate)
+    return float(wedge.lean_out(block, side, mm["vane_thickness"], middle(mm))), side, plate
 
 
 BORED = [name for name in (*SHEAR, *SPREAD) if "link_screw_hole" in SHIPPED[name]["mm"]]
 """What the holes in a core are is known of the optima of today alone."""
-WRIST, MILLED = "wrist_compression, shipped", "machined_compression, shipped"
-WITHOUT_FOOT = [one for one in (*BORED, *BLOCKS) if one != WRIST]
-OTHER_VANES = [one for one in BLOCKS if one not in (WRIST, MILLED)]
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        *WITHOUT_FOOT,
-        pytest.param(WRIST, marks=pytest.mark.xfail(strict=True, reason="foot: 1.093 of the form in FE, held to 8 %")),
-    ],
-)
+@pytest.mark.parametrize("name", [*BORED, *BLOCKS])
 def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
     # A mean over the first millimetre above the sharp corner, per newton metre.
     mm, _, _ = read(SHIPPED[name])
-    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(mm))
-    assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.08)
+    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(SHIPPED[name]))
+    assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.05 if name in BLOCKS else 0.08)
 
 
 @pytest.mark.parametrize("name", JOINTS)
@@ -92,7 +107,8 @@ def test_the_core_yields_where_fe_has_its_highest_stress(name: str) -> None:
     plain = 1e-6 / structure.shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"])
     holes = max(max(1.0, 2.0 * one.circle_radius / mm["core_radius"]) / (1.0 - one.weakening) for one in bores(mm))
     assert plain * holes == pytest.approx(beside, rel=0.11)
-    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(mm), *bores(mm))
+    rise = foot_rise(JOINTS[name])
+    mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], rise, *bores(mm))
     assert mises > 0.95 * beside
     if foot:
         assert mises == pytest.approx(max(foot, beside), rel=0.10)
@@ -302,23 +318,12 @@ def test_of_two_ledges_the_outer_bears_all_where_nothing_leads_out_from_the_inne
     assert structure.under_ledges_compliance((6.0, 2.0), 4.0, 0.0) == pytest.approx(4.0 / 36.0, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        *OTHER_VANES,
-        # No block deeper than high was among those that the vanes' form was fitted to.
-        pytest.param(WRIST, marks=pytest.mark.xfail(strict=True, reason="rotor's vanes: 1.21 of FE, held to 4 %")),
-        # The form was fitted to a mesh too coarse for pads of rubber.
-        pytest.param(MILLED, marks=pytest.mark.xfail(strict=True, reason="rotor's vanes: 1.047 of FE, held to 4 %")),
-    ],
-)
+@pytest.mark.parametrize("name", BLOCKS)
 def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     mm, youngs, shear = read(SHIPPED[name])
     fe = SHIPPED[name]["found"]
-    arm, free = mm["vane_count"] * middle(mm) ** 2, mm["vane_height"] - mm["block_height"]
-    moduli = SHIPPED[name]["frozen_shear_modulus"] * 1e9, SHIPPED[name]["pad_shear_modulus"] * 1e9
-    depths = mm["block_depth"], mm["peltier_thickness"], mm.get("spreader_depth", 0.0)
-    block = vane.BlockBetween(moduli, depths, (mm["block_width"], mm["block_height"]), free)
+    arm, block = mm["vane_count"] * middle(mm) ** 2, block_between(SHIPPED[name])
+    angle, side, _ = leaning_out(SHIPPED[name])
     hanging, webs = mm["vane_thickness"], 2.0 * mm["slot_web"] * mm.get("slot_count", 1.0)
     standing = mm["housing_vane_thickness"]
     strip = vane.strip_beside(middle(mm), mm["vane_count"], hanging)
@@ -327,10 +332,11 @@ def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
     hangs = vane.on_footing((youngs, shear), (mm["block_width"], hanging), block, plate)
     stands = vane.on_footing((youngs, shear), (webs, standing), block, ground)
     above = structure.ring_stiffness(shear, mm["rotor_thickness"], mm["pcl_inner_radius"], middle(mm))
-    rotor = structure.series(inside(mm, shear), above, arm / vane.compliance(hangs, stands, block))
+    each = wedge.compliance(vane.compliance(hangs, stands, block), side, angle, middle(mm))
+    rotor = structure.series(inside(mm, shear), above, arm / each)
     housing = structure.series(footed_floor(SHIPPED[name]), arm / vane.compliance(stands, hangs, block))
     assert rotor == pytest.approx(structure.series(fe["plate"], fe["rotor_vanes"]), rel=0.04)
-    assert housing == pytest.approx(structure.series(fe["housing"], fe["housing_vanes"]), rel=0.065)
+    assert housing == pytest.approx(structure.series(fe["housing"], fe["housing_vanes"]), rel=0.05)
 
 
 @pytest.mark.parametrize("name", LINKS)
@@ -377,3 +383,11 @@ def test_a_bar_pushed_along_evenly_keeps_a_twelfth_of_what_it_would_under_all_of
     x = (np.arange(1000) + 0.5) / 1000 * length - 0.5 * length
     energy = count * np.mean((push * x) ** 2) * length / (youngs * section)
     assert structure.hoop_compliance(youngs, section, length, count, radius) == pytest.approx(energy, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("name", "angle"), [("wrist_compression, shipped", 39.6), ("compare_compression, shipped", 27.9)]
+)
+def test_a_block_s_force_leans_out_of_its_vane_as_in_fe(name: str, angle: float) -> None:
+    # FE of the force on the face between block and vane, validation/fe_structure/lean_out.py.
+    assert np.degrees(leaning_out(SHIPPED[name])[0]) == pytest.approx(angle, rel=0.04)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -87,3 +89,13 @@ def test_rigid_modules_are_refused_in_a_vane_alone(study: str, drawn: bool) -> N
         return
     with pytest.raises(InputError, match="heater_form is rigid"):
         verify_design.refuse_other_parts(module)
+
+
+def test_a_time_that_did_not_come_is_told_as_none() -> None:
+    # `machined_compression` is not soft by FE: JSON has no word for infinity.
+    heat = Solved({"softening_time": math.inf, "mean_time": 3.0}, {"softening_time": math.inf}, Path())
+    told = json.loads(json.dumps(verify_tables.verified([], {"heat": heat}), allow_nan=False))
+    assert told["solved"]["heat"] == {
+        "fine": {"softening_time": None, "mean_time": 3.0},
+        "coarse": {"softening_time": None},
+    }

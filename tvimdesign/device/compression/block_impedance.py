@@ -20,7 +20,7 @@ from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.physics.solids import structure, vane
+from tvimdesign.physics.solids import structure, vane, wedge
 
 quantities = QuantityGroup(shared.group)
 
@@ -93,10 +93,16 @@ def core_foot_rise(
     rotor_thickness: Scalar,
     core_screw_bores: structure.Bores,
     core_dowel_bores: structure.Bores,
+    block_between: vane.BlockBetween,
+    block_lean_out: Scalar,
+    vanes_plate: wedge.PlateAround,
 ) -> Scalar:
-    """Rise of the core's stress at its foot [1]: among the vanes that hang from its plate, with the link's holes."""
+    """Rise of the core's stress at its foot [1]: among the vanes that hang from its plate and cup it, with the link's
+    holes."""
     length = link_bottom_level - rotor_top_level
-    return structure.foot_rise_among_vanes(core_radius, length, rotor_thickness, core_screw_bores, core_dowel_bores)
+    turned = structure.foot_rise_among_vanes(core_radius, length, rotor_thickness, core_screw_bores, core_dowel_bores)
+    cupped = wedge.foot_bending(block_lean_out, block_between.arm, core_radius, vanes_plate)
+    return np.sqrt(turned**2 + cupped**2)
 
 
 @quantities.helper()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -32,8 +33,13 @@ def verified(rows: Sequence[Compared], solved: dict[str, Solved]) -> dict[str, A
              "mesh_change": row.mesh_change, "meaning": row.meaning}
             for row in rows
         ],
-        "solved": {name: {"fine": one.found, "coarse": one.coarse} for name, one in solved.items()},
+        "solved": {name: {"fine": _told(one.found), "coarse": _told(one.coarse)} for name, one in solved.items()},
     }  # fmt: skip
+
+
+def _told(found: Mapping[str, float]) -> dict[str, float | None]:
+    """What a solver found; None for a time that did not come, which JSON has no number for."""
+    return {name: value if math.isfinite(value) else None for name, value in found.items()}
 
 
 def table_csv(rows: Sequence[Compared]) -> str:

@@ -16,19 +16,18 @@ import turning_mode
 from netgen.occ import Glue, OCCGeometry
 from ngsolve import (
     CF,
+    H1,
     L2,
     TET,
+    VOL,
     BilinearForm,
-    CGSolver,
     GridFunction,
     IfPos,
     InnerProduct,
     Integrate,
     IntegrationRule,
-    Preconditioner,
     TaskManager,
     Trace,
-    VectorH1,
     dx,
     sqrt,
     x,
@@ -40,6 +39,8 @@ BETWEEN_PLATES = 0.25
 """Poisson's ratio of rigid modules: pressed between stiff plates they are as stiff as three times the shear modulus."""
 RUBBER = 100.0
 """Bulk over shear modulus from which a pad hardly changes its volume."""
+LOWER, HIGHER = 2, 3
+"""Order of displacements, and in pads of rubber that are pressed."""
 METAL = 0.33
 """Poisson's ratio of a spreader where its shear modulus is not told."""
 
@@ -48,7 +49,8 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     """Stiffness of the joint at the core's top and of each part [N*m/rad]; stresses at 1 N*m [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
-    is_rubber = values.get("peltier_bulk_modulus", 0.0) > RUBBER * values["peltier_shear_modulus"]
+    keeps_volume = values.get("peltier_bulk_modulus", 0.0) > RUBBER * values["peltier_shear_modulus"]
+    is_rubber = keeps_volume and mm.get("vane_count", 0.0) > 0.0
     pressed = joint_solids.RUBBER if is_rubber else joint_solids.PRESSED
     whole = Glue(joint_solids.parts(folder, mm, coarser, pressed))
     joint_solids.refine(whole, mm, coarser)
@@ -57,14 +59,15 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     mesh = elastic.meshed(OCCGeometry(whole), 2, **sizes)
     shear, lame = _moduli(mesh, values)
     with TaskManager():
-        held = Held(mesh, shear, lame)
+        held = Held(mesh, shear, lame, HIGHER if is_rubber else LOWER)
         found = held.turned()
         strain = elastic.strain_of(found)
-        even = GridFunction(L2(mesh, order=0))
+        even = GridFunction(L2(mesh, order=held.order - LOWER))
         even.Set(Trace(strain))
         dilation = mesh.MaterialCF({"pad": even}, default=Trace(strain))
         tensor = elastic.stress(strain, shear, lame, dilation)
-        shares, torque = _energies(mesh, InnerProduct(tensor, strain), mm)
+        torque = held.work(found)
+        shares = _energies(mesh, InnerProduct(tensor, strain), mm, torque)
         frequency = turning_mode.frequency(mesh, values, held.solved, found, torque)
         on_feet = not mm["flange_outer_radius"]
         feet = joint_samples.at_feet(held.space, tensor, torque, round(mm["spring_count"])) if on_feet else {}
@@ -95,31 +98,44 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
     return mu, elastic.lame_of(mu, mesh.MaterialCF(poisson))
 
 
+def _displacements(mesh: Any, order: int) -> Any:
+    """Quadratic displacements, of another order in the pads and on their faces."""
+    one = H1(mesh, order=LOWER, dirichlet="turned|fixed")
+    if order != LOWER:
+        for element in mesh.Elements(VOL):
+            for node in (*element.edges, *element.faces) if element.mat == "pad" else ():
+                one.SetOrder(node, order)
+        one.UpdateDofTables()
+    return one**3
+
+
 class Held:
     """The joint with its feet and the core's top held, and what bends it."""
 
-    def __init__(self, mesh: Any, shear: Any, lame: Any) -> None:
-        """Assemble the stiffness and its preconditioner."""
-        self.space = VectorH1(mesh, order=2, dirichlet="turned|fixed")
+    def __init__(self, mesh: Any, shear: Any, lame: Any, order: int = LOWER) -> None:
+        """Assemble the stiffness and factor it; `order` is that of displacements in pads."""
+        self.order, self.space = order, _displacements(mesh, order)
         u, v = self.space.TnT()
         sheared = InnerProduct(2 * shear * elastic.strain_of(u), elastic.strain_of(v))
         dilated = lame * Trace(elastic.strain_of(u)) * Trace(elastic.strain_of(v))
-        # Pads hardly change their volume, and whole tetrahedra of theirs would lock: one point of each is asked.
-        others, once = mesh.Materials("pcl|rotor|housing|spreader"), {TET: IntegrationRule(TET, 1)}
-        worked = sheared * dx + dilated * dx(definedon=others) + dilated * dx("pad", intrules=once)
-        self.form = BilinearForm(worked, symmetric=True, condense=True)
-        pre = Preconditioner(self.form, "bddc")
-        self.form.Assemble()
-        self.inverse = CGSolver(self.form.mat, pre.mat, tol=1e-7, maxiter=600)
+        # Pads hardly change their volume, and whole tetrahedra of theirs would lock: one point of each is asked, or
+        # four of a cubic one.
+        others, few = mesh.Materials("pcl|rotor|housing|spreader"), {TET: IntegrationRule(TET, order - 1)}
+        worked = sheared * dx + dilated * dx(definedon=others) + dilated * dx("pad", intrules=few)
+        self.form = BilinearForm(worked, symmetric=True).Assemble()
+        self.inverse = self.form.mat.Inverse(self.space.FreeDofs(), "sparsecholesky")
 
     def solved(self, force: Any) -> Any:
-        """Displacement under a vector of forces, which is changed; what is held does not move."""
-        force.data += self.form.harmonic_extension_trans * force
+        """Displacement under a vector of forces; what is held does not move."""
         moved = force.CreateVector()
         moved.data = self.inverse * force
-        moved.data += self.form.harmonic_extension * moved
-        moved.data += self.form.inner_solve * force
         return moved
+
+    def work(self, found: Any) -> float:
+        """Twice the strain energy of a displacement [N*mm]."""
+        pulled = found.vec.CreateVector()
+        pulled.data = self.form.mat * found.vec
+        return float(InnerProduct(pulled, found.vec))
 
     def turned(self) -> Any:
         """Displacement where the core's top is turned by one radian."""
@@ -127,24 +143,23 @@ class Held:
         found.Set(CF((-y, x, 0)), definedon=self.space.mesh.Boundaries("turned"))
         right = found.vec.CreateVector()
         right.data = -self.form.mat * found.vec
-        found.vec.data += self.form.harmonic_extension * found.vec
         found.vec.data += self.solved(right)
         return found
 
 
-def _energies(mesh: Any, density: Any, mm: elastic.Found) -> tuple[elastic.Found, float]:
-    """Twice the strain energy of each part, and of all, which is the torque at one radian [N*mm]."""
+def _energies(mesh: Any, density: Any, mm: elastic.Found, torque: float) -> elastic.Found:
+    """Twice the strain energy of each part [N*mm], of all the torque at one radian; the pads have what is left."""
     core = IfPos(mm["core_radius"] + 0.01 - sqrt(x * x + y * y), 1, 0)
-    solids = {"pcl": "pcl", "pad": "pad|spreader", "housing": "housing"}
-    shares = {name: Integrate(density, mesh, definedon=mesh.Materials(of)) for name, of in solids.items()}
+    shares = {name: Integrate(density, mesh, definedon=mesh.Materials(name)) for name in ("pcl", "housing")}
     rotor = mesh.Materials("rotor")
+    shares["pad"] = torque - sum(shares.values()) - Integrate(density, mesh, definedon=rotor)
     if mm.get("vane_count"):
         shares["housing_vanes"] = Integrate(IfPos(z, 1, 0) * density, mesh, definedon=mesh.Materials("housing"))
         shares["housing"] -= shares["housing_vanes"]
         shares["rotor_vanes"] = Integrate(IfPos(mm["rotor_bottom_level"] - z, 1, 0) * density, mesh, definedon=rotor)
     shares["core"] = Integrate(core * density, mesh, definedon=rotor)
     shares["plate"] = Integrate((1 - core) * density, mesh, definedon=rotor) - shares.get("rotor_vanes", 0.0)
-    return shares, Integrate(density, mesh)
+    return shares
 
 
 if __name__ == "__main__":

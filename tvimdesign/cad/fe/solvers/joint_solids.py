@@ -12,9 +12,9 @@ from netgen.occ import Axis, Box, Cylinder, Dir, HalfSpace, OCCGeometry, Pnt, Ve
 FOOT, EDGE = 0.5, 2.0
 """Elements at the core's foot and along the arcs' edges [mm]."""
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
-PRESSED, RUBBER = 0.4, 0.25
-"""Size of elements in a pad that is pressed, over its thickness; and in one of rubber, which keeps its volume and is
-held by what its faces keep from moving: 0.4 has it a fifth too stiff."""
+PRESSED, RUBBER = 0.4, 0.8
+"""Size of elements in a pad that is pressed, over its thickness; and in one of rubber, which keeps its volume: there
+displacements are cubic, as of quadratic ones 0.4 has it a fifth too stiff."""
 WINDOW = 0.125, 0.2
 """Elements along the windows' edges, over the thickness of the pads on them, and at least [mm]."""
 PAD_GAP = 0.2
