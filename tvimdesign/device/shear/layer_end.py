@@ -107,8 +107,8 @@ def side_links(
     """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
 
     `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
-    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side. Below a lip it is the
-    end of the clearance that closes so.
+    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side. A lip takes the place
+    of the way to the plate.
     """
     conductivity, slot = air_beside
     near, far = lumps.gap_end(slot)
@@ -116,4 +116,6 @@ def side_links(
     corner = structure_conductivity * edge_length * lumps.corner_shape(near)
     inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
-    return (to_floor, Link(HOT, BESIDE, far * through, of_layer=inside), *lip_links)
+    if not lip_links:
+        return (to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
+    return (to_floor._replace(of_layer=None), *lip_links)
