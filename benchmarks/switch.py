@@ -58,10 +58,20 @@ class Contender:
     solve: Callable[[float], Array]
 
 
-OF_EDGES = ("heater_form", "pad_wall", "heater_along", "plate_to_edge", "uneven_sideways", "cold_end", "edge_length")
+OF_EDGES = (
+    "heater_form",
+    "pad_wall",
+    "heater_along",
+    "plate_to_edge",
+    "uneven_sideways",
+    "cold_end",
+    "lip_arms",
+    "edge_length",
+)
 OF_COLUMNS = (
     "air_beside",
     "cold_end",
+    "lip_arms",
     "plate_slenderness",
     "pcl_area",
     "edge_length",

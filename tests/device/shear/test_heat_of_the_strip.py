@@ -39,6 +39,12 @@ def test_times_of_the_paper_s_sizes_are_those_of_the_plane(name: str) -> None:
         assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
 
 
+@pytest.mark.slow
+def test_times_of_a_plastic_module_with_lips_are_those_of_the_plane() -> None:
+    for time, one in compared(model_of(STUDIES / "compare_shear.yaml")).items():
+        assert one.product == pytest.approx(one.plane, rel=THREE_PERCENT), time
+
+
 @pytest.mark.parametrize("name", ["calibrated_shear", "calibrated_compression", "machined_shear"])
 def test_the_table_has_the_times_of_today_s_product(name: str) -> None:
     ours = product_times(model_of(STUDIES / f"{name}.yaml"))

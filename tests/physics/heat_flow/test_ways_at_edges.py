@@ -90,3 +90,37 @@ def test_a_slab_that_is_heated_over_a_share_of_its_face_resists_as_conduction_sa
     # Half a cell lies between the face and the first row, which the heated share passes in less width.
     onto = np.mean(found[1, heated]) - np.mean(found[1, 1:-1]) + 0.5 / high * (1.0 / share - 1.0)
     assert lumps.constriction(share) == pytest.approx(onto, rel=0.01, abs=1e-3)
+
+
+@pytest.mark.parametrize("share", [0.25, 0.7])
+def test_a_step_in_a_sheet_resists_what_conduction_in_two_dimensions_says(share: float) -> None:
+    deep, long = 40, 100
+    low = round(share * deep)
+    inside = np.zeros((2 * long + 2, deep + 2), dtype=bool)
+    inside[1 : long + 1, 1 : low + 1] = inside[long + 1 : -1, 1:-1] = True
+    kept = np.full(inside.shape, np.nan)
+    kept[0], kept[-1] = 1.0, 0.0
+    found = conducted(inside, kept, np.zeros(inside.shape))
+    passed = np.nansum(2.0 * (1.0 - found[1]))
+    assert lumps.step(share) == pytest.approx(1.0 / passed - long / low - long / deep, rel=0.02)
+
+
+@pytest.mark.parametrize(("plate", "lip", "wide"), [(20, 8, 26), (40, 6, 15), (30, 6, 12)])
+def test_heat_from_a_lip_s_side_spreads_in_lip_and_plate_as_in_two_dimensions(plate: int, lip: int, wide: int) -> None:
+    # The lip's side is heated evenly; plate above the layer to the left, plate beside it to the right, both ends at 0.
+    long = 3 * plate
+    inside = np.zeros((2 * long + 2, plate + lip + 2), dtype=bool)
+    inside[1:-1, lip + 1 : -1] = inside[long + 1 : long + wide + 1, 1 : lip + 1] = True
+    kept = np.full(inside.shape, np.nan)
+    kept[0] = kept[-1] = 0.0
+    source = np.zeros(inside.shape)
+    source[long + 1, 1 : lip + 1] = 1.0 / lip
+    found = conducted(inside, kept, source)
+    side = np.mean(found[long + 1, 1 : lip + 1]) + 0.5 / lip
+    # What the plate's mean over its depth, falling evenly far from the lip, comes to at the lip's side.
+    mean = np.mean(found[:, lip + 1 : -1], axis=1)
+    away = np.arange(2 * long + 2) - long - 0.5
+    before, behind = away < -plate, (away > wide + plate) & (away < long)
+    before[0] = False
+    at_side = [np.polyfit(away[places], mean[places], 1)[1] for places in (before, behind)]
+    assert lumps.constriction(lip / (lip + plate)) == pytest.approx(side - np.mean(at_side), rel=0.2)

@@ -12,7 +12,6 @@ import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
-from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
@@ -165,30 +164,18 @@ def stack_links(
 
 @quantities.helper()
 def below_lips(
-    melt_lip: str,
-    melt_lip_height: Scalar,
-    rotor_rim: Scalar,
-    beside_area: Scalar,
+    lip_height: Scalar,
+    lip_over: tuple[Scalar, ...],
     edge_length: Scalar,
     pcl_thickness: Scalar,
     running_clearance: Scalar,
     air_conductivity: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[Scalar, ...]:
-    """What lips make the gap beside the arcs conduct better before each body of the strip [W/K].
-
-    They reach over the first of these, smoothly as they get wider than that, and on over the next.
-    """
-    if melt_lip == NO_LIP:
-        return (0.0,) * len(STRIP)
-    lip = 1.0 / (running_clearance / air_conductivity + melt_lip_height / structure_conductivity)
-    more, left, found = lip - air_conductivity / pcl_thickness, rotor_rim, []
-    for share in STRIP:
-        width = share * beside_area / edge_length
-        covered = width * np.tanh(left / width)
-        found.append(more * covered * edge_length)
-        left = left - covered
-    return tuple(found)
+    """What lips make the gap beside the arcs conduct better before each body of the strip [W/K]."""
+    lip = 1.0 / (running_clearance / air_conductivity + lip_height / structure_conductivity)
+    more = lip - air_conductivity / pcl_thickness
+    return tuple(more * covered * edge_length for covered in lip_over)
 
 
 @quantities.helper()

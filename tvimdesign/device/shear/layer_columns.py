@@ -12,7 +12,8 @@ from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import columns, heat, peltier
+from tvimdesign.physics.heat_flow import columns, heat, peltier, star
+from tvimdesign.physics.heat_flow.star import Arm
 
 quantities = QuantityGroup(shared.group)
 
@@ -38,6 +39,7 @@ def edge_drops(
     plate_to_edge: Scalar,
     uneven_sideways: Scalar,
     cold_end: ColdEnd | None,
+    lip_arms: tuple[Arm, ...],
     edge_length: Scalar,
 ) -> tuple[Scalar, Scalar]:
     """How far the edges of the pads' hot side and of the plate's face are below their means [K], by what they lose."""
@@ -49,7 +51,7 @@ def edge_drops(
     even = stack.beside[0].conductance * (mean - now.beside[0])
     given = pad_wall * (side - corner)
     if cold_end is not None:
-        given = given + edge_length * cold_end.near * (now.hot - cold_end.edge(now))
+        given = given + edge_length * cold_end.near * (now.hot - star.temperature(lip_arms, now.at))
     return (
         given / heater_along,
         (even + uneven_sideways * (now.plate[0] - mean)) / plate_to_edge,
@@ -63,6 +65,7 @@ def layer_temperatures(
     edge_drops: tuple[Scalar, Scalar],
     air_beside: tuple[Scalar, Scalar],
     cold_end: ColdEnd | None,
+    lip_arms: tuple[Arm, ...],
     plate_slenderness: Scalar,
     pcl_area: Scalar,
     edge_length: Scalar,
@@ -77,7 +80,7 @@ def layer_temperatures(
     count = len(stack_profile.cells)
     heights = (np.arange(count) + 0.5) / count
     width = pcl_area / edge_length / pcl_depth
-    ends = _at_end(stack_profile, heights, width, air_beside, cold_end, pcl_conductivity_melt)
+    ends = _at_end(stack_profile, heights, width, air_beside, cold_end, lip_arms, pcl_conductivity_melt)
     pads, plate = edge_drops
     share = columns.way_through(stack, heights)
     found = []
@@ -93,12 +96,13 @@ def _at_end(
     width: Scalar,
     air_beside: tuple[Scalar, Scalar],
     cold_end: ColdEnd | None,
+    lip_arms: tuple[Arm, ...],
     pcl_conductivity_melt: Scalar,
 ) -> list[Scalar]:
     """Temperatures of the slices in each column [K], by what leaves the layer at its end alone."""
     if cold_end is not None:
-        lip = cold_end.edge(now)
-        warmer = columns.beside_wall(heights, width, cold_end.contact, cold_end.free, cold_end.share)
+        lip = star.temperature(lip_arms, now.at)
+        warmer = columns.beside_wall(heights, width, cold_end.contact, cold_end.free)
         return [lip + (now.cells - lip) * one for one in warmer]
     conductivity, slot = air_beside
     excess = conductivity / pcl_conductivity_melt * (now.hot - now.around[CORNER])

@@ -1,8 +1,7 @@
 """The free side of the layer: what heat leaves there, into the air of the gap or into a lip of the rotor plate.
 
-A lip touches the layer but for the running clearance below it. It takes heat through its own height and a third of the
-plate's, at the temperature of the plate's edge: the mean of those above the arcs and beside them. The arcs' ends have
-no lip; they are taken as having one, as an arc is a strip with as much edge.
+A lip touches the layer but for the running clearance below it; what else heats and cools it is in `lip_heat`. The arcs'
+ends have no lip; they are taken as having one, as an arc is a strip with as much edge.
 """
 
 from __future__ import annotations
@@ -13,26 +12,26 @@ import numpy as np
 
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER
-from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
+from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import heat, lumps
+from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.walled_end import walled_end
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
-HOT, LAYER, PLATE, BESIDE, FLOOR = ("hot", 0), ("layer", 0), ("plate", 0), ("beside", 0), ("around", CORNER)
+HOT, BESIDE, FLOOR = ("hot", 0), ("beside", 0), ("around", CORNER)
 AT_CORNER = 2.0 / np.pi
 """Length along a corner's face over the way through it: heat goes along quarter circles there."""
 
 
 class ColdEnd(NamedTuple):
-    """A lip at the layer's end, and what it takes into the plate's edge [W/m K]."""
+    """A lip at the layer's end, and what the layer gives to it [W/m K]."""
 
     of_layer: Scalar
-    """From the layer's slices, by their mean excess over that edge."""
+    """From the layer's slices, by their mean excess over the lip."""
     of_pads: Scalar
     """From the pads' hot side, by its excess; what crowds into the lip's tip beyond what the slices give."""
     near: Scalar
@@ -41,19 +40,12 @@ class ColdEnd(NamedTuple):
     """Thickness of layer that conducts as a contact does, over the layer's with two of these [1]."""
     free: Scalar
     """Height below the lip over the layer's [1]."""
-    share: Scalar
-    """Of the layer's excess over the plate's edge that is between layer and lip [1]."""
-
-    def edge(self, now: heat.Profile) -> Scalar:
-        """Temperature of the plate's edge [K]: where a heated face ends, the mean of both sides."""
-        return 0.5 * (now.plate[0] + now.beside[0])
 
 
 @quantities.helper()
 def cold_end(
     melt_lip: str,
-    melt_lip_height: Scalar,
-    rotor_rim: Scalar,
+    lip_height: Scalar,
     pcl_thickness: Scalar,
     pcl_area: Scalar,
     edge_length: Scalar,
@@ -61,33 +53,21 @@ def cold_end(
     rotor_contact: Scalar,
     pcl_conductivity_solid: Scalar,
     pcl_conductivity_melt: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
 ) -> ColdEnd | None:
-    """Lip at the layer's end; none without lips. A contact is as much more layer, where heat crowds as well.
-
-    A lip lower than the rules allow (`melt_lip_margin`) is taken as high as they ask, so that there is one.
-    """
+    """Lip at the layer's end; none without lips. A contact is as much more layer, where heat crowds as well."""
     if melt_lip == NO_LIP:
         return None
     conductivity = 0.5 * (pcl_conductivity_solid + pcl_conductivity_melt)
     contacts = conductivity / hot_contact + conductivity / rotor_contact
-    height = np.fmax(melt_lip_height, LEAST_LIP)
-    below = np.fmax(pcl_thickness - height, 0.0)
+    below = np.fmax(pcl_thickness - lip_height, 0.0)
     free = (below + AT_CORNER * contacts) / (pcl_thickness + contacts)
     end, wide = walled_end(free), pcl_area / edge_length / pcl_thickness
-    into = conductivity * end.wall
-    deep = 2.0 / np.pi * height
-    width = deep * np.tanh(rotor_rim / deep)
-    along = end.along * pcl_thickness / width + rotor_thickness / (3.0 * rotor_rim)
-    share = lumps.in_series(into, structure_conductivity / along) / into
     return ColdEnd(
-        of_layer=share * conductivity * lumps.sink_of_slices(end.deep / wide) * wide,
-        of_pads=share * conductivity * (end.wall - lumps.FALLING * end.deep),
-        near=share * conductivity * end.near,
+        of_layer=conductivity * lumps.sink_of_slices(end.deep / wide) * wide,
+        of_pads=conductivity * (end.wall - lumps.FALLING * end.deep),
+        near=conductivity * end.near,
         contact=0.5 * contacts / (pcl_thickness + contacts),
         free=free,
-        share=share,
     )
 
 
@@ -121,7 +101,7 @@ def air_beside(
 def side_links(
     edge_length: Scalar,
     air_beside: tuple[Scalar, Scalar],
-    cold_end: ColdEnd | None,
+    lip_links: tuple[Link, ...],
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
     """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
@@ -136,11 +116,6 @@ def side_links(
     corner = structure_conductivity * edge_length * lumps.corner_shape(near)
     inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
-    if cold_end is None:
+    if not lip_links:
         return (to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
-    lips = [
-        Link(giver, taker, 0.5 * edge_length * conductance)
-        for giver, conductance in ((LAYER, cold_end.of_layer), (HOT, cold_end.of_pads))
-        for taker in (PLATE, BESIDE)
-    ]
-    return (to_floor._replace(of_layer=None), *lips)
+    return (to_floor._replace(of_layer=None), *lip_links)

@@ -117,20 +117,32 @@ def rotor_beside(
     plate_to_edge: Scalar,
     rotor_thickness: Scalar,
     melt_lip_moments: Section,
+    rotor_rim: Scalar,
+    lip_over: tuple[Scalar, ...],
+    lip_ways: tuple[Scalar, ...],
     structure_conductivity: Scalar,
     structure_density: Scalar,
     structure_specific_heat: Scalar,
     rotor_coefficient: Scalar,
     surface_emissivity: Scalar,
 ) -> tuple[lumps.Lump, ...]:
-    """Rotor plate beside the arcs: a strip along their edges, as deep as with its lips spread over it."""
-    depth = rotor_thickness + melt_lip_moments.area / beside_area
-    sheet = structure_conductivity * rotor_thickness
-    first, *others = lumps.strip(
+    """Rotor plate beside the arcs: a strip along their edges, deeper by its lips where these stand.
+
+    Heat goes along it through plate and lip, beside one another.
+    """
+    capacity = structure_density * structure_specific_heat
+    chain = lumps.strip(
         beside_area,
-        depth * structure_density * structure_specific_heat,
-        sheet * edge_length**2 / beside_area,
+        rotor_thickness * capacity,
+        structure_conductivity * rotor_thickness * edge_length**2 / beside_area,
         lumps.Surface(1.0, rotor_coefficient, surface_emissivity, rotor_thickness / 3.0 / structure_conductivity),
+    )
+    first, *others = (
+        lump._replace(
+            conductance=1.0 / (1.0 / lump.conductance + way / (structure_conductivity * edge_length)),
+            capacity=lump.capacity + covered / rotor_rim * melt_lip_moments.area * capacity,
+        )
+        for lump, covered, way in zip(chain, lip_over, lip_ways, strict=True)
     )
     return (first._replace(conductance=lumps.in_series(plate_to_edge, first.conductance)), *others)
 

@@ -14,6 +14,7 @@ from tvimdesign.device.shear import (
     layer_heat,
     layer_impedance,
     layer_shrinkage,
+    lip_heat,
     melt_lip,
     melt_retention,
     rotor_level,
@@ -26,7 +27,7 @@ from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 ROOMS = (
-    rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, floor_heat, arc_volumes,
+    rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, lip_heat, floor_heat, arc_volumes,
     arc_clearances, melt_retention, tile_heat,
 )  # fmt: skip
 GROUPS = (*tiles.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)

@@ -76,8 +76,8 @@ class Lump(NamedTuple):
 
 
 Place = tuple[str, int]
-"""Where a link ends: `cold`, `hot`, `legs` between them, `layer` or `plate` of the column, or a body `beside` or
-`around`, and which."""
+"""Where a link ends: `cold`, `hot`, `legs` between them, `layer` or `plate` of the column, the plate's first cell as
+its `face`, or a body `beside` or `around`, and which."""
 
 
 class Slope(NamedTuple):
@@ -150,6 +150,8 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
     from its cells, most from the first, falling evenly to nothing at its far face.
     """
     at = {**places, **{group: [np.mean(cells)] for group, cells in divided.items()}}
+    if any("face" in (link.first[0], link.second[0]) for link in links):
+        at["face"] = [divided["plate"][0]]
     found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in at.items()}
     taking: dict[str, Any] = dict.fromkeys(divided, 0.0)
     for link in links:
@@ -163,6 +165,8 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
                 found[group][i] = found[group][i] + conductance * (other - own)
     for group, cells in divided.items():
         found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
+    if "face" in found:
+        found["plate"][0] = found["plate"][0] + found["face"][0] * _first(len(divided["plate"]))
     for link in links:
         if link.of_layer is not None:
             (group, i), count = link.first, len(divided["layer"])
@@ -180,6 +184,11 @@ def risen(slope: Slope, places: Mapping[str, Any], count: int) -> Any:
     """How much warmer than its mean what a layer of so many cells faces is before each of them [K]."""
     warm, (group, k) = sum(share * places[of][i] for (of, i), share in slope.warm), slope.cool
     return slope.share * (warm - places[group][k]) * (0.5 - (np.arange(count) + 0.5) / count)
+
+
+def _first(count: int) -> Any:
+    """One for the first of so many cells, nothing for the others."""
+    return 1.0 * (np.arange(count) == 0)
 
 
 def _falling(count: int) -> Any:
@@ -280,6 +289,27 @@ def corner_shape(shape: Any) -> Any:
     passes the quarter circle at r: the flux's mean of the temperature is 2 L/(3 pi k) per heat and length.
     """
     return 3.0 / shape
+
+
+def step(share: Any) -> Any:
+    """What a sheet resists more where its depth steps down to a `share` of it on one side, times k and length [1].
+
+    With the shares a and 1 the map of a strip with a step (Schwarz-Christoffel; Carslaw and Jaeger, ch. XVI) gives
+
+        ((a + 1/a) ln((1 + a)/(1 - a)) - 2 ln(4 a/(1 - a^2)))/pi
+
+    beyond what both depths resist up to the step.
+    """
+    rise = np.log((1.0 + share) / (1.0 - share))
+    return ((share + 1.0 / share) * rise - 2.0 * np.log(4.0 * share / (1.0 - share**2))) / np.pi
+
+
+def reaches(width: Any, parts: Sequence[Any]) -> tuple[Any, ...]:
+    """What of each of several parts in a row something of a `width` lies over, smoothly as it gets wider than one."""
+    found: list[Any] = []
+    for part in parts:
+        found.append(part * np.tanh((width - sum(found)) / part))
+    return tuple(found)
 
 
 def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple[Lump, ...]:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.physics.heat_flow.liner import Liner
-from tvimdesign.physics.heat_flow.lumps import Body, Link, Lump, Surface
+from tvimdesign.physics.heat_flow.lumps import Body, Link, Lump, Place, Surface
 from tvimdesign.physics.polymers import crystallization, polymer
 
 
@@ -92,3 +94,12 @@ class Profile(NamedTuple):
     """Heat [W] into the sheet's first cell, between its cells, and out of the last."""
     through_plate: Any
     """Heat [W] into the first plate cell, between the cells, and out to the air."""
+
+    def at(self, place: Place) -> Any:
+        """Temperature [K] of a place that a link may end at; of the legs that of their middle."""
+        group, index = place
+        if group in ("layer", "plate"):
+            return np.mean(self.cells if group == "layer" else self.plate)
+        if group in ("cold", "hot"):
+            return getattr(self, group)
+        return (self.plate if group == "face" else getattr(self, group))[index]

@@ -32,8 +32,6 @@ class WalledEnd(NamedTuple):
     """How deep in the layer that heat comes out of it: the integral of q y (t - y)/(2 t^2) dy [1].
 
     The layer is colder in the mean by that over its width, whatever its profile, as in `lumps.gap_end_depth`."""
-    along: Any
-    """Way [1] of the wall's heat to the far face in a wall of one section: the integral of (Q/Q_all)^2 dy/t."""
 
 
 def walled_end(free: Any) -> WalledEnd:
@@ -47,7 +45,6 @@ def walled_end(free: Any) -> WalledEnd:
         near=-2.0 / np.pi * np.log(np.sin(0.5 * np.pi * free)),
         wall=wall,
         deep=wall * _mean([0.5 * y * (1.0 - y) for y in heights]),
-        along=1.0 - 2.0 * _mean([passed * y for passed, y in zip(_PASSED, heights, strict=True)]),
     )
 
 
