@@ -83,6 +83,9 @@ def plain(design: Path, out: Path) -> None:
 
 def files_only(design: Path, out: Path) -> None:
     """Make the files as shipped, without the checks of sizes and interference that the plain row has none of."""
+    from tvimdesign.cad.build.load_kernel import load_kernel
+
+    load_kernel()  # as the process that makes parts does, before anything else loads it whole
     from tvimdesign.cad.build import build_plan
     from tvimdesign.cad.build.main import run
 

@@ -6,8 +6,9 @@ import contextlib
 
 import psutil
 
-_POLITE = 10
-"""A process of this niceness has a tenth of a processor that another wants whole."""
+_POLITE, _LAST = 10, 19
+"""A process of the first niceness has a tenth of a processor that another wants whole, one of the second an eighth of
+one that the first wants."""
 
 
 def end_process_tree(process: int) -> None:
@@ -29,9 +30,15 @@ def end_process_tree(process: int) -> None:
     _kill(root)
 
 
-def give_way(process: int) -> None:
-    """Let a process, and those it starts from now on, compute where others leave a processor free."""
-    low: int = getattr(psutil, "BELOW_NORMAL_PRIORITY_CLASS", _POLITE)  # Windows has classes in place of numbers
+def give_way(process: int, *, last: bool = False) -> None:
+    """Let a process, and those it starts from now on, compute where others leave a processor free.
+
+    With `last` it also gives way to those that give way.
+    """
+    # Windows has classes in place of numbers.
+    low: int = getattr(
+        psutil, "IDLE_PRIORITY_CLASS" if last else "BELOW_NORMAL_PRIORITY_CLASS", _LAST if last else _POLITE
+    )
     with contextlib.suppress(psutil.Error):
         psutil.Process(process).nice(low)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -37,6 +37,9 @@ from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
 from tvimdesign.study.result_study import begun_at
+
+Designed = Callable[[Design], None]
+"""Who is told a design as soon as it is there."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,7 @@ class StudyResult:
     @property
     def found(self) -> bool:
         """Whether there is a design: evaluated, optimal, beyond a rating that is not accepted, or below a yield."""
-        return self.solution is None or self.design.status in {OPTIMAL, ABOVE_RATING, BELOW_YIELD}
+        return _is_found(self.design, self.solution)
 
     @property
     def accepted_in_vain(self) -> tuple[str, ...]:
@@ -113,6 +116,10 @@ class StudyResult:
         return all(check.kept for check in self.checks)
 
 
+def _is_found(design: Design, solution: Solution | None) -> bool:
+    return solution is None or design.status in {OPTIMAL, ABOVE_RATING, BELOW_YIELD}
+
+
 def answer(
     study: Study,
     progress: Progress = lambda _: None,
@@ -120,19 +127,21 @@ def answer(
     keep: Keep = lambda *_: None,
     objectives: Sequence[str] = (),
     search: Search = optimize,
+    designed: Designed = lambda _: None,
 ) -> StudyResult:
     """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError.
 
     What found the optimum is handed to `keep`, able to trade some outputs afterwards. A `search` may stand in place of
-    the usual one. An interrupt of it, or once it has found a design, is SearchInterrupted.
+    the usual one. `designed` is told a design that is found before all that there is to say of it is computed. An
+    interrupt of the search, or once it has found a design, is SearchInterrupted.
     """
     refuse_impossible(study)
     if study.task != "optimize":
         progress("simulating one working cycle")
-        return _result(study, None)
+        return _result(study, None, designed)
     solution = search(study, progress, reference, keep, objectives)
     try:
-        return _result(study, solution)
+        return _result(study, solution, designed)
     except KeyboardInterrupt as interrupt:
         if solution.status not in {OPTIMAL, BELOW_YIELD}:
             raise
@@ -140,7 +149,7 @@ def answer(
         raise SearchInterrupted(begun_at(study, found, _choices(solution.model, study.table))) from interrupt
 
 
-def _result(study: Study, solution: Solution | None) -> StudyResult:
+def _result(study: Study, solution: Solution | None, designed: Designed) -> StudyResult:
     """What a study came to, with what a search found, or as it is evaluated."""
     table = study.table
     if solution is not None:
@@ -174,6 +183,8 @@ def _result(study: Study, solution: Solution | None) -> StudyResult:
         current_profiles={phase: profile.plain() for phase, profile in current_profiles.items()},
         solution=_plain(solution),
     )
+    if _is_found(design, solution):
+        designed(design)
     checks = tuple(_check(limit, values, table, open_values) for limit in constraints_of(study, table, resolved.values))
     advice = [
         limit

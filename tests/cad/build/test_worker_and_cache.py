@@ -60,6 +60,11 @@ def refuses(_: Job) -> list[SolidCheck]:
     raise GeometryError("bore is -1 mm; it must be above zero")
 
 
+def by_whom(job: Job) -> list[SolidCheck]:
+    (job.folder / f"out/{job.folder.parent.name}.txt").write_text(str(os.getpid()))
+    return []
+
+
 PLATE, STACK = Work(name="plate", do=plate), Work(name="stack", do=stack, needs=("plate",), named=True)
 
 
@@ -195,6 +200,19 @@ def test_a_crash_and_a_refusal_are_named_and_leave_nothing_half_made(run: Run, t
     assert [path for path in (tmp_path / "kept").rglob("*") if path.is_file()] == [
         path for path in (tmp_path / "kept/plate").rglob("*") if path.is_file()
     ]
+
+
+def test_a_child_does_one_piece_of_work_after_another_and_another_takes_the_place_of_one_that_ended(
+    tmp_path: Path,
+) -> None:
+    subject = TrackedDesign(design_of("toy", {}), TITLES)
+    plan = [Work(name=name, do=crashes if name == "crash" else by_whom) for name in ("a", "b", "crash", "c", "d")]
+    done = WorkerPool(subject, Cache(tmp_path), lambda _: None, hands=1).do(plan)
+    assert list(done.failed) == ["crash"]
+    by = {name: text(done, name) for name in "abcd"}
+    assert by["a"] == by["b"] != by["c"] == by["d"]
+    assert str(os.getpid()) not in by.values()
+    assert not any(psutil.pid_exists(int(one)) for one in by.values())
 
 
 def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,10 +6,15 @@ import re
 import zlib
 
 import pytest
+from ezdxf.addons.drawing.properties import BackendProperties
+from ezdxf.npshapes import NumpyPath2d
+from ezdxf.path import Path
 
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
+from tvimdesign.cad.drawing.pdf_page import PdfPage
 
 MM = 72.0 / 25.4
+PEN = BackendProperties()
 
 
 def content(data: bytes) -> list[str]:
@@ -55,3 +60,21 @@ def test_a_circle_is_curves_and_letters_are_filled() -> None:
     assert all((x - 100.0) ** 2 + (y - 100.0) ** 2 == pytest.approx(100.0, rel=1e-3) for x, y in ends)
     assert lines.count("f") == 1
     assert lines[-1] == "f"
+
+
+def test_each_step_of_a_path_is_written_with_its_own_corners() -> None:
+    path = Path((0.0, 0.0))
+    path.line_to((9.0, 0.0))
+    path.curve3_to((9.0, 9.0), (12.0, 3.0))  # the end first, then the corner it bends towards
+    path.move_to((-3.0, 0.0))
+    path.curve4_to((0.0, 6.0), (-2.0, 2.0), (-1.0, 4.0))
+    page = PdfPage((420.0, 297.0), 1.0)
+    page.draw_path(NumpyPath2d(path), PEN)
+    page.draw_filled_paths([NumpyPath2d(path)], PEN)
+    steps = [
+        "0.0000 0.0000 m", "9.0000 0.0000 l", "11.0000 2.0000 11.0000 5.0000 9.0000 9.0000 c",
+        "-3.0000 0.0000 m", "-2.0000 2.0000 -1.0000 4.0000 0.0000 6.0000 c",
+    ]  # fmt: skip
+    lines = content(page.bytes())
+    assert lines[2:8] == [*steps, "S"]
+    assert lines[9:] == [*steps, "f"]

@@ -57,6 +57,42 @@ def test_a_hole_is_empty_and_goes_all_the_way_round() -> None:
     assert holes(cup()) == []
 
 
+BLOCK = cq.Solid.makeBox(40, 30, 10)
+
+
+def bored(*more: cq.Solid) -> cq.Solid:
+    """The block with a through hole of 16 in its middle, and what else stands in that."""
+    return BLOCK.cut(cq.Solid.makeCylinder(8, 10, cq.Vector(20, 15, 0))).fuse(*more).Solids()[0]
+
+
+BARS = {
+    "nothing": ([], True),
+    "a web across it": ([cq.Solid.makeBox(40, 1, 10, cq.Vector(0, 20, 0))], False),
+    "a web at its rim": ([cq.Solid.makeBox(40, 1, 2, cq.Vector(0, 22.5, 4))], False),
+    "a level sheet halfway up": ([cq.Solid.makeBox(40, 30, 0.5, cq.Vector(0, 0, 4))], False),
+    "a round bar across it": ([cq.Solid.makeCylinder(1, 30, cq.Vector(20, 0, 5), cq.Vector(0, 1, 0))], False),
+    "a cone in it": ([cq.Solid.makeCone(3, 1, 6, cq.Vector(20, 15, 2)),
+                      cq.Solid.makeBox(20, 1, 1, cq.Vector(20, 15, 3))], False),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BARS)
+def test_what_stands_in_a_hole_is_found_whatever_its_faces(name: str) -> None:
+    inside, empty = BARS[name]
+    part = bored(*inside) if inside else bored(cq.Solid.makeBox(1, 1, 1, cq.Vector(0, 0, 10)))
+    plug = cq.Solid.makeCylinder(7.99, 10, cq.Vector(20, 15, 0))
+    assert (plug.intersect(part).Volume() < 1e-6) == empty  # the kernel's word
+    assert any(one.radius == 8 and (one.bottom, one.top) == (0, 10) for one in holes(part)) == empty
+
+
+def test_a_hole_beside_faces_whose_surfaces_would_cut_it_is_empty() -> None:
+    # A slot's walls and floor, a pin's round face and a level edge all end before the hole.
+    slot = cq.Solid.makeBox(4, 12, 5, cq.Vector(6, 9, 5)).rotate(cq.Vector(8, 15, 0), cq.Vector(8, 15, 1), 30)
+    pin = cq.Solid.makeCylinder(14, 3, cq.Vector(20, 36, 10)).intersect(BLOCK.translate(cq.Vector(0, 0, 10)))
+    part = bored(pin).cut(slot).Solids()[0]
+    assert [one.radius for one in holes(part)] == [8]
+
+
 def test_holes_are_wider_in_print_by_what_the_process_takes_away() -> None:
     part = bracket()
     printed = as_printed(part, UP, 0.3)

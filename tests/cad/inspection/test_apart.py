@@ -71,3 +71,18 @@ def test_only_what_may_meet_is_held_against_each_other_and_the_check_says_the_sa
     assert plain == quick
     assert [check.ok for check in quick] == [True, False, False, True]
     assert len(asked) == 3
+
+
+@pytest.mark.parametrize("cut", [None, 1, 2, 3])
+def test_of_copies_held_against_a_part_at_once_the_one_that_cuts_it_is_found(cut: int | None) -> None:
+    solids = {"housing": cylinder(20.0)}
+    for number in (1, 2, 3):
+        x, y = 25.0 * np.cos(2.0 * number), 25.0 * np.sin(2.0 * number)
+        nearer = 0.9 if number == cut else 1.0  # the others touch it along a line
+        solids[f"pcl_arc_{number}"] = cylinder(5.0).translate((float(nearer * x), float(nearer * y), 0.0))
+    found = {check.name: check for check in interference_checks(solids, "at rest")}
+    for number in (1, 2, 3):
+        check = found[f"housing | pcl_arc_{number} at rest"]
+        assert check.ok == (number != cut)
+        alone = solids["housing"].intersect(solids[f"pcl_arc_{number}"]).Volume()
+        assert check.value == pytest.approx(alone, rel=1e-9)

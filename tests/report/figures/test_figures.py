@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
@@ -15,6 +16,7 @@ from PIL import Image
 
 from tests.helpers.figures import faults, signed
 from tvimdesign.device import table_for
+from tvimdesign.report.figures import plot_process
 from tvimdesign.report.figures.theme.canvas import as_file, png
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.solve.result import StudyResult, answer
@@ -162,3 +164,15 @@ def test_bars_are_the_parts_the_module_has_and_add_up_to_its_mass(found: StudyRe
     bars = [bar.get_width() for bar in axes.patches]
     assert min(bars) > 0.0
     assert sum(bars) == pytest.approx(1e3 * found.design.value("module_mass"), rel=1e-9)
+
+
+def test_all_figures_can_be_looked_at_before_any_is_written_for_print(
+    found: StudyResult, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written: list[str] = []
+    monkeypatch.setattr(plot_process, "write_whole", lambda path, _data: written.append(path.name))
+    asked = [one for one in drawings(found, table_for(found.design.mode)) if one.file in {"mass", "torque"}]
+    plot_process._draw(Path(), asked, {"study": "a test", "endings": ["png", "svg"]})
+    names = [one.file for one in asked]
+    assert len(names) == 2
+    assert written == [f"{name}.{ending}" for ending in ("png", "svg") for name in names]

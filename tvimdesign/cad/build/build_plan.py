@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 
 import cadquery as cq
@@ -255,7 +255,10 @@ def _solids(needs: Mapping[str, Path]) -> dict[str, cq.Solid]:
 
 def _meshes(needs: Mapping[str, Path]) -> dict[str, Mesh]:
     """The meshes of those solids, by kind."""
-    return {kind: read_mesh(folder / _MESH) for kind, folder in needs.items()}
+    return {kind: _mesh(folder / _MESH) for kind, folder in needs.items()}
+
+
+_mesh = lru_cache(maxsize=256)(read_mesh)  # a child does several pieces of work; what is kept does not change
 
 
 def _write(folder: Path, name: str, data: bytes) -> None:

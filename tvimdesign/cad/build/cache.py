@@ -16,6 +16,7 @@ import tempfile
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -144,6 +145,7 @@ def _age(path: Path) -> float:
         return 0.0
 
 
+@cache
 def code_digest() -> str:
     """Digest of all that makes parts of a design: this package's code and the libraries it draws with."""
     digest = hashlib.sha256()

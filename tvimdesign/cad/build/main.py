@@ -1,7 +1,7 @@
 """The child process that makes the parts: a line of JSON a step; `make.py` is the other end.
 
-It runs on its own because the CAD kernel can take a process with it, and starts a child of its own for every piece of
-work (`work.py`), because an operation of the kernel can hang.
+It runs on its own because the CAD kernel can take a process with it, and has children of its own do the pieces of work
+(`worker.py`), because an operation of the kernel can hang.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from tvimdesign.base.kept_folder import FOLDER_VARIABLE, kept_folder
 from tvimdesign.base.record import Record
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
+from tvimdesign.cad.build.load_kernel import load_kernel
 from tvimdesign.cad.make import HALF_MADE, WAITING
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
@@ -49,6 +50,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     started = time.perf_counter()
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
+    load_kernel()
     from tvimdesign.cad.build.build_plan import PICTURES, build_plan
     from tvimdesign.cad.build.cache import Cache
     from tvimdesign.cad.build.read_tracking import TrackedDesign
@@ -127,6 +129,7 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] 
     os.dup2(2, 1)
     try:
         if arguments == [WAITING]:
+            load_kernel()
             from tvimdesign.cad.build.warm_up import warm_up
 
             import_module(_NEEDED)

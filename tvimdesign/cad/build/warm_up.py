@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 
 from tvimdesign.cad.assembly import assembly_note
+from tvimdesign.cad.build.cache import code_digest
 from tvimdesign.cad.drawing import drawing_requirements, iso_286
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.inspection import ray_code
@@ -15,7 +16,7 @@ _LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXY
 
 def warm_up() -> None:
     """Compile, read data files, find the font and its letters, load what renders."""
-    for read in (drawing_requirements.told, iso_286.told, assembly_note.told, ray_code.first_hits):
+    for read in (drawing_requirements.told, iso_286.told, assembly_note.told, ray_code.first_hits, code_digest):
         read()
     sheet = DrawingSheet(1.0)
     sheet.text(_LETTERS, (20.0, 20.0))

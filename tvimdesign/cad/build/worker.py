@@ -1,11 +1,14 @@
 """Does pieces of work in child processes, several at once, each with a time-out; what is kept is not done again.
 
-A child is forked once the CAD kernel is loaded, so that it starts at once. One that is stuck in the kernel, or crashes,
-is ended and named; what the others made is kept.
+A child is forked once the CAD kernel is loaded, so that it starts at once, and does one piece of work after another: a
+fork for each would copy what it touches of the kernel's memory anew. One that is stuck in the kernel, or crashes, is
+ended and its work named; another takes its place, and what was made is kept.
 """
 
 from __future__ import annotations
 
+import contextlib
+import gc
 import multiprocessing as mp
 import os
 import sys
@@ -72,10 +75,17 @@ class Done:
 
 
 @dataclass
+class _Hand:
+    """A child process, which does what it is sent."""
+
+    process: BaseProcess
+    line: Connection
+
+
+@dataclass
 class _Running:
     work: Work
-    process: BaseProcess
-    ear: Connection
+    hand: _Hand
     folder: Path
     deadline: float
     step: str
@@ -104,19 +114,27 @@ class WorkerPool:
         self._hands = hands or min(os.cpu_count() or 1, 4)
         # Elsewhere a fork is not safe: a library's threads may hold locks, and macOS ends such a child.
         self._context: Any = mp.get_context("fork" if sys.platform == "linux" else "spawn")
+        self._idle: list[_Hand] = []
+        self._plan: Sequence[Work] = ()
 
     def do(self, build_plan: Sequence[Work]) -> Done:
         """Do all pieces of work, each after those that it needs; the results stand in the plan's order."""
         done = Done()
+        self._plan = build_plan
         waiting, running = sorted(build_plan, key=lambda work: work.late), list[_Running]()
+        gc.freeze()  # a child that collects what is here copies all of it
         try:
             while waiting or running:
                 waiting = self._start(waiting, running, done)
                 self._listen(running, done)
         finally:
+            gc.unfreeze()
             for one in running:
-                _end(one.process)
+                _end(one.hand)
                 self._store.discard(one.folder)
+            for hand in self._idle:
+                _end(hand)
+            self._idle = []
         in_order = [work.name for work in build_plan if work.name in done.results]
         return Done({name: done.results[name] for name in in_order}, done.failed, done.lost, done.reused)
 
@@ -133,7 +151,7 @@ class WorkerPool:
                 self._made(kept)
                 done.reused.append(work.name)
             elif len(running) < self._hands:
-                running.append(self._fork(work, done))
+                running.append(self._begin(work, done))
             else:
                 left.append(work)
         return left
@@ -141,24 +159,30 @@ class WorkerPool:
     def _needs(self, work: Work, done: Done) -> dict[str, Result]:
         return {need: done.results[need] for need in work.needs}
 
-    def _fork(self, work: Work, done: Done) -> _Running:
+    def _begin(self, work: Work, done: Done) -> _Running:
         self._progress(work.name)
-        ear, mouth = self._context.Pipe(duplex=False)
+        hand = self._idle.pop() if self._idle else self._fork()
         folder = self._store.fresh(work.name)
         needs = {need: result.folder / "kept" for need, result in self._needs(work, done).items()}
-        process = self._context.Process(target=_child, args=(work, self._subject, needs, folder, mouth), daemon=True)
+        with contextlib.suppress(OSError):  # that it has died is heard in `_listen`
+            hand.line.send((self._plan.index(work), needs, folder))
+        return _Running(work, hand, folder, time.monotonic() + self._timeout, work.name)
+
+    def _fork(self) -> _Hand:
+        line, its_end = self._context.Pipe()
+        process = self._context.Process(target=_child, args=(self._plan, self._subject, its_end), daemon=True)
         process.start()
-        mouth.close()
-        return _Running(work, process, ear, folder, time.monotonic() + self._timeout, work.name)
+        its_end.close()
+        return _Hand(process, line)
 
     def _listen(self, running: list[_Running], done: Done) -> None:
         """Wait until one of those at work says something, ends, or has taken too long."""
         if not running:
             return
         first = min(one.deadline for one in running)
-        ready = wait([one.ear for one in running], timeout=max(0.0, first - time.monotonic()))
+        ready = wait([one.hand.line for one in running], timeout=max(0.0, first - time.monotonic()))
         for one in list(running):
-            over = self._hear(one) if one.ear in ready else time.monotonic() >= one.deadline
+            over = self._hear(one) if one.hand.line in ready else time.monotonic() >= one.deadline
             if over:
                 running.remove(one)
                 self._settle(one, done)
@@ -166,7 +190,7 @@ class WorkerPool:
     def _hear(self, one: _Running) -> bool:
         """Take in what a child said; returns whether it has come to its end."""
         try:
-            message = one.ear.recv()
+            message = one.hand.line.recv()
         except (EOFError, OSError):
             return True
         if "step" in message:
@@ -177,15 +201,17 @@ class WorkerPool:
         return True
 
     def _settle(self, one: _Running, done: Done) -> None:
-        """Keep what a child made, or say why there is nothing."""
+        """Keep what a child made, or say why there is nothing; one that answered waits for more."""
         name = one.work.name
         if one.reported is None:
             late = time.monotonic() >= one.deadline
             if not late:
-                one.process.join(timeout=5.0)
-            why = f"no answer in {self._timeout:g} s" if late else f"its process ended with code {one.process.exitcode}"
+                one.hand.process.join(timeout=5.0)
+            code = one.hand.process.exitcode
+            why = f"no answer in {self._timeout:g} s" if late else f"its process ended with code {code}"
             at = "" if one.step == name else f" (at: {one.step})"
             done.failed[name] = f"{name}: {why}{at}"
+            _end(one.hand)
         elif "error" in one.reported:
             done.failed[name] = one.reported["error"]
         else:
@@ -193,28 +219,39 @@ class WorkerPool:
             reads: Reads = one.reported["reads"]
             done.results[name] = self._store.close(name, one.folder, reads, self._needs(one.work, done), checks)
             self._made(done.results[name])
-        _end(one.process, grace_s=0.0 if one.reported is None else 5.0)
+        if one.reported is not None:
+            self._idle.append(one.hand)
         if name in done.failed:
             self._store.discard(one.folder)
 
 
-def _child(work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path, mouth: Connection) -> None:
-    """Do one piece of work and say what came of it."""
+def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> None:
+    """Do the pieces of work that are asked for by their places in the plan, until nobody asks."""
     parent = mp.parent_process()
     follow_parent(parent.pid if parent else None)
+    with contextlib.suppress(EOFError):
+        while True:
+            place, needs, folder = line.recv()
+            line.send(_done(plan[place], subject, needs, folder, lambda step: line.send({"step": step})))
+
+
+def _done(
+    work: Work, subject: TrackedDesign, needs: Mapping[str, Path], folder: Path, progress: Progress
+) -> dict[str, Any]:  # fmt: skip
+    """Do one piece of work; returns what came of it."""
     try:
         design, dims, titles, reads = subject.watched(work.named)
-        checks = work.do(Job(design, dims, titles, needs, folder, lambda step: mouth.send({"step": step})))
-        mouth.send({"checks": [asdict(check) for check in checks], "reads": reads})
+        checks = work.do(Job(design, dims, titles, needs, folder, progress))
+        return {"checks": [asdict(check) for check in checks], "reads": reads}
     except TvimError as error:
-        mouth.send({"error": str(error) if str(error).startswith(work.name) else f"{work.name}: {error}"})
+        return {"error": str(error) if str(error).startswith(work.name) else f"{work.name}: {error}"}
     except Exception as error:  # the kernel raises a dozen classes, and none of them names the part
-        mouth.send({"error": f"{work.name}: cannot be made ({type(error).__name__}: {error})"})
+        return {"error": f"{work.name}: cannot be made ({type(error).__name__}: {error})"}
 
 
-def _end(process: BaseProcess, grace_s: float = 0.0) -> None:
-    """Wait for a child that has said all it had to say; end one that has not."""
-    process.join(timeout=grace_s)
-    if process.is_alive():
-        process.kill()
-    process.join()
+def _end(hand: _Hand) -> None:
+    """End a child."""
+    hand.line.close()
+    if hand.process.is_alive():
+        hand.process.kill()
+    hand.process.join()

@@ -7,14 +7,17 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import NoReturn
 
+import numpy as np
 from ezdxf.addons.drawing.backend import Backend, BkPath2d, BkPoints2d, ImageData
 from ezdxf.addons.drawing.properties import BackendProperties
 from ezdxf.math import Vec2
 from ezdxf.path import Command
+from numpy.typing import NDArray
 
-Corner = tuple[float, float]
+_Places = NDArray[np.intp]
 _POINTS = 72.0 / 25.4
 """In a millimetre."""
 _DOT = 0.1
@@ -76,11 +79,11 @@ class PdfPage(Backend):
         """A line with bends and curves."""
         if len(path):
             self._draw_with(properties)
-            self._said += [*self._along(path), "S"]
+            self._said += [self._along(path), "S"]
 
     def draw_filled_paths(self, paths: Iterable[BkPath2d], properties: BackendProperties) -> None:
         """A letter: what is inside is told by the sense in which its outlines run, as fonts mean it."""
-        outlines = [step for path in paths if len(path) for step in self._along(path)]
+        outlines = [self._along(path) for path in paths if len(path)]
         if outlines:
             self._fill_with(properties)
             self._said += [*outlines, "f"]
@@ -103,19 +106,13 @@ class PdfPage(Backend):
     def finalize(self) -> None:
         """All is drawn."""
 
-    def _along(self, path: BkPath2d) -> list[str]:
+    def _along(self, path: BkPath2d) -> str:
         """A path in the words of PDF, which has cubic curves only."""
-        corners = path.to_tuples()
-        last, place = corners[0], 1
-        steps = [f"{last[0]:.4f} {last[1]:.4f} m"]
-        for code in path.command_codes():
-            taken = corners[place : place + _VERTICES[code]]
-            place += len(taken)
-            if code == _CURVE_OF_THREE:
-                taken = _cubic(last, *taken)
-            last = taken[-1]
-            steps.append(" ".join([f"{x:.4f} {y:.4f}" for x, y in taken] + [_OPERATOR[code]]))
-        return steps
+        words, thirds, ends, middles = _words(tuple(path.command_codes()))
+        corners = path.np_vertices()
+        points = corners[ends]
+        points[thirds] += 2.0 / 3.0 * (corners[middles] - points[thirds])
+        return words % tuple(points.ravel().tolist())
 
     def _draw_with(self, properties: BackendProperties) -> None:
         pen = f"{properties.lineweight / self._scale:.4f} w {_colour(properties.color)} RG"
@@ -142,12 +139,29 @@ def _at(point: Vec2) -> str:
     return f"{point.x:.4f} {point.y:.4f}"
 
 
-def _cubic(start: Corner, middle: Corner, end: Corner) -> list[Corner]:
-    """The points of the cubic curve that is a quadratic one, after its start."""
-    thirds = [
-        (one[0] + 2.0 / 3.0 * (middle[0] - one[0]), one[1] + 2.0 / 3.0 * (middle[1] - one[1])) for one in (start, end)
-    ]
-    return [*thirds, end]
+@lru_cache(maxsize=1024)
+def _words(codes: tuple[int, ...]) -> tuple[str, _Places, _Places, _Places]:
+    """The words of a path of some steps, such as a letter, with a gap for every number, and where these come from.
+
+    Each point is a corner of the path (the third result); those at the places of the second are moved two thirds of the
+    way to another corner (the fourth), as the points of the cubic curve that is a quadratic one lie.
+    """
+    steps, ends, thirds, middles, place = ["%.4f %.4f m"], [0], list[int](), list[int](), 1
+    for code in codes:
+        taken = list(range(place, place + _VERTICES[code]))
+        if code == _CURVE_OF_THREE:
+            middle, end = taken
+            thirds += [len(ends), len(ends) + 1]
+            middles += [middle, middle]
+            taken = [place - 1, end, end]
+        place += _VERTICES[code]
+        ends += taken
+        steps.append(" ".join(["%.4f %.4f"] * len(taken) + [_OPERATOR[code]]))
+    return "\n".join(steps), _places(thirds), _places(ends), _places(middles)
+
+
+def _places(numbers: list[int]) -> _Places:
+    return np.array(numbers, dtype=np.intp)
 
 
 def _colour(name: str) -> str:

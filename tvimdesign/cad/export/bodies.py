@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64
 
@@ -10,6 +12,7 @@ from tvimdesign.cad.export.mesh import Mesh
 from tvimdesign.cad.export.print_files import closed
 
 
+@lru_cache(maxsize=64)
 def body_of(name: str, mesh: Mesh) -> Manifold:
     """The body that a mesh encloses. Raises GeometryError where it encloses none."""
     merged = closed(name, mesh)

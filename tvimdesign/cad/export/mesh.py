@@ -27,9 +27,12 @@ RING = 24
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Mesh:
-    """Triangles of one part; vertices on a sharp edge are there once for each face, so that shading stays crisp."""
+    """Triangles of one part; vertices on a sharp edge are there once for each face, so that shading stays crisp.
+
+    One is the same as itself alone, so that what was made of it can be found again.
+    """
 
     vertices: Array
     """Points [mm], one a row."""

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import atan2, pi
+from math import atan2, hypot, pi
 
 import cadquery as cq
+from OCP.Bnd import Bnd_Box
 from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.BRepBndLib import BRepBndLib
+from OCP.BRepExtrema import BRepExtrema_DistShapeShape
 from OCP.BRepTools import BRepTools
 from OCP.TopAbs import TopAbs_Orientation
+from OCP.TopoDS import TopoDS_Shape
 
 _DIGITS = 6
 """Decimals of a millimetre to which two faces are of one cylinder."""
 _SHRUNK = 0.999
 _ROUND = 2.0 * pi - 1e-6
+_UPRIGHT = 1e-9
+_BOX = 1e-5
+"""How much two boxes must share [mm]: the kernel's are wider than a face by some 1e-7, places are rounded to 1e-6."""
 
 
 @dataclass(frozen=True, order=True)
@@ -86,13 +94,67 @@ def holes(solid: cq.Solid, at: tuple[float, float] | None = None) -> list[Cylind
     inside_out = [one for one in upright_cylinders(solid) if one.concave and one.is_round]
     if at is not None:
         inside_out = [one for one in inside_out if abs(one.x - at[0]) < 1e-4 and abs(one.y - at[1]) < 1e-4]
-    return [one for one in inside_out if _is_empty(solid, one)]
+    faces = [_Face.of(face) for face in solid.Faces()] if inside_out else []
+    return [one for one in inside_out if _is_empty(solid, faces, one)]
 
 
-def _is_empty(solid: cq.Solid, one: Cylinder) -> bool:
+@dataclass(frozen=True)
+class _Face:
+    """What of a face says, without the kernel, that it does not reach into an upright plug; lengths in mm."""
+
+    shape: TopoDS_Shape
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    """Corners of a box around it."""
+    upright: tuple[float, float, float] | None
+    """Of an upright cylinder: its axis and radius."""
+    plane: tuple[float, float, float] | None
+    """Of an upright plane: its normal, and how far it is from the origin along that."""
+
+    @classmethod
+    def of(cls, face: cq.Face) -> _Face:
+        """Read it off a face."""
+        box = Bnd_Box()
+        BRepBndLib.Add_s(face.wrapped, box, False)
+        ends = box.Get()
+        surface, kind = BRepAdaptor_Surface(face.wrapped), face.geomType()
+        upright = plane = None
+        if kind == "CYLINDER" and abs(abs(surface.Cylinder().Axis().Direction().Z()) - 1.0) < _UPRIGHT:
+            place = surface.Cylinder().Location()
+            upright = (place.X(), place.Y(), surface.Cylinder().Radius())
+        if kind == "PLANE" and abs(surface.Plane().Axis().Direction().Z()) < _UPRIGHT:
+            place, normal = surface.Plane().Location(), surface.Plane().Axis().Direction()
+            plane = (normal.X(), normal.Y(), normal.X() * place.X() + normal.Y() * place.Y())
+        return cls(face.wrapped, ends[:3], ends[3:], upright, plane)
+
+    def misses(self, one: Cylinder, radius: float) -> bool:
+        """Whether it surely has no point within a radius of a cylinder's axis and between its ends, touching aside."""
+        start, end = (one.x - radius, one.y - radius, one.bottom), (one.x + radius, one.y + radius, one.top)
+        boxed = zip(self.low, self.high, start, end, strict=True)
+        if any(low >= last - _BOX or high <= first + _BOX for low, high, first, last in boxed):
+            return True
+        if self.upright:
+            x, y, own = self.upright
+            return abs(hypot(one.x - x, one.y - y) - own) >= radius
+        if self.plane:
+            across, up, distance = self.plane
+            return abs(across * one.x + up * one.y - distance) >= radius
+        return False
+
+
+def _is_empty(solid: cq.Solid, faces: Sequence[_Face], one: Cylinder) -> bool:
+    """Whether a plug that nearly fills a cylinder has nothing in common with the solid.
+
+    Where no face reaches into the plug it is all inside or all outside; else the kernel says what they share.
+    """
+    radius = _SHRUNK * one.radius
+    near = [face for face in faces if not face.misses(one, radius)]
+    axis = cq.Edge.makeLine(cq.Vector(one.x, one.y, one.bottom), cq.Vector(one.x, one.y, one.top)).wrapped
+    if all(BRepExtrema_DistShapeShape(axis, face.shape).Value() >= radius for face in near):
+        return not solid.isInside(cq.Vector(one.x, one.y, 0.5 * (one.bottom + one.top)))
     plug = cq.Solid.makeCylinder(
-        _SHRUNK * one.radius, one.top - one.bottom, cq.Vector(one.x, one.y, one.bottom), cq.Vector(0, 0, 1)
-    )
+        radius, one.top - one.bottom, cq.Vector(one.x, one.y, one.bottom), cq.Vector(0, 0, 1)
+    )  # fmt: skip
     return bool(plug.intersect(solid).Volume() < 1e-6 * plug.Volume())
 
 

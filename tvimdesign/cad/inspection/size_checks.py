@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from math import nan, sqrt
 
@@ -12,6 +12,7 @@ from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepGProp import BRepGProp
 from OCP.gp import gp
 from OCP.GProp import GProp_GProps
+from OCP.TopTools import TopTools_ListOfShape
 
 from tvimdesign.cad.assembly.assembly import place
 from tvimdesign.cad.assembly.module_parts import MODULES
@@ -130,25 +131,49 @@ def interference_checks(
     Of pairs that are surely `apart` it is nothing, and is not computed.
     """
     boxes = {name: solid.BoundingBox() for name, solid in placed.items()}
-    beside = 0
-    for first, second in combinations(placed, 2):
-        if not wanted(first, second):
-            continue
-        if not _overlap(boxes[first], boxes[second]):
-            beside += 1
-            continue
-        common, place = (0.0, None) if apart(first, second) else _common(placed[first], placed[second])
+    pairs = [pair for pair in combinations(placed, 2) if wanted(*pair)]
+    near = [pair for pair in pairs if _overlap(*(boxes[name] for name in pair))]
+    shared = _shared(placed, [pair for pair in near if not apart(*pair)])
+    for pair in near:
+        (first, second), (common, place) = pair, shared.get(pair, (0.0, None))
         text = f"{first} and {second} share {common:.4g} mm3 {where}"
         yield SolidCheck(
             f"{first} | {second} {where}", common, TOUCHING, common < TOUCHING, text,
             part=f"{first}, {second}", place=place or _between(boxes[first], boxes[second]), unit="mm³",
         )  # fmt: skip
+    beside = len(pairs) - len(near)
     yield SolidCheck(f"pairs apart {where}", beside, 0.0, True, f"{beside} pairs are apart by their boxes {where}")
 
 
-def _common(first: cq.Solid, second: cq.Solid) -> tuple[float, Place | None]:
-    """Volume both solids fill [mm^3], and its centroid; not a number, which fails, where the kernel cannot tell."""
-    operation = BRepAlgoAPI_Common(first.wrapped, second.wrapped)
+def _shared(
+    placed: Mapping[str, cq.Solid], pairs: Sequence[tuple[str, str]]
+) -> dict[tuple[str, str], tuple[float, Place | None]]:
+    """What `_common` says of each pair.
+
+    A part is held against all copies of another at once, as the kernel takes most of its time to go through the part;
+    one by one only where they share anything.
+    """
+    copies: dict[tuple[str, str], list[str]] = {}
+    for first, second in pairs:
+        copies.setdefault((first, kind_of(second)), []).append(second)
+    found: dict[tuple[str, str], tuple[float, Place | None]] = {}
+    for (first, _), others in copies.items():
+        none = len(others) > 1 and _common(placed[first], *(placed[other] for other in others))[0] == 0.0
+        found |= {
+            (first, other): (0.0, None) if none else _common(placed[first], placed[other]) for other in others
+        }  # fmt: skip
+    return found
+
+
+def _common(first: cq.Solid, *others: cq.Solid) -> tuple[float, Place | None]:
+    """Volume a solid shares with others [mm^3], and its centroid; not a number, which fails, where nobody can tell."""
+    operation, arguments, tools = BRepAlgoAPI_Common(), TopTools_ListOfShape(), TopTools_ListOfShape()
+    arguments.Append(first.wrapped)
+    for other in others:
+        tools.Append(other.wrapped)
+    operation.SetArguments(arguments)
+    operation.SetTools(tools)
+    operation.Build()
     if not operation.IsDone():
         return nan, None
     common = cq.Shape.cast(operation.Shape())

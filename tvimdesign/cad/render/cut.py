@@ -11,6 +11,7 @@ from manifold3d import CrossSection, FillRule, Manifold
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.export.bodies import body_of, mesh_of
 from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh
+from tvimdesign.cad.geometry.kinds import kind_of
 
 
 class Cutter:
@@ -36,7 +37,7 @@ class Cutter:
 def without(name: str, instance: Instance, cutter: Cutter, solid: cq.Solid) -> Mesh:
     """The mesh of a placed part without the cutter, in the module's coordinates; empty where nothing is left."""
     try:
-        body = body_of(name, instance.mesh).transform(instance.matrix[:3])
+        body = body_of(kind_of(name), instance.mesh).transform(instance.matrix[:3])
     except GeometryError:
         left = solid.cut(cutter.solid())
         return solid_mesh(left) if left.Solids() else Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import cadquery as cq
 import numpy as np
-from vtkmodules.vtkRenderingCore import vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.export.mesh import Instance
@@ -34,18 +34,26 @@ def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], p
     views = []
     below = legend_height(kinds, _SIZE)
     aspect = _SIZE[1] * (1.0 - below) / (0.5 * _SIZE[0])
-    for left, right, shown in ((0.0, 0.5, placed), (0.5, 1.0, opened)):
-        renderer = _view(shown, aspect)
+    whole = {name: _actors(name, instance) for name, instance in placed.items()}
+    cut = {name: _actors(name, opened[name]) if name in _CUT else whole[name] for name in opened}
+    for left, right, shown, drawings in ((0.0, 0.5, placed, whole), (0.5, 1.0, opened, cut)):
+        renderer = _view(shown, drawings, aspect)
         renderer.SetViewport(left, below, right, 1.0)
         views.append(renderer)
     write_png(path, _SIZE, [*views, legend(kinds, _SIZE)])
 
 
-def _view(placed: Mapping[str, Instance], aspect: float) -> vtkRenderer:
+def _actors(name: str, instance: Instance) -> tuple[vtkActor, vtkActor]:
+    return actors(instance.mesh, instance.matrix, KINDS[kind_of(name)].colour)
+
+
+def _view(
+    placed: Mapping[str, Instance], drawings: Mapping[str, tuple[vtkActor, vtkActor]], aspect: float
+) -> vtkRenderer:
     """Everything that is placed, seen from the front, above and the right."""
     renderer = renderer_on_white()
-    for name, instance in placed.items():
-        for actor in actors(instance.mesh, instance.matrix, KINDS[kind_of(name)].colour):
+    for name in placed:
+        for actor in drawings[name]:
             renderer.AddActor(actor)
     look(renderer, placed, _FROM, aspect)
     return renderer

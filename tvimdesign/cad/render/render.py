@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 from importlib import import_module
 from math import ceil
 from pathlib import Path
@@ -39,11 +40,9 @@ _COLUMN, _LINE = 250, 45
 
 def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer]) -> None:
     """Render into a PNG of a size in pixels, whole or not at all."""
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
+    window, shown = _window(), list(renderers)
     window.SetSize(*size)
-    for renderer in renderers:
+    for renderer in shown:
         window.AddRenderer(renderer)
     window.Render()
     image = vtkWindowToImageFilter()
@@ -58,6 +57,17 @@ def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer
         writer.SetCompressionLevel(4)
         writer.Write()
         write_whole(path, beside.read_bytes())
+    for renderer in shown:
+        window.RemoveRenderer(renderer)
+
+
+@cache
+def _window() -> vtkRenderWindow:
+    """The one that all pictures of a process are drawn in: each new one would compile its shaders again."""
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    return window
 
 
 def lit(renderer: vtkRenderer) -> None:

@@ -45,7 +45,7 @@ class PlotProcess:
             "tvimdesign.report.figures.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
-        give_way(self._child.pid)  # to the solver, and to what the first screen waits for
+        give_way(self._child.pid, last=True)  # to the solver, to what the first screen waits for, and to parts
 
     def __enter__(self) -> PlotProcess:
         """Return itself."""
@@ -107,14 +107,20 @@ def main() -> None:
 
 
 def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
+    """Write every plot in the first ending, which people look at, before any in another."""
     from tvimdesign.report.figures.theme.canvas import as_file, sign
 
+    figures = {}
+    first, *others = request["endings"]
     for drawing in drawings:
         file, _, function = drawing.figure.partition(".")
         figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(drawing.data)
         sign(figure, request["study"])
-        for ending in request["endings"]:
-            write_whole(folder / f"{drawing.file}.{ending}", as_file(figure, ending))
+        write_whole(folder / f"{drawing.file}.{first}", as_file(figure, first))
+        figures[drawing.file] = figure
+    for name, figure in figures.items():
+        for ending in others:
+            write_whole(folder / f"{name}.{ending}", as_file(figure, ending))
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
 from tvimdesign.report.run.why import why
-from tvimdesign.solve.result import StudyResult, answer
+from tvimdesign.solve.result import Designed, StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
 from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.record_checks import record_checks
@@ -52,11 +52,12 @@ def answer_study(
     folder: ResultsFolder | None = None,
     search: Search = optimize,
     early: Callable[[StudyResult], None] = lambda _: None,
+    designed: Designed = lambda _: None,
 ) -> AnsweredStudy:
     """Read and answer a study: evaluate or optimise it, and seek its front, which a `folder` lets go on later.
 
     With `drawn_only` nothing is optimised: what may change stands at its start. `early` is told the answer before the
-    front is sought. Raises InputError, and InfeasibleError
+    front is sought, `designed` a design that is found before that. Raises InputError, and InfeasibleError
     for what no search can mend; a search that finds no design is a result.
     """
     study = read_tree(tree)
@@ -64,7 +65,7 @@ def answer_study(
     table = study.table
     study = drawn(study) if drawn_only else study
     front = FrontOfRun(study, table, folder)
-    found = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search)
+    found = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search, designed=designed)
     early(found)
     answered = AnsweredStudy(tree, study, found, front, _reported(found, table))
     answered.reported["doubts"] = record_checks(study)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
 from tvimdesign.base.errors import OutputError
@@ -24,16 +24,11 @@ class Best:
     study: Study | None = None
     """The study begun at it."""
 
-    def then(self, ask: Callable[[StudyResult], None]) -> Callable[[StudyResult], None]:
-        """What is told the answer, notes it where it is a design that was searched, and asks more about it."""
-
-        def told(found: StudyResult) -> None:
-            if found.found and found.solution:
-                design = found.design
-                self.study = begun_at(Study.model_validate(design.study), design.values, design.choices)
-            ask(found)
-
-        return told
+    def note(self, found: StudyResult) -> None:
+        """Note an answer where it is a design that was searched."""
+        if found.found and found.solution:
+            design = found.design
+            self.study = begun_at(Study.model_validate(design.study), design.values, design.choices)
 
 
 @contextmanager

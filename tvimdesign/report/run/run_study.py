@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,10 +19,13 @@ from tvimdesign.study.design import read_design, write_design
 from tvimdesign.study.tree import tree_of_file
 
 if TYPE_CHECKING:
+    from tvimdesign.report.figures.plot_process import PlotProcess
     from tvimdesign.report.output.results_format import Parts
     from tvimdesign.report.run.answered_study import AnsweredStudy
+    from tvimdesign.report.run.first_screen.run_screen import RunScreen
     from tvimdesign.report.run.parts_of_design import PartsAhead
-    from tvimdesign.solve.result import StudyResult
+    from tvimdesign.solve.result import Designed
+    from tvimdesign.study.design import Design
 
 
 def run_study(
@@ -30,30 +33,24 @@ def run_study(
     resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
-    from tvimdesign.report.figures.plot_process import PlotProcess
-    from tvimdesign.report.run.answered_study import (
-        answer_study,
-        drawings,
-        note_uncertainty,
-        noting,
-    )
-    from tvimdesign.report.run.first_screen.run_screen import RunScreen
-    from tvimdesign.report.run.keep_best import keeping_best
-    from tvimdesign.report.run.parts_of_design import PartsAhead
-    from tvimdesign.report.run.refusal import leaving_the_reason
-    from tvimdesign.report.run.run_page.run_page import write_run_page
-    from tvimdesign.report.run.write_answer import finish, write_answer
-
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
     without = how_to_install("cad") if cad and study.write.cad else ""
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
+        # Begun before what solves and reports is loaded here: both take their time to load as much.
+        making = stack.enter_context(_parts_ahead()) if cad and study.write.cad and not without else None
+        drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
+        from tvimdesign.report.run.answered_study import answer_study, drawings, note_uncertainty, noting
+        from tvimdesign.report.run.first_screen.run_screen import RunScreen
+        from tvimdesign.report.run.keep_best import keeping_best
+        from tvimdesign.report.run.refusal import leaving_the_reason
+        from tvimdesign.report.run.run_page.run_page import write_run_page
+        from tvimdesign.report.run.write_answer import finish, write_answer
+
         best = stack.enter_context(keeping_best(folder))
         progress = stack.enter_context(progress_output())
         screen = stack.enter_context(RunScreen(study))
-        drawing = stack.enter_context(PlotProcess()) if plots and study.write.plots else None
-        making = stack.enter_context(PartsAhead()) if cad and study.write.cad and not without else None
         with leaving_the_reason(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
                 tree,
@@ -61,7 +58,8 @@ def run_study(
                 prove=prove,
                 sensitivities=sensitivities,
                 folder=folder,
-                early=best.then(_also(making, folder, screen.ask)),
+                early=best.note,
+                designed=_asked_of_design(making, folder, screen),
             )
         found, failures = answered.result, answered.failures
         if drawing and found.found:
@@ -85,17 +83,27 @@ def run_study(
     _end_as(answered)
 
 
-def _also(
-    making: PartsAhead | None, folder: ResultsFolder, ask: Callable[[StudyResult], None]
-) -> Callable[[StudyResult], None]:
-    """What is asked of an answer as soon as it is there, and before anything else its parts, where they are made."""
+def _parts_ahead() -> PartsAhead:
+    from tvimdesign.report.run.parts_of_design import PartsAhead
 
-    def told(answer: StudyResult) -> None:
-        if making and answer.found:
-            making.begin(answer.design, folder.path / "cad")
-        ask(answer)
+    return PartsAhead()
 
-    return told
+
+def _plots_ahead() -> PlotProcess:
+    from tvimdesign.report.figures.plot_process import PlotProcess
+
+    return PlotProcess()
+
+
+def _asked_of_design(making: PartsAhead | None, folder: ResultsFolder, screen: RunScreen) -> Designed:
+    """What is asked of a design as soon as it is there: its parts, where they are made, and how sure it is."""
+
+    def asked(design: Design) -> None:
+        if making:
+            making.begin(design, folder.path / "cad")
+        screen.ask(design)
+
+    return asked
 
 
 def _end_as(answered: AnsweredStudy) -> None:

@@ -21,8 +21,8 @@ from tvimdesign.report.run.first_screen.screen import Told, first_screen
 from tvimdesign.report.run.first_screen.uncertainty_process import UncertaintyProcess
 from tvimdesign.report.run.first_screen.warnings import warnings_of
 from tvimdesign.report.run.full_summary import print_full_summary
-from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
+from tvimdesign.study.design import Design
 
 FILE = "summary.txt"
 SPREAD = "TVIMDESIGN_SPREAD"
@@ -53,10 +53,10 @@ class RunScreen:
         if self._process:
             self._process.__exit__(kind, value, at)
 
-    def ask(self, answer: StudyResult) -> None:
-        """Ask how sure the design is, if there is one, and come back at once."""
-        if answer.found and self._process:
-            self._process.begin(answer.design)
+    def ask(self, design: Design) -> None:
+        """Ask how sure a design is, and come back at once."""
+        if self._process:
+            self._process.begin(design)
             self._asked = True
 
     def uncertainty(self) -> dict[str, Any]:
