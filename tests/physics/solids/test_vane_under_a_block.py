@@ -31,23 +31,6 @@ def test_mean_deflection_is_that_of_a_beam_with_shear_integrated_along_its_heigh
     assert found == pytest.approx(load * height / mean, rel=1e-5 if free == 0.0 else 1e-3)
 
 
-def test_a_slender_vane_yields_in_bending_and_a_stub_in_shear() -> None:
-    strength, arm = 31e6, 80e-3
-    # Stress at the surface of a cantilever: F a (t/2)/I.
-    bending = strength * (WIDTH * THICKNESS**3 / 12.0) / (arm * 0.5 * THICKNESS)
-    assert vane.force_at_yield(strength, WIDTH, THICKNESS, arm) == pytest.approx(bending, rel=1e-3)
-    stub = strength / np.sqrt(3.0) * WIDTH * THICKNESS
-    assert vane.force_at_yield(strength, WIDTH, THICKNESS, 1e-6) == pytest.approx(stub, rel=1e-5)
-
-
-def test_a_vane_yields_where_mises_says() -> None:
-    force = vane.force_at_yield(31e6, WIDTH, THICKNESS, 6e-3)
-    bending, shear = 6.0 * force * 6e-3 / (WIDTH * THICKNESS**2), force / (WIDTH * THICKNESS)
-    stress = np.array([[bending, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    deviator = stress - np.trace(stress) / 3.0 * np.eye(3)
-    assert np.sqrt(1.5 * np.sum(deviator**2)) == pytest.approx(31e6, rel=1e-9)
-
-
 @pytest.mark.parametrize("thickness", [0.5e-3, 1.5e-3, 6e-3])
 def test_a_plate_let_into_a_sector_covers_what_points_count(thickness: float) -> None:
     inner, outer = 13e-3, 24e-3

@@ -86,3 +86,37 @@ def test_a_cupped_plate_stresses_the_core_s_foot_besides() -> None:
     bending = 6.0 * moments / (2.0 * np.pi * core) / 3e-3**2
     plain = np.sqrt(3.0) * 2.0 / (np.pi * core**3)
     assert wedge.foot_bending(angle, arm, core, PLATE) == pytest.approx(bending / plain, rel=1e-12)
+
+
+def test_a_slender_vane_yields_in_bending_and_a_stub_in_shear() -> None:
+    strength, arm = 31e6, 80e-3
+    # Stress at the surface of a cantilever: F a (t/2)/I.
+    bending = strength * (WIDTH * THICKNESS**3 / 12.0) / (arm * 0.5 * THICKNESS)
+    assert wedge.force_at_yield(strength, (WIDTH, THICKNESS), arm) == pytest.approx(bending, rel=1e-3)
+    stub = strength / np.sqrt(3.0) * WIDTH * THICKNESS
+    assert wedge.force_at_yield(strength, (WIDTH, THICKNESS), 1e-6) == pytest.approx(stub, rel=1e-5)
+
+
+def test_a_vane_yields_where_mises_says() -> None:
+    force = wedge.force_at_yield(31e6, (WIDTH, THICKNESS), 6e-3)
+    bending, shear = 6.0 * force * 6e-3 / (WIDTH * THICKNESS**2), force / (WIDTH * THICKNESS)
+    stress = np.array([[bending, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    deviator = stress - np.trace(stress) / 3.0 * np.eye(3)
+    assert np.sqrt(1.5 * np.sum(deviator**2)) == pytest.approx(31e6, rel=1e-9)
+
+
+@pytest.mark.parametrize(("ratio", "factor"), [(1.0, 0.208), (1.5, 0.231), (2.0, 0.246), (3.0, 0.267), (10.0, 0.313)])
+def test_a_twisted_bar_is_stressed_as_timoshenko_s_table_says(ratio: float, factor: float) -> None:
+    # Strength of Materials, part II, 3rd ed., ch. 8: tau = M/(alpha b c^2), c the shorter side.
+    assert 1.0 / wedge.stress_of_twist(ratio, 1.0) == pytest.approx(factor * ratio, rel=5e-3)
+    assert wedge.stress_of_twist(1.0, ratio) == wedge.stress_of_twist(ratio, 1.0)
+
+
+def test_a_force_that_leans_out_bends_both_ways_and_twists() -> None:
+    # FE of the force on a rotor's vane of `wrist_compression`: 0.76 across, 0.63 along, 3.1 mm of moment.
+    arm, angle = 3.57e-3, np.radians(39.6)
+    force = wedge.force_at_yield(31e6, (WIDTH, THICKNESS), arm, angle, RADIUS)
+    across, along, moment = 0.77 * force, 0.637 * force, 3.0e-3 * force
+    bent = across * arm * 6.0 / (WIDTH * THICKNESS**2) + along * arm * 6.0 / (THICKNESS * WIDTH**2)
+    sheared = force / (WIDTH * THICKNESS) + moment / (0.225 * WIDTH * THICKNESS**2)
+    assert np.hypot(bent, np.sqrt(3.0) * sheared) == pytest.approx(31e6, rel=0.02)

@@ -219,12 +219,14 @@ def rotor_vane_holding_torque(
     block_width: Scalar,
     vane_web: Scalar,
     vane_arm: Scalar,
+    block_lean_out: Scalar,
     vane_count: Scalar,
     pcl_mean_radius: Scalar,
     holding_safety: Scalar,
 ) -> Scalar:
-    """Torque at which the roots of the rotor's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(cold_layer_strength, block_width, vane_web, vane_arm)
+    """Torque at which the roots of the rotor's vanes yield, bent, sheared and twisted, cold, over `holding_safety`."""
+    section = block_width, vane_web
+    force = wedge.force_at_yield(cold_layer_strength, section, vane_arm, block_lean_out, pcl_mean_radius)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 
@@ -239,7 +241,7 @@ def housing_vane_holding_torque(
     holding_safety: Scalar,
 ) -> Scalar:
     """Torque at which the roots of the housing's vanes yield in bending and shear, cold, over `holding_safety`."""
-    force = vane.force_at_yield(cold_layer_strength, vane_webs, housing_vane_thickness, vane_arm)
+    force = wedge.force_at_yield(cold_layer_strength, (vane_webs, housing_vane_thickness), vane_arm)
     return vane_count * force * pcl_mean_radius / holding_safety
 
 

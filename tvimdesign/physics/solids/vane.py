@@ -146,11 +146,3 @@ def compliance(vane: Vane, other: Vane, block: BlockBetween) -> Any:
     )
     between = shares[0] * shares[1] * block.sheared - block.tilted
     return block.arm**2 * (beyond - between) / (own * beyond - between**2) + vane.aside
-
-
-def force_at_yield(strength: Any, width: Any, thickness: Any, arm: Any) -> Any:
-    """Force [N] at a distance from the root at which the root yields, F = sigma w t/sqrt((6 a/t)^2 + 3) [T, M].
-
-    Bending stress 6 F a/(w t^2) at the surface and mean shear stress F/(w t) taken at one point, which is safe.
-    """
-    return strength * width * thickness / ((6.0 * arm / thickness) ** 2 + 3.0) ** 0.5

@@ -98,3 +98,26 @@ def foot_bending(angle: Any, arm: Any, core_radius: Any, plate: PlateAround) -> 
     (R/h)^2. It stands across the shear, so the two add as squares.
     """
     return 0.5 * np.sqrt(3.0) * arm / plate.radius * np.sin(angle) * (core_radius / plate.thickness) ** 2
+
+
+def stress_of_twist(width: Any, thickness: Any) -> Any:
+    """Highest shear stress in a rectangular section over the moment that twists it [1/m^3], in the middle of a long side.
+
+    3/(8 a b^2) (1 + 0.6095 q + 0.8865 q^2 - 1.8023 q^3 + 0.91 q^4), a >= b half of its sides, q = b/a [R].
+    """
+    long, short = 0.5 * np.fmax(width, thickness), 0.5 * np.fmin(width, thickness)
+    q = short / long
+    return 3.0 / (8.0 * long * short**2) * (1.0 + 0.6095 * q + 0.8865 * q**2 - 1.8023 * q**3 + 0.91 * q**4)
+
+
+def force_at_yield(strength: Any, section: tuple[Any, Any], arm: Any, angle: Any = 0.0, radius: Any = 0.0) -> Any:
+    """Force [N] at a distance from a vane's root at which the root yields, leaning out by an angle [rad].
+
+    It bends the root both ways, 6 F a (cos x/(w t^2) + sin x/(w^2 t)), shears it by F/(w t) on the mean and twists it
+    by F r (1 - cos x) (`stress_of_twist`): all taken at one point, which is safe, by Mises [T]. `section` is w and t.
+    """
+    width, thickness = section
+    bent = 6.0 * arm * (np.cos(angle) / thickness + np.sin(angle) / width) / (width * thickness)
+    twisted = radius * (1.0 - np.cos(angle)) * stress_of_twist(width, thickness)
+    sheared = 1.0 / (width * thickness) + twisted
+    return strength / (bent**2 + 3.0 * sheared**2) ** 0.5
