@@ -92,7 +92,7 @@ class Relaxation:
         runs: list[Run] = []
         self.optimizer.progress("no start keeps all limits: looking all over the ranges")
         designs = designs_all_over(self.optimizer, lambda inputs: self._mixed(inputs, {}))
-        for begin in [*designs, self.optimizer.model.start]:
+        for begin in [*designs, self.optimizer.model.start] if designs else []:
             optima = [run.start for run in runs if run.start.converged]
             if self.optimizer.deadline.passed or any(map(same_optimum, optima, optima[1:])):
                 break
