@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
+from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.wide_search import designs_all_over
+from tvimdesign.solve.nlp.solution import SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.box_search import BoxSearch
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -110,3 +113,15 @@ def test_a_search_ends_where_boxes_lead_nowhere(optimizer: Optimizer, design: Ar
     found = search.run(design)
     assert not found.start.converged
     assert len(search.runs) <= 20
+
+
+def test_a_study_none_of_whose_starts_comes_to_a_design_is_searched_in_boxes(optimizer: Optimizer) -> None:
+    """From designs all over the ranges, until two come to the same optimum."""
+    study = optimizer.study
+    tree = Relaxation(0, optimizer, {}, discrete_sizes(study, study.table), SolverEffort())
+    runs = tree.from_all_over()
+    assert tree.found_in_boxes
+    assert [run.start.converged for run in runs] == [True, True]
+    assert same_optimum(runs[0].start, runs[1].start)
+    assert len(tree.optima) == 1
+    assert broken(optimizer, tree.optima[0].inputs) <= CYCLE_TOLERANCE
