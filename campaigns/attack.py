@@ -43,6 +43,8 @@ class Attack:
         self.at_once = [name for name in self.outputs if name not in behind]
         """What is limited and depends on no working cycle."""
         self.phases = phases_of([*behind, *study.minimize], study.table)
+        self.must_end = ends_of([*behind, *study.minimize], study.table)
+        """Events that a module must come to: of a phase that never ends nothing is known but what it has come to."""
         self.names = [name for name in study.vary if isinstance(study.table.quantity(name), Input)]
         self.ends = [
             (vary.lower, vary.upper) if isinstance(vary, Range) else (float(min(vary.values)), float(max(vary.values)))
@@ -75,6 +77,8 @@ class Attack:
         try:
             cycle = self.simulator.run(inputs, phases=self.phases).values
         except SimulationError:
+            return None
+        if not all(np.isfinite(cycle[event]) for event in self.must_end):
             return None
         return self.model.some_values(wanted, inputs, cycle)
 
@@ -159,8 +163,19 @@ class Attack:
         return float(max(1.0 - best / first, 0.0)) if np.isfinite(best) else 0.0
 
 
+def supplied_behind(names: Iterable[str], table: Table) -> list[Event | Path | Steady]:
+    """What is simulated of what these outputs depend on."""
+    behind = {base for name in names for base in (name.partition("@")[0], *table.ancestors(name))}
+    return [row for row in table.supplied if row.name in behind and isinstance(row, Event | Path | Steady)]
+
+
 def phases_of(names: Iterable[str], table: Table) -> set[str]:
     """The phases of the working cycle on which these outputs depend."""
-    behind = {base for name in names for base in (name.partition("@")[0], *table.ancestors(name))}
-    rows = [row for row in table.supplied if row.name in behind]
-    return {row.phase for row in rows if isinstance(row, Event | Path | Steady)}
+    return {row.phase for row in supplied_behind(names, table)}
+
+
+def ends_of(names: Iterable[str], table: Table) -> set[str]:
+    """The events that must come for these outputs: ends of phases whose course they tell of, and of those before."""
+    rows = supplied_behind(names, table)
+    before = [after for row in rows if (after := table.phase(row.phase).after)]
+    return {table.phase(name).ends for name in (*(row.phase for row in rows if not isinstance(row, Event)), *before)}

@@ -12,6 +12,7 @@ import random_studies
 from attack import Attack
 
 from tvimdesign.solve.result import answer
+from tvimdesign.study import read_study_text
 
 
 @pytest.mark.slow
@@ -28,6 +29,14 @@ def test_the_attack_finds_a_design_where_there_is_one_and_none_where_there_is_no
     optimum = random_studies.released(random.Random(2).choice(random_studies.BASES))
     assert attack.residual(attack.evaluated(attack.shares(optimum))) <= random_studies.CYCLE_TOLERANCE
     assert attack.worst(np.ones(len(attack.names))) > 100.0  # springs, layer and current at their largest together
+
+
+def test_a_module_whose_switch_never_ends_is_no_design() -> None:
+    """Its peak of power is that of what it has come to: an attack that took it would better every optimum."""
+    asked = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6}\n"
+    attack = Attack(read_study_text(asked, "test"))
+    assert attack.evaluated(attack.shares({"current": 1.0})) is None
+    assert attack.evaluated(attack.shares({"current": 1.5})) is not None
 
 
 @pytest.mark.slow

@@ -26,6 +26,7 @@ from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
+from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 from tvimdesign.study import SolverOptions, Study
 
 Keep = Callable[[Optimizer, list[Run]], None]
@@ -90,6 +91,10 @@ def _optimize(
         found = free
         choosing = _chosen(free, combinations, study.solver) if combinations > 1 else None
     relaxation, run = min(found, key=lambda one: order(one[1]))
+    if not deadline.passed and (in_time := ending_in_time(study, relaxation.optimizer, run)):
+        progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
+        trees.clear()
+        return _optimize(in_time, progress, reference, keep, objectives, trees)
     recorded = [*free, *(found if listed else [])]
     nominal = run
     if study.robust and not deadline.passed:

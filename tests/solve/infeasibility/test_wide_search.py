@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 from support import ROOT
 
 from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.infeasibility import wide_search
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.infeasibility.wide_search import designs_all_over
+from tvimdesign.solve.infeasibility.wide_search import _DRAWN, _broken, designs_all_over
+from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize
@@ -24,6 +28,9 @@ def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
     assert len(designs) == 3
     assert all(screen.broken(inputs) < 0.0 for inputs in designs)
     assert not np.allclose(designs[0], designs[1], rtol=1e-3)
+    broken = [_broken(optimizer, inputs) for inputs in designs]
+    assert broken == sorted(broken)  # as simulated
+    assert np.isfinite(broken).all()
     unknowns = np.array([
         [free.to_unknown(inputs[optimizer.model.index[free.name]]) for inputs in designs] for free in optimizer.free
     ])  # fmt: skip
@@ -47,3 +54,14 @@ def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.
     found = optimize(study)
     assert found.status == "optimal"
     assert found.objective <= usual.objective * (1.0 + 1e-6)
+
+
+def test_of_the_designs_drawn_those_are_taken_that_break_their_limits_least(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = [float(number) for number in range(_DRAWN)]
+    breaks = {5.0: 0.1, 2.0: 0.2, 9.0: 0.3}  # the switch of all others never ends
+    monkeypatch.setattr(wide_search, "FeasibilityScreen", lambda _: None)
+    monkeypatch.setattr(wide_search, "_one_design", lambda _, __, seed: np.array([drawn[seed]]))
+    monkeypatch.setattr(wide_search, "_broken", lambda _, inputs: breaks.get(float(inputs[0]), np.inf))
+    optimizer = SimpleNamespace(study=SimpleNamespace(solver=SimpleNamespace(seed=0)), deadline=Deadline())
+    designs = designs_all_over(cast(Any, optimizer))
+    assert [float(inputs[0]) for inputs in designs] == [5.0, 2.0, 9.0]

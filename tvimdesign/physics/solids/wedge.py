@@ -101,7 +101,7 @@ def foot_bending(angle: Any, arm: Any, core_radius: Any, plate: PlateAround) -> 
 
 
 def stress_of_twist(width: Any, thickness: Any) -> Any:
-    """Highest shear stress in a rectangular section over the moment that twists it [1/m^3], in the middle of a long side.
+    """Highest shear stress in a rectangular section over the moment that twists it [1/m^3]: amid a long side.
 
     3/(8 a b^2) (1 + 0.6095 q + 0.8865 q^2 - 1.8023 q^3 + 0.91 q^4), a >= b half of its sides, q = b/a [R].
     """

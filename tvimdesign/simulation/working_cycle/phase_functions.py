@@ -67,9 +67,16 @@ class PhaseFunctions:
         """
         sink = (self._stack.sink,) if self._stack.sink else ()
         chained = (*self._stack.beside, *sink)
-        numbers = [part.conductance for part in (*chained, *self._stack.links)]
+        numbers = [part.conductance for part in chained]
         numbers += [body.capacity for body in (*chained, *self._stack.around)]
         return ca.Function("lumps", [self._inputs], [ca.vertcat(*numbers)])
+
+    @cached_property
+    def links(self) -> Any:
+        """The function inputs -> conductance [W/K] of every link between them; one that corrects another may be below
+        zero.
+        """
+        return ca.Function("links", [self._inputs], [ca.vertcat(*(link.conductance for link in self._stack.links))])
 
     @cached_property
     def initial(self) -> Any:

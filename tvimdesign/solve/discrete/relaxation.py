@@ -14,8 +14,9 @@ from tvimdesign.solve.infeasibility.conflict_set import SecondTry
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.infeasibility.wide_search import designs_all_over
 from tvimdesign.solve.nlp.mixture import MixedDevice
-from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort
+from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.optimizer.box_search import BoxSearch
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -46,6 +47,8 @@ class Relaxation:
     """A run for each different optimum that the starts came to with every size free, the best first."""
     best: Run | None = field(init=False, default=None)
     """The best run so far that converged with every size from its list."""
+    found_in_boxes: bool = field(init=False, default=False)
+    """Whether no start came to an optimum, and only searches in boxes did."""
     ends: list[Run] = field(init=False, default_factory=list)
     """Where the starts came to instead, if none of them came to an optimum."""
 
@@ -85,15 +88,19 @@ class Relaxation:
         return runs
 
     def from_all_over(self) -> list[Run]:
-        """Runs from designs all over the ranges that keep the arithmetic limits."""
+        """Searches in boxes from designs all over the ranges that keep the arithmetic limits, then from the start."""
         runs: list[Run] = []
         self.optimizer.progress("no start keeps all limits: looking all over the ranges")
-        for design in designs_all_over(self.optimizer):
-            begin = self._mixed(design, {})
-            run = self._solved({}, begin=begin, unknowns=self.optimizer.simulated_guess(begin))
+        designs = designs_all_over(self.optimizer, lambda inputs: self._mixed(inputs, {}))
+        for begin in [*designs, self.optimizer.model.start] if designs else []:
+            optima = [run.start for run in runs if run.start.converged]
+            if self.optimizer.deadline.passed or any(map(same_optimum, optima, optima[1:])):
+                break
+            run = self._in_boxes({}, begin)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
-        if any(run.start.converged for run in runs):
+        self.found_in_boxes = any(run.start.converged for run in runs)
+        if self.found_in_boxes:
             self._take(runs)
         return runs
 
@@ -198,8 +205,8 @@ class Relaxation:
             statuses.append(run.start.status)
         if close and self._screened(ends, begins):
             return None, True
-        for begin in begins:
-            run = self._solved(ends, begin=begin)
+        for begin in begins[:-1] if self.found_in_boxes else begins:
+            run = self._in_boxes(ends, begin) if self.found_in_boxes else self._solved(ends, begin=begin)
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
@@ -280,6 +287,12 @@ class Relaxation:
             unknowns[i] = free.to_unknown(point[index[free.name]])
         run = self.optimizer.solve(ends, begin=point, unknowns=unknowns, beginning="near")
         self.work.count(run.start, warm=True)
+        return run
+
+    def _in_boxes(self, ends: Mapping[str, Ends], begin: Array) -> Run:
+        """A search in boxes, where no start came to an optimum."""
+        run = BoxSearch(self.optimizer, ends).run(begin)
+        self.work.count(run.start, warm=False)
         return run
 
     def _solved(

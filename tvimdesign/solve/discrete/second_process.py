@@ -51,6 +51,7 @@ class _Found(NamedTuple):
     sizes: Sizes
     optima: list[Run]
     ends: list[Run]
+    found_in_boxes: bool
 
 
 class _Heard(NamedTuple):
@@ -99,7 +100,7 @@ class TwoProcesses:
     def begin(self, trees: Sequence[Relaxation]) -> None:
         """Say what the starts came to; tasks are of these trees from now on."""
         self._trees = trees
-        self._write([_Found(tree.sizes, tree.optima, tree.ends) for tree in trees])
+        self._write([_Found(tree.sizes, tree.optima, tree.ends, tree.found_in_boxes) for tree in trees])
         threading.Thread(target=self._hand_on, daemon=True).start()
 
     def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
@@ -183,8 +184,8 @@ def main() -> None:
     heard, told = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not stand among the answers
     trees = _built(pickle.load(heard))
-    for tree, (sizes, optima, ends) in zip(trees, pickle.load(heard), strict=True):
-        tree.sizes, tree.optima, tree.ends = sizes, optima, ends
+    for tree, (sizes, optima, ends, found_in_boxes) in zip(trees, pickle.load(heard), strict=True):
+        tree.sizes, tree.optima, tree.ends, tree.found_in_boxes = sizes, optima, ends, found_in_boxes
     with contextlib.suppress(EOFError):
         while True:
             task: Task = pickle.load(heard)

@@ -7,33 +7,51 @@ Source: R. Storn, K. Price, Differential evolution, Journal of Global Optimizati
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import Any
+
+import numpy as np
 
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
-_DESIGNS = 3
+_DRAWN, _DESIGNS = 12, 3
+"""Designs whose working cycle is simulated, and those of them that break their limits least."""
 _GENERATIONS = 150
 _EACH = 8
 """Designs of a generation for each free number."""
 
 
-def designs_all_over(optimizer: Optimizer) -> Iterator[Array]:
-    """Inputs of some designs that keep the arithmetic limits, each found from other random ones; none where none is.
+def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lambda inputs: inputs) -> list[Array]:
+    """Inputs of some designs that keep the arithmetic limits, those first that break the others least, as simulated.
 
-    Raises KeyboardInterrupt where an interrupt came.
+    Each is found from other random ones; there are none where none is. Where records are mixed, `mixed` puts shares
+    into inputs. Raises KeyboardInterrupt where an interrupt came.
     """
     screen, seed = FeasibilityScreen(optimizer), optimizer.study.solver.seed
-    for number in range(_DESIGNS):
+    found: list[tuple[float, int, Array]] = []
+    for number in range(_DRAWN):
         if optimizer.deadline.passed:
-            return
+            break
         inputs = _one_design(optimizer, screen, seed + number)
         if inputs is None:
-            return
-        yield inputs
+            break
+        inputs = mixed(inputs)
+        found.append((_broken(optimizer, inputs), number, inputs))
+    return [inputs for _, _, inputs in sorted(found, key=lambda one: one[:2])[:_DESIGNS]]
+
+
+def _broken(optimizer: Optimizer, inputs: Array) -> float:
+    """The most by which a design breaks a limit, its cycle simulated; infinite where its switch never ends."""
+    cycle = optimizer.multistart.trial(inputs)
+    if cycle is None:
+        return np.inf
+    limits = optimizer.problem.limits
+    values = optimizer.model.some_values(list(dict.fromkeys(limit.output for limit in limits)), inputs, cycle.values)
+    worst = max((float(limit.residual(values[limit.output])) for limit in limits), default=0.0)
+    return worst if np.isfinite(worst) else np.inf
 
 
 def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> Array | None:

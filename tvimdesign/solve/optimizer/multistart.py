@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from itertools import islice
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -112,11 +114,34 @@ class Multistart:
         """Whether there is such a module."""
         values = self.model.values(point, self.cycle.values)
         numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
-        return not np.any(np.isnan(numbers)) and not impossible(values, self.model.table) and self.heats(point)
+        return (
+            not np.any(np.isnan(numbers))
+            and not impossible(values, self.model.table)
+            and self._heats_as_the_start(point)
+        )
 
     def heats(self, inputs: Array) -> bool:
-        """Whether every body that takes heat in the problem's phases is one; others cost seconds to simulate."""
+        """Whether every body that takes heat in the problem's phases is one, and no link is below zero."""
+        return self._bodies(inputs) and bool(np.all(self._links(inputs) > 0.0))
+
+    def _heats_as_the_start(self, inputs: Array) -> bool:
+        """Whether every body that takes heat is one, and no link is below zero that is not so at the study's start.
+
+        A link that corrects another one may be; any other would cost seconds to simulate.
+        """
+        return self._bodies(inputs) and bool(np.all((self._links(inputs) > 0.0) | self._corrects))
+
+    @cached_property
+    def _corrects(self) -> NDArray[np.bool_]:
+        """Which links are below zero at the study's start."""
+        return self._links(self.model.start) <= 0.0
+
+    def _bodies(self, inputs: Array) -> bool:
         return all(np.all(np.asarray(block.phase.lumps(inputs)) > 0.0) for block in self.problem.blocks)
+
+    def _links(self, inputs: Array) -> Array:
+        links = [np.asarray(block.phase.links(inputs)).ravel() for block in self.problem.blocks]
+        return np.concatenate(links) if links else np.zeros(0)
 
     def trial(self, inputs: Array) -> Cycle | None:
         """The switch at a point, None where it does not end, or is over before it begins: that tells nothing of it."""

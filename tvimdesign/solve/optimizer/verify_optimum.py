@@ -33,8 +33,10 @@ def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], se
         for limit in optimizer.problem.limits
     ]
     feasible = all(held.residual <= tolerance for held, tolerance in zip(limits, tolerances, strict=True))
+    ended = all(np.isfinite(cycle.values[event]) for event in optimizer.problem.events)
     if run.start.converged:
         status = OPTIMAL if feasible else "converged, but a check outside the solver fails"
+        status = status if ended else "converged, but the switch does not end within `horizon`"
     else:
         status = f"not converged: {meaning(run.start.status).words}"
     return Solution(

@@ -1,0 +1,93 @@
+"""A search in boxes: within a small one around a point, then in a wider one around where that ended.
+
+Begun at a design that keeps every limit, IPOPT may leave it and come to none again: it moves all numbers off their
+limits at once, and looks for the limits from far away. Within a box it stays near, and an optimum of a box that no side
+holds is one of the whole problem.
+Source: A. Conn, N. Gould, P. Toint, Trust-Region Methods (2000), sections 6.1 and 15.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+
+_FIRST, _WIDEST, _NARROWEST = 0.05, 0.5, 2e-3
+"""Half the width of a box, as a share of each range: of the first one, the most, and the least worth a run."""
+_WIDER, _NARROWER = 2.0, 0.25
+"""The next box's width over the last one's: where that led on, and where IPOPT lost its way in it."""
+_MOST_BOXES = 20
+_AT_A_SIDE = 1e-4
+"""Share of its range within which a number is held by a side of the box."""
+
+
+class BoxSearch:
+    """Searches from points, with some free numbers within ends of their own."""
+
+    def __init__(self, optimizer: Optimizer, within: Mapping[str, Ends] | None = None) -> None:
+        """Nothing is solved yet."""
+        self._optimizer, self._within = optimizer, dict(within or {})
+        self.runs: list[Run] = []
+        """What each run of the solver came to."""
+
+    def run(self, begin: Array) -> Run:
+        """Where boxes lead to from some inputs: converged where that is an optimum of the whole problem."""
+        inputs, unknowns, width = begin, self._optimizer.simulated_guess(begin), _FIRST
+        best: Run | None = None
+        held = True
+        for _ in range(_MOST_BOXES):
+            box = self._box(inputs, width)
+            run = self._solved(box, inputs, unknowns)
+            # A box without a design leads on as long as none is known: its end is where the limits are broken least.
+            if run.start.converged or (best is None and run.start.status == NO_DESIGN):
+                best = run if run.start.converged else None
+                inputs, unknowns, width = run.inputs, run.unknowns, min(width * _WIDER, _WIDEST)
+                held = self._held(run, box)
+            else:
+                width *= _NARROWER
+            if not held or width < _NARROWEST or self._optimizer.deadline.passed:
+                break
+        found = self._whole(best, held=held) if best else self.runs[-1]
+        found.start = replace(found.start, iterations=sum(one.start.iterations for one in self.runs))
+        return found
+
+    def _solved(self, within: Mapping[str, Ends], inputs: Array, unknowns: Array) -> Run:
+        run = self._optimizer.solve(within, begin=inputs, unknowns=unknowns, beginning="near")
+        self.runs.append(run)
+        return run
+
+    def _box(self, inputs: Array, width: float) -> dict[str, Ends]:
+        """Ends of every free number, so far around some inputs and no further than what they are to be within."""
+        ends = {}
+        for free in self._optimizer.free:
+            low, high = self._within.get(free.name, (free.lower, free.upper))
+            room = width * (free.to_unknown(free.upper) - free.to_unknown(free.lower))
+            middle = free.to_unknown(min(max(inputs[self._optimizer.model.index[free.name]], low), high))
+            ends[free.name] = (
+                max(low, float(free.to_value(middle - room))),
+                min(high, float(free.to_value(middle + room))),
+            )
+        return ends
+
+    def _held(self, run: Run, box: Mapping[str, Ends]) -> bool:
+        """Whether a side of the box holds a number that might go on."""
+        for place, free in enumerate(self._optimizer.free):
+            near = _AT_A_SIDE * (free.to_unknown(free.upper) - free.to_unknown(free.lower))
+            for side, end in zip(box[free.name], self._within.get(free.name, (free.lower, free.upper)), strict=True):
+                if side != end and abs(run.unknowns[place] - free.to_unknown(side)) < near:
+                    return True
+        return False
+
+    def _whole(self, best: Run, *, held: bool) -> Run:
+        """The optimum of the whole problem at that of the last box; a design that is no optimum where none is found."""
+        found = self._optimizer.solve(self._within, warm=best)
+        self.runs.append(found)
+        if found.start.converged:
+            return found
+        if held:
+            found = self._solved(self._within, best.inputs, best.unknowns)
+            best.start = replace(best.start, status="Feasible_Point_Found", converged=False)
+        return found if found.start.converged else replace(best, within=self._within)
