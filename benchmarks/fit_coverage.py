@@ -106,7 +106,7 @@ def width_over_scatter(found: Sequence[Found]) -> float:
 
 def table(found: Fits) -> Iterator[str]:
     """Rows in Markdown: kind, parameter, how many intervals held the truth, and their width over the scatter."""
-    yield from ("| kind | parameter | held | of | width over scatter |", "|---|---|---|---|---|")
+    yield from ("| kind | parameter | held | of | share | width over scatter |", "|---|---|---|---|---|---|")
     for kind in MADE:
         fits = [one for (name, _), one in found.items() if name == kind]
         for name in dict.fromkeys(name for fit in fits for name in fit):
@@ -114,7 +114,7 @@ def table(found: Fits) -> Iterator[str]:
             held = sum(one.held for one in every)
             open_ = sum(one.low is None or one.high is None for one in every)
             ratio = f"{width_over_scatter(every):.2f}" + (f", {open_} open" if open_ else "")
-            yield f"| `{kind}` | {name} | {held} | {len(fits)} | {ratio} |"
+            yield f"| `{kind}` | {name} | {held} | {len(fits)} | {held / len(fits):.1%} | {ratio} |"
 
 
 def main() -> None:
