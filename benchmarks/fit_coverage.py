@@ -105,16 +105,18 @@ def width_over_scatter(found: Sequence[Found]) -> float:
 
 
 def table(found: Fits) -> Iterator[str]:
-    """Rows in Markdown: kind, parameter, how many intervals held the truth, and their width over the scatter."""
-    yield from ("| kind | parameter | held | of | share | width over scatter |", "|---|---|---|---|---|---|")
+    """Rows in Markdown: kind, seeds, and for each parameter the share held, with the width over the scatter."""
+    yield from ("| kind | seeds | held the truth, % of the seeds (width over scatter) |", "|---|---|---|")
     for kind in MADE:
         fits = [one for (name, _), one in found.items() if name == kind]
+        told = []
         for name in dict.fromkeys(name for fit in fits for name in fit):
             every = [fit[name] for fit in fits if name in fit]
-            held = sum(one.held for one in every)
             open_ = sum(one.low is None or one.high is None for one in every)
             ratio = f"{width_over_scatter(every):.2f}" + (f", {open_} open" if open_ else "")
-            yield f"| `{kind}` | {name} | {held} | {len(fits)} | {held / len(fits):.1%} | {ratio} |"
+            told.append(f"{name} {100.0 * sum(one.held for one in every) / len(fits):.1f} ({ratio})")
+        if fits:
+            yield f"| `{kind}` | {len(fits)} | {', '.join(told)} |"
 
 
 def main() -> None:

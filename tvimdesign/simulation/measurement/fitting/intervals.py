@@ -4,7 +4,8 @@ Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed., ch. 7 (covariance 
 and Watts, Nonlinear Regression Analysis and Its Applications, ch. 6 (profiles); [Bay] Bayley and Hammersley, J. R.
 Statist. Soc. Suppl. 8 (1946) 184 (how many independent values a series of correlated ones is worth); [KR] Kenward and
 Roger, Biometrics 53 (1997) 983 (covariance where the weights are estimated); [S] Satterthwaite, Biometrics Bull. 2
-(1946) 110, as in the GUM (JCGM 100:2008, G.4) (degrees of freedom of a sum of estimated variances).
+(1946) 110, as in the GUM (JCGM 100:2008, G.4) (degrees of freedom of a sum of estimated variances); [R] the same, 4.3.7
+(variance of what is known to lie between two ends).
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from scipy.special import stdtrit
 
-from tvimdesign.simulation.measurement.fitting.problem import Array
+from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter
 from tvimdesign.simulation.measurement.fitting.residuals import Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import (
     RobustFit,
@@ -47,9 +48,9 @@ class Spread:
     covariance: Array
     free_directions: tuple[Array, ...]
     parts: tuple[Array, ...]
-    """What the noise of each group of channels that err alike gives to the covariance."""
+    """What the noise of each group of channels that err alike gives to the covariance; last, nuisances' bounds."""
     freedom: tuple[float, ...]
-    """Degrees of freedom of each group's noise."""
+    """Degrees of freedom of each group's noise; of bounds, infinite."""
     autocorrelation: Array
     """Of each channel's residuals from one to the next."""
     slack: Array
@@ -95,12 +96,21 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
         _group([(z[residuals.parts[i]], jacobian[residuals.parts[i]]) for i in alike], wider[alike], taken[alike])
         for alike in residuals.groups
     ]
-    inverse, directions = _inverse(np.sum([group.curvature for group in groups], axis=0))
-    given = tuple(inverse @ group.moved @ inverse for group in groups)
-    covariance = np.sum(given, axis=0) + 2.0 * _of_weights(groups, given, inverse)
+    within = np.diag([_box(one) for one in residuals.problem.parameters])
+    inverse, directions = _inverse(np.sum([within, *(group.curvature for group in groups)], axis=0))
+    given = [inverse @ group.moved @ inverse for group in groups]
+    parts, freedom = [*given, inverse @ within @ inverse], [*(group.freedom for group in groups), np.inf]
+    covariance = np.sum(parts, axis=0) + 2.0 * _of_weights(groups, given, inverse)
     own = np.diag(inverse)
     slack = np.divide(np.diag(covariance), own, out=np.ones(len(own)), where=own > 0.0)
-    return Spread(covariance, directions, given, tuple(group.freedom for group in groups), follows, slack)
+    return Spread(covariance, directions, tuple(parts), tuple(freedom), follows, slack)
+
+
+def _box(one: Parameter) -> float:
+    """One over the variance of a nuisance that is known to lie between two ends, width^2/12 [R]; 0 of others."""
+    least, most = one.bounds
+    bounded = one.nuisance and not one.positive and np.isfinite(most - least)
+    return 12.0 / (most - least) ** 2 if bounded else 0.0
 
 
 class _Group(NamedTuple):
