@@ -2,75 +2,121 @@
 
     python benchmarks/fit_coverage.py [KIND ...] [--seeds 100] [--workers 2] [--kept FILE]
 
-fits each kind with noise of every seed and writes, for each parameter, in how many of how many seeds the interval held
-the truth. Data are the product's own equations with normal noise: `made_measurements`. A seed that the file has is not
-fitted again, so that a count goes on where it was left. Prints the table of `docs/measurements.md`.
+fits each kind with noise of every seed. For each parameter it counts the seeds whose interval held the truth, and sets
+the mean width against the scatter of the values found: an interval that always holds because it is far too wide is
+wrong as well. Data are the product's own equations with normal noise: `made_measurements`. Fits are kept in a file with
+the digest of the code that made them; a seed that the file has from this code is not fitted again, so that a count goes
+on where it was left. Prints the table of `docs/measurements.md`.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from functools import cache
+from hashlib import sha256
 from multiprocessing import get_context
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from made_measurements import MADE
 
+import tvimdesign
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
 from tvimdesign.simulation.measurement.measure_files import measure_of
 
 KEPT = Path("results/fit_coverage.jsonl")
-Held = dict[str, bool]
+_NORMAL = 1.959964  # deviations to the end of an interval of 95 % of a normal distribution
+_PACKAGE = Path(tvimdesign.__file__).parent
+_SOURCES = (_PACKAGE / "simulation" / "measurement", _PACKAGE / "physics", Path(__file__).parent / "made_measurements")
 
 
-def held(kind: str, seed: int) -> Held:
-    """Whether the interval of each parameter holds what the data of a seed were made with."""
+class Found(NamedTuple):
+    """What one fit says of a parameter, beside what its data were made with [SI]; an end may be open."""
+
+    truth: float
+    value: float
+    low: float | None
+    high: float | None
+
+    @property
+    def held(self) -> bool:
+        """Whether the interval holds the truth."""
+        return (self.low is None or self.low <= self.truth) and (self.high is None or self.truth <= self.high)
+
+
+Fits = dict[tuple[str, int], dict[str, Found]]
+"""By kind and seed what each parameter was found to be."""
+
+
+@cache
+def code() -> str:
+    """Digest of the equations, the fits and the made data."""
+    found = sha256()
+    for folder in _SOURCES:
+        for path in sorted(folder.rglob("*.py")):
+            found.update(path.read_bytes())
+    return found.hexdigest()[:16]
+
+
+def fit_of(kind: str, seed: int) -> dict[str, Found]:
+    """Value and interval of all that is reported from the data of a seed; a mode that was not found is not there."""
     blocks, given, truth = MADE[kind](np.random.default_rng(seed))
     fit = measure_of(kind_sheet(kind))(blocks, kind_sheet(kind).values(given)).fit
-    found = {one.name: one for one in (*fit.parameters, *fit.derived)}
-    inside = {}
-    for name, value in truth.items():
-        low, high = found[name].low, found[name].high
-        inside[name] = bool((low is None or low <= value) and (high is None or value <= high))
-    return inside
+    reported = {one.name: one for one in (*fit.parameters, *fit.derived)}
+    return {name: Found(truth[name], one.value, one.low, one.high) for name, one in reported.items() if name in truth}
 
 
-def kept_in(path: Path) -> dict[tuple[str, int], Held]:
-    """What a file has, by kind and seed; a line that was cut short is left out."""
+def kept_in(path: Path) -> Fits:
+    """What a file has from this code, by kind and seed; a line that was cut short is left out."""
     found = {}
     for line in path.read_text().splitlines() if path.exists() else []:
         if line.endswith("}}"):
             one = json.loads(line)
-            found[one["kind"], one["seed"]] = one["held"]
+            if one.get("code") == code():
+                found[one["kind"], one["seed"]] = {name: Found(*kept) for name, kept in one["found"].items()}
     return found
 
 
-def counted(kinds: list[str], seeds: int, workers: int, path: Path) -> dict[tuple[str, int], Held]:
+def counted(kinds: Sequence[str], seeds: int, workers: int, path: Path) -> Fits:
     """Fit what the file has not, a seed of every kind after the other, and keep each as it comes."""
     found = kept_in(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     lacking = [(kind, seed) for seed in range(seeds) for kind in kinds if (kind, seed) not in found]
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as hands, path.open("a") as file:
-        asked = {hands.submit(held, *one): one for one in lacking}
+        asked = {hands.submit(fit_of, *one): one for one in lacking}
         for done in as_completed(asked):
             kind, seed = asked[done]
             found[kind, seed] = done.result()
-            file.write(json.dumps({"kind": kind, "seed": seed, "held": found[kind, seed]}) + "\n")
+            file.write(json.dumps({"code": code(), "kind": kind, "seed": seed, "found": found[kind, seed]}) + "\n")
             file.flush()
     return found
 
 
-def table(found: dict[tuple[str, int], Held]) -> Iterator[str]:
-    """Rows in Markdown: a kind, how many seeds, and the count for each parameter."""
-    yield from ("| kind | seeds | held the truth |", "|---|---|---|")
+def width_over_scatter(found: Sequence[Found]) -> float:
+    """Mean width of the closed intervals over that of 95 % of the values found; not a number below three."""
+    widths = [one.high - one.low for one in found if one.low is not None and one.high is not None]
+    if len(widths) < 3:
+        return np.nan
+    return float(np.mean(widths) / (2.0 * _NORMAL * np.std([one.value for one in found], ddof=1)))
+
+
+def table(found: Fits) -> Iterator[str]:
+    """Rows in Markdown: kind, seeds, and for each parameter the share held, with the width over the scatter."""
+    yield from ("| kind | seeds | held the truth, % of the seeds (width over scatter) |", "|---|---|---|")
     for kind in MADE:
-        seeds = [one for (name, _), one in found.items() if name == kind]
-        if seeds:
-            told = ", ".join(f"{name} {sum(one[name] for one in seeds)}" for name in seeds[0])
-            yield f"| `{kind}` | {len(seeds)} | {told} |"
+        fits = [one for (name, _), one in found.items() if name == kind]
+        told = []
+        for name in dict.fromkeys(name for fit in fits for name in fit):
+            every = [fit[name] for fit in fits if name in fit]
+            open_ = sum(one.low is None or one.high is None for one in every)
+            ratio = f"{width_over_scatter(every):.2f}" + (f", {open_} open" if open_ else "")
+            told.append(f"{name} {100.0 * sum(one.held for one in every) / len(fits):.1f} ({ratio})")
+        if fits:
+            yield f"| `{kind}` | {len(fits)} | {', '.join(told)} |"
 
 
 def main() -> None:

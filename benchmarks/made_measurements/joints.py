@@ -25,7 +25,11 @@ def release_data(noise: np.random.Generator) -> Made:
     known = {**truth, "inertia": 4e-4, "first_angle": 0.12, "first_speed": 0.0}
     corner = 0.01 * 0.22 * np.pi / 0.0562
     angle = numbers(swing.swing(moments, known, 6, corner)) + noise.normal(0.0, 1e-3, len(moments))
-    return [block(time=moments, angle=angle)], {"inertia": "4e-4 kg.m^2"}, truth
+    follows = {
+        "first_angle": 0.12, "first_speed": 0.0, "natural_frequency": np.sqrt(5.0 / 4e-4) / (2.0 * np.pi),
+        "damping_ratio": 3e-3 / (2.0 * np.sqrt(5.0 * 4e-4)),
+    }  # fmt: skip
+    return [block(time=moments, angle=angle)], {"inertia": "4e-4 kg.m^2"}, {**truth, **follows}
 
 
 def sine_data(noise: np.random.Generator) -> Made:
@@ -42,7 +46,8 @@ def sine_data(noise: np.random.Generator) -> Made:
         blocks.append(
             block(time=time, angle=angle + noise.normal(0.0, 5e-4, 150), torque=torque + noise.normal(0.0, 0.01, 150))
         )
-    return blocks, {}, truth
+    loss = truth["damping"] * 2.0 * np.pi * 2.0 + 4.0 * truth["friction"] / (np.pi * 0.1)
+    return blocks, {}, {**truth, "loss": loss}
 
 
 def frozen_torque_data(noise: np.random.Generator) -> Made:
@@ -50,9 +55,11 @@ def frozen_torque_data(noise: np.random.Generator) -> Made:
     truth = {"stiffness": 250.0, "holding_torque": 12.0}
     moment = 4.0 * np.radians(49.0) / 4.0 * (0.040**4 - 0.026**4)
     blocks = []
-    for zero in (0.0, 0.005, -0.003):
+    zeros = (0.0, 0.005, -0.003)
+    for zero in zeros:
         angle = np.linspace(zero, zero + 0.08, 60)
         torque = numbers(frozen_torque.torque_of(angle, {**truth, "zero_angle": zero}))
         blocks.append(block(angle=angle, torque=torque + noise.normal(0.0, 0.1, 60)))
     sizes = {"layer_inner_radius": "26 mm", "layer_outer_radius": "40 mm", "layer_span": "49 deg"}
-    return blocks, sizes, {**truth, "bond_strength": 12.0 * 0.040 / moment}
+    own = {f"zero_angle_{i}": zero for i, zero in enumerate(zeros, start=1)}
+    return blocks, sizes, {**truth, **own, "bond_strength": 12.0 * 0.040 / moment}

@@ -12,10 +12,13 @@ from tvimdesign.simulation.measurement.reading.data_file import Block
 
 MODES = [(0.5, 800.0), (0.05, 1.0e4), (0.004, 6.0e4)]
 ENERGY, REFERENCE = 35e3, 373.15
-VISCOSITY = {"zero_shear_viscosity": sum(tau * modulus for tau, modulus in MODES)}
-TRUTH = {
-    "flow_activation_energy": ENERGY, **VISCOSITY, "plateau_modulus": sum(modulus for _, modulus in MODES),
-}  # fmt: skip
+SPECTRUM = {
+    "zero_shear_viscosity": sum(tau * modulus for tau, modulus in MODES),
+    "plateau_modulus": sum(modulus for _, modulus in MODES),
+    **{f"time_{i}": tau for i, (tau, _) in enumerate(MODES, start=1)},
+    **{f"modulus_{i}": modulus for i, (_, modulus) in enumerate(MODES, start=1)},
+}
+TRUTH = {"flow_activation_energy": ENERGY, **SPECTRUM}
 
 
 def sweep(noise: np.random.Generator, temperature: float, omega: Array) -> Block:
@@ -65,17 +68,17 @@ def temperature_ramp_data(noise: np.random.Generator) -> Made:
         blocks.append(
             block(temperature=at, angular_frequency=np.full(40, omega), storage_modulus=storage, loss_modulus=loss)
         )
-    return blocks, {"reference_temperature": "100 degC"}, {"flow_activation_energy": ENERGY}
+    return blocks, {"reference_temperature": "100 degC"}, TRUTH
 
 
 def creep_data(noise: np.random.Generator) -> Made:
     """Creep and recovery for 5 s each."""
-    return [creeping(noise, 5.0)], {}, VISCOSITY
+    return [creeping(noise, 5.0)], {}, SPECTRUM
 
 
 def relaxation_data(noise: np.random.Generator) -> Made:
     """A relaxation."""
-    return [relaxing(noise)], {}, VISCOSITY
+    return [relaxing(noise)], {}, SPECTRUM
 
 
 def melt_data(noise: np.random.Generator) -> Made:

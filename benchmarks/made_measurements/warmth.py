@@ -18,6 +18,7 @@ from tvimdesign.study import read_study
 
 STUDY = Path(__file__).parents[2] / "studies" / "paper_as_published.yaml"
 LOGGED = {"rotor_contact": 2000.0, "rotor_coefficient": 8.0, "cold_side_coefficient": 12.0}
+AIR = {"ambient_temperature": 295.0}
 
 
 @cache
@@ -26,8 +27,8 @@ def _logged() -> dict[str, Array]:
     resolved = resolve_study(read_study(STUDY))
     time = np.concatenate([np.arange(0.0, 250.0, 5.0), np.arange(250.0, 751.0, 10.0)])
     current = np.where(time < 250.0, 1.5, 0.0)
-    module = LoggedModule(resolved, [*LOGGED, "ambient_temperature"])
-    found = module.temperatures(Course(time, current[:-1], 50), {**LOGGED, "ambient_temperature": 295.0})
+    module = LoggedModule(resolved, [*LOGGED, *AIR])
+    found = module.temperatures(Course(time, current[:-1], 50), {**LOGGED, **AIR})
     places = ("cold_temperature", "hot_temperature", "far_face_temperature", "rotor_temperature")
     return {"time": time, "current": current, **{name: numbers(found[name]) for name in places}}
 
@@ -38,7 +39,7 @@ def heating_log_data(noise: np.random.Generator) -> Made:
         name: values + (noise.normal(0.0, 0.3, len(values)) if name.endswith("temperature") else 0.0)
         for name, values in _logged().items()
     }
-    return [block(**columns)], {"study": str(STUDY), "fitted": " ".join(LOGGED)}, LOGGED
+    return [block(**columns)], {"study": str(STUDY), "fitted": " ".join(LOGGED)}, {**LOGGED, **AIR}
 
 
 def pad_data(noise: np.random.Generator) -> Made:
@@ -70,4 +71,4 @@ def dsc_data(noise: np.random.Generator) -> Made:
         heat = numbers((dsc.melted if way == "heated" else dsc.frozen)(run, 0, settings)(known))
         heat = heat + noise.normal(0.0, 0.01 * float(np.ptp(heat)), 300)
         blocks.append(block(time=seconds, temperature=run.temperature, specific_heat_flow=heat))
-    return blocks, {}, truth
+    return blocks, {}, {**truth, "melting_end": 335.0}

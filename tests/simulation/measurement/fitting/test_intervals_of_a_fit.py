@@ -12,7 +12,10 @@ from scipy.stats import t as student
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.fit import Fit, fitted
+from tvimdesign.simulation.measurement.fitting.intervals import spread
 from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Derived, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.fitting.residuals import Residuals
+from tvimdesign.simulation.measurement.fitting.robust_fit import robust_fit
 
 X = np.linspace(0.1, 5.0, 60)
 NOISE = np.random.default_rng(4).normal(0.0, 0.02, len(X))
@@ -128,3 +131,22 @@ def test_a_parameter_whose_bounds_leave_it_no_room_is_refused() -> None:
     slope = Parameter("slope", "1", "", 1e5, most=1e-200)
     with pytest.raises(InputError, match=r"slope: the data suggest 1e\+05 1; look for a wrong number"):
         fitted(problem(3.0 * X, lambda values: values["slope"] * X, slope))
+
+
+def test_what_is_known_to_lie_between_two_ends_adds_their_variance() -> None:
+    # A mean read with an offset of which only the ends are known: GUM 4.3.7, width^2/12 beside the mean's variance.
+    measured, width = 5.0 + NOISE, 0.03
+    mean = Parameter("mean", "1", "", 5.0, positive=False)
+    offset = Parameter("offset", "1", "", 0.0, positive=False, nuisance=True, least=-0.5 * width, most=0.5 * width)
+    spreads = []
+    for parameters in ([mean], [mean, offset]):
+        residuals = Residuals(
+            problem(
+                measured, lambda values: (values["mean"] + values.get("offset", 0.0)) * np.ones(len(X)), *parameters
+            )
+        )
+        start = np.array([one.inner(one.start) for one in parameters])
+        spreads.append(spread(residuals, robust_fit(residuals, start)))
+    alone, together = (float(one.covariance[0, 0]) for one in spreads)
+    assert not spreads[1].free_directions
+    assert together == pytest.approx(alone + width**2 / 12.0, rel=1e-3)

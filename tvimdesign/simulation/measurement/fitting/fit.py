@@ -64,9 +64,9 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
     free = {i for direction in known.free_directions for i in moved_by(direction)}
     parameters, words = [], in_words(problem, known, best.inner)
     for i, one in enumerate(problem.parameters):
-        ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
         if one.nuisance:
             continue
+        ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
         words += _unbounded(one, ends)
         parameters.append(_estimate(one, best.inner[i], ends))
     return Fit(
@@ -77,7 +77,7 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
 
 
 def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profiles: bool) -> tuple[float, float]:
-    half = known.quantile * float(np.sqrt(known.covariance[at, at]))
+    half = known.half(known.axis(at))
     if not profiles or half == 0.0:
         return _within(residuals.problem.parameters[at], best.inner[at] - half, best.inner[at] + half)
     return profile_end(residuals, best, known, at, -1), profile_end(residuals, best, known, at, 1)
@@ -106,7 +106,7 @@ def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Esti
     logarithms, slopes = residuals.derived(best.inner)
     found = []
     for one, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
-        half = known.quantile * float(np.sqrt(max(slope @ known.covariance @ slope, 0.0)))
+        half = known.half(slope)
         open_ = any(abs(slope @ direction) > 1e-6 * np.max(np.abs(slope)) for direction in known.free_directions)
         open_ = open_ or half > _UNKNOWN
         ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(middle + half)))

@@ -2,18 +2,23 @@
 
 Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed., ch. 7 (covariance of M-estimates in regression); [B] Bates
 and Watts, Nonlinear Regression Analysis and Its Applications, ch. 6 (profiles); [Bay] Bayley and Hammersley, J. R.
-Statist. Soc. Suppl. 8 (1946) 184 (how many independent values a series of correlated ones is worth).
+Statist. Soc. Suppl. 8 (1946) 184 (how many independent values a series of correlated ones is worth); [KR] Kenward and
+Roger, Biometrics 53 (1997) 983 (covariance where the weights are estimated); [S] Satterthwaite, Biometrics Bull. 2
+(1946) 110, as in the GUM (JCGM 100:2008, G.4) (degrees of freedom of a sum of estimated variances); [R] the same, 4.3.7
+(variance of what is known to lie between two ends).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from math import sqrt
+from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy.special import stdtrit
 
-from tvimdesign.simulation.measurement.fitting.problem import Array
+from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter
 from tvimdesign.simulation.measurement.fitting.residuals import Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import (
     RobustFit,
@@ -42,42 +47,108 @@ class Spread:
 
     covariance: Array
     free_directions: tuple[Array, ...]
-    quantile: float
-    """Deviations to the end of an interval of `CONFIDENCE`."""
+    parts: tuple[Array, ...]
+    """What the noise of each group of channels that err alike gives to the covariance; last, nuisances' bounds."""
+    freedom: tuple[float, ...]
+    """Degrees of freedom of each group's noise; of bounds, infinite."""
     autocorrelation: Array
     """Of each channel's residuals from one to the next."""
     slack: Array
     """Covariance over that of the loss's own curvature, for each number."""
 
+    def deviation(self, direction: Array) -> float:
+        """Standard deviation of a linear combination of the numbers."""
+        return sqrt(max(float(direction @ self.covariance @ direction), 0.0))
+
+    def quantile(self, direction: Array) -> float:
+        """Deviations of a linear combination to the end of its interval of `CONFIDENCE`."""
+        variances = [max(float(direction @ part @ direction), 0.0) for part in self.parts]
+        return float(stdtrit(effective_freedom(variances, self.freedom), 0.5 + 0.5 * CONFIDENCE))
+
+    def half(self, direction: Array) -> float:
+        """Half the width of that interval."""
+        return self.quantile(direction) * self.deviation(direction)
+
+    def axis(self, at: int) -> Array:
+        """The combination that is one of the numbers alone."""
+        return np.asarray(np.eye(len(self.covariance))[at])
+
+
+def effective_freedom(variances: Sequence[float], freedom: Sequence[float]) -> float:
+    """Degrees of freedom of a sum of estimated variances that have `freedom` each: (sum v)^2 / sum v^2/f [S]."""
+    parts = np.asarray(variances) / (max(variances) or 1.0)
+    squares = float(np.sum(parts**2 / np.asarray(freedom)))
+    return float(np.sum(parts)) ** 2 / squares if squares > 0.0 else min(freedom)
+
 
 def spread(residuals: Residuals, fit: RobustFit) -> Spread:
-    """Covariance H^-1 M H^-1 of the robust fit [H], M widened where residuals follow one another [Bay]."""
+    """Covariance H^-1 M H^-1 of the robust fit [H], M widened where residuals follow one another [Bay].
+
+    The weight of each group of channels is estimated, and errs: the covariance is widened for it [KR].
+    """
     weights = weights_of(residuals, fit.noise)
     z = residuals.at(fit.inner) * weights
     jacobian = residuals.jacobian(fit.inner) * weights[:, None]
-    free = jacobian.shape[1]
-    pull, slope = influence(z)
-    curvature, moved, worth, follows = np.zeros((free, free)), np.zeros((free, free)), 0.0, []
+    follows = np.array([_autocorrelation(z[part]) for part in residuals.parts])
+    wider = (1.0 + follows) / (1.0 - follows)
     taken = parameters_of(residuals, fit.inner, fit.noise)
-    for part, alike in zip(residuals.parts, residuals.alike, strict=True):
-        count = sum(residuals.parts[i].stop - residuals.parts[i].start for i in alike)
-        rho = _autocorrelation(z[part])
-        wider = (1.0 + rho) / (1.0 - rho)
-        square = jacobian[part].T @ jacobian[part]
-        left = max(1.0 - float(np.sum(taken[alike])) / count, 0.05)
-        together = np.concatenate([np.arange(residuals.parts[i].start, residuals.parts[i].stop) for i in alike])
-        mean = float(np.mean(slope[together]))
-        few = 1.0 + (1.0 - left) * float(np.var(slope[together])) / mean**2  # [H], correction for few data
-        curvature += mean * square
-        moved += wider * few**2 * np.mean(pull[together] ** 2) / left * square
-        worth += len(z[part]) / wider
-        follows.append(rho)
-    inverse, directions = _inverse(curvature)
-    covariance = inverse @ moved @ inverse
-    quantile = float(stdtrit(max(worth - free, 1.0), 0.5 + 0.5 * CONFIDENCE))
+    groups = [
+        _group([(z[residuals.parts[i]], jacobian[residuals.parts[i]]) for i in alike], wider[alike], taken[alike])
+        for alike in residuals.groups
+    ]
+    within = np.diag([_box(one) for one in residuals.problem.parameters])
+    inverse, directions = _inverse(np.sum([within, *(group.curvature for group in groups)], axis=0))
+    given = [inverse @ group.moved @ inverse for group in groups]
+    parts, freedom = [*given, inverse @ within @ inverse], [*(group.freedom for group in groups), np.inf]
+    covariance = np.sum(parts, axis=0) + 2.0 * _of_weights(groups, given, inverse)
     own = np.diag(inverse)
-    slack = np.divide(np.diag(covariance), own, out=np.ones(free), where=own > 0.0)
-    return Spread(covariance, directions, quantile, np.array(follows), slack)
+    slack = np.divide(np.diag(covariance), own, out=np.ones(len(own)), where=own > 0.0)
+    return Spread(covariance, directions, tuple(parts), tuple(freedom), follows, slack)
+
+
+def _box(one: Parameter) -> float:
+    """One over the variance of a nuisance that is known to lie between two ends, width^2/12 [R]; 0 of others."""
+    least, most = one.bounds
+    bounded = one.nuisance and not one.positive and np.isfinite(most - least)
+    return 12.0 / (most - least) ** 2 if bounded else 0.0
+
+
+class _Group(NamedTuple):
+    """Channels that err alike: their part of H, their part of M, and the degrees of freedom of their noise."""
+
+    curvature: Array
+    moved: Array
+    freedom: float
+
+
+def _group(channels: Sequence[tuple[Array, Array]], wider: Array, taken: Array) -> _Group:
+    """From each channel's residuals over their noise with their derivatives, `wider` as by [Bay] for each."""
+    z = np.concatenate([one for one, _ in channels])
+    squares = [slopes.T @ slopes for _, slopes in channels]
+    pull, slope = influence(z)
+    left = max(1.0 - float(np.sum(taken)) / len(z), 0.05)
+    mean = float(np.mean(slope))
+    few = 1.0 + (1.0 - left) * float(np.var(slope)) / mean**2  # [H], correction for few data
+    following = np.sum([one * square for one, square in zip(wider, squares, strict=True)], axis=0)
+    worth = float(np.sum(np.array([len(one) for one, _ in channels]) / wider))
+    return _Group(
+        mean * np.sum(squares, axis=0), few**2 * float(np.mean(pull**2)) / left * following,
+        max(worth - float(np.sum(taken)), 1.0),
+    )  # fmt: skip
+
+
+def _of_weights(groups: Sequence[_Group], given: Sequence[Array], inverse: Array) -> Array:
+    """What errors of the estimated noises add to the covariance: sum of 2/f (P - P H C), symmetric [KR].
+
+    P is what a group gives to the covariance, H its curvature, f the degrees of freedom of its noise, C the inverse of
+    all curvatures together. It is none where one group has all the data. [KR] counts it twice: the numbers scatter more
+    by it, and the covariance without it is as much too small.
+    """
+    added = np.zeros_like(inverse)
+    for group, part in zip(groups, given, strict=True):
+        shared = part @ group.curvature @ inverse
+        added += 2.0 / group.freedom * (part - 0.5 * (shared + shared.T))
+    return added
 
 
 def _autocorrelation(z: Array) -> float:
@@ -111,13 +182,13 @@ def profile_end(residuals: Residuals, fit: RobustFit, known: Spread, at: int, si
     The solver's number, no farther than the parameter's bound; infinite where the data do not bound it within
     `_FARTHEST` deviations.
     """
-    deviation = float(np.sqrt(known.covariance[at, at]))
-    allowed = known.quantile**2 * known.slack[at]
+    deviation, quantile = known.deviation(known.axis(at)), known.quantile(known.axis(at))
+    allowed = quantile**2 * known.slack[at]
     along = known.covariance[:, at] / known.covariance[at, at]
     parameter = residuals.problem.parameters[at]
     bound = parameter.bounds[0] if side < 0 and not parameter.positive else side * np.inf
     most = abs(bound - fit.inner[at]) / deviation
-    steps, low, high = known.quantile, 0.0, np.inf
+    steps, low, high = quantile, 0.0, np.inf
     for _ in range(_TRIES):
         steps = min(steps, most)
         inner = fit.inner + side * steps * deviation * along

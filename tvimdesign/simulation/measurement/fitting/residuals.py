@@ -36,6 +36,8 @@ class Residuals:
         words = [channel.noise_of or f"channel {i}" for i, channel in enumerate(problem.channels)]
         self.alike = [[j for j, word in enumerate(words) if word == mine] for mine in words]
         """Of each channel those that err as it does, itself among them."""
+        self.groups = [alike for i, alike in enumerate(self.alike) if alike[0] == i]
+        """Channels that err alike, each group once."""
 
     def at(self, inner: Array) -> Array:
         """Residuals, in the units of the channels, or as a share of the value.
