@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-
 from support import ROOT
 
 from tvimdesign.device import table_for
