@@ -100,3 +100,13 @@ def test_a_spreader_is_ordered_by_its_thickness_and_its_adhesive_by_an_area() ->
     assert item.title.endswith(f", {1e3 * design.values['spreader_thickness']:.3g} mm thick")
     area = 1e6 * design.values["heater_count"] * design.values["peltier_area"]
     assert f"over {area:.4g} mm² in all" in listed(design)["heat_conducting_adhesive"]
+
+
+def test_the_liners_adhesive_is_weighed_by_area_film_and_density_where_that_is_known() -> None:
+    design = design_of("lined", {"liner_material": "peek", "adhesive_density": 1040.0})
+    (item,) = (one for one in beside(design, {}) if one.kind == "liner_adhesive")
+    area, film = design.values["pcl_area"], 0.1e-3  # `liner_film`; a liner covers its arc
+    assert item.mass == pytest.approx(1e3 * 1040.0 * area * film, rel=0.05)
+    other = design.model_copy(update={"choices": design.choices | {"tang_adhesive": "another"}})
+    (item,) = (one for one in beside(other, {}) if one.kind == "liner_adhesive")
+    assert item.mass == 0.0
