@@ -18,9 +18,7 @@ RANKED = ((1.0e-3, 0.6339), (1.1e-3, 0.6426), (1.2e-3, 0.6541))
 
 def line(own: float, robust: dict[str, Any] | None, spring: str = "none") -> str:
     """The line of a design with this wire [m], whose study asks for margins or not."""
-    best = tuple(
-        Standard({"wire_diameter": wire, "stock_spring": "none"}, objective, {}) for wire, objective in RANKED
-    )
+    best = tuple(Standard({"wire_diameter": wire, "stock_spring": "none"}, objective, {}) for wire, objective in RANKED)
     none = SolverEffort()
     choosing = Choosing(
         20, 20, 0, 0, best=best, between=None, proven=False, improved=0.0, work=none, proof=none, inside=0.0
@@ -32,7 +30,9 @@ def line(own: float, robust: dict[str, Any] | None, spring: str = "none") -> str
 
 def test_without_margins_the_best_of_the_ranking_is_the_design() -> None:
     said = line(1.0e-3, None)
-    assert said.startswith("Chosen wire_diameter 1 mm · stock_spring none · best of 20 combinations · the next is 1.4 %")
+    assert said.startswith(
+        "Chosen wire_diameter 1 mm · stock_spring none · best of 20 combinations · the next is 1.4 %"
+    )
     assert "1.4 % worse: wire_diameter 1.1 mm" in said
     assert "margins" not in said
 
