@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import cadquery as cq
@@ -9,8 +10,8 @@ import pytest
 from cad_designs import TILES, design_of
 
 from tvimdesign.base.units import ZERO_CELSIUS
-from tvimdesign.cad.assembly.bill_of_materials import beside, bill
-from tvimdesign.cad.assembly.heater_leads import fuse_in_words
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill, fixtures
+from tvimdesign.cad.assembly.heater_leads import fuse_in_words, wires
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.build.main import _titles
 from tvimdesign.cad.geometry.dimensions import dimensions
@@ -61,7 +62,9 @@ def test_a_bead_that_is_drawn_is_in_the_list_of_parts_with_its_size() -> None:
     design = switched({"thermistor_diameter": 1.8e-3})
     assert "thermistor" not in listed(design)
     (item,) = bill(design, _titles(design), {"thermistor_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
-    assert item.title == "Thermistor, bead of 1.8 x 4 mm with insulated wires, for 120 °C"
+    assert item.title.startswith(
+        "Thermistor, bead of 1.8 x 4 mm with insulated wires, for 120 °C; NTC 10 kohm at 25 °C"
+    )
 
 
 def test_a_foil_is_ordered_by_its_resistance() -> None:
@@ -69,3 +72,41 @@ def test_a_foil_is_ordered_by_its_resistance() -> None:
     (item,) = bill(design, _titles(design), {"peltier_pad_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     each = 45.0 * design.values["peltier_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
     assert f"{each:.3g} ohm each" in item.title
+
+
+def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current() -> None:
+    assert "copper of 0.326 mm² (AWG 22; PTFE" in listed(switched({}))["heater_wire"]  # 2.1 A; AWG 24 bears 2 A
+    strong = switched({})
+    strong.values.update(peak_current=40.0)
+    assert "copper" not in listed(strong)["heater_wire"]
+    sections = [wire.section for wire in wires()]
+    assert sections == sorted(sections)
+    for wire in wires():  # ASTM B258: 0.127 mm is gauge 36, and 39 gauges are a ratio of 92
+        diameter = 0.127e-3 * 92 ** ((36 - int(wire.gauge.split()[1])) / 39)
+        assert wire.section == pytest.approx(math.pi / 4 * diameter**2, rel=0.01)
+
+
+def test_film_for_the_cut_out_is_listed_where_there_is_one_and_release_for_the_mould() -> None:
+    assert "polyimide_film" in listed(switched({}))
+    assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
+    design = switched({})
+    (release,) = (one for one in fixtures(design, {}) if not one.fixture)
+    assert (release.kind, release.made) == ("mould_release", False)
+
+
+def test_a_spreader_is_ordered_by_its_thickness_and_its_adhesive_by_an_area() -> None:
+    design = switched(TILES)
+    (item,) = bill(design, _titles(design), {"spreader_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
+    assert item.title.endswith(f", {1e3 * design.values['spreader_thickness']:.3g} mm thick")
+    area = 1e6 * design.values["heater_count"] * design.values["peltier_area"]
+    assert f"over {area:.4g} mm² in all" in listed(design)["heat_conducting_adhesive"]
+
+
+def test_the_liners_adhesive_is_weighed_by_area_film_and_density_where_that_is_known() -> None:
+    design = design_of("lined", {"liner_material": "peek", "adhesive_density": 1040.0})
+    (item,) = (one for one in beside(design, {}) if one.kind == "liner_adhesive")
+    area, film = design.values["pcl_area"], 0.1e-3  # `liner_film`; a liner covers its arc
+    assert item.mass == pytest.approx(1e3 * 1040.0 * area * film, rel=0.05)
+    other = design.model_copy(update={"choices": design.choices | {"tang_adhesive": "another"}})
+    (item,) = (one for one in beside(other, {}) if one.kind == "liner_adhesive")
+    assert item.mass == 0.0

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from functools import cache
-from math import degrees
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import yaml
 
 from tvimdesign.cad.assembly import file_names
+from tvimdesign.cad.assembly.assembly_figures import Figures
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import is_of_structure
 from tvimdesign.cad.geometry.production import PRODUCTION
-from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
 
-ANGLES = ("rad", "deg")
-TORQUE = "N*m"
+_LINE = 0.4
+"""Width of a printed line [mm] of the commonest nozzle."""
+_ROUNDING = 1e-6
 _STEPS = Path(__file__).with_name("assembly_steps.yaml")
 
 
@@ -63,7 +64,17 @@ def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]
     but = ", those of dowel pins not: they are reamed" if dims.dowels_fitted else ""
     wider = f", with upright holes {dims.hole_compensation:g} mm wider{but}" if dims.hole_compensation else ""
     solid = "Print them solid (infill 100 %): mass, stiffness and strength count the plastic throughout."
+    solid += "" if is_milled else _walls(dims)
     return [*lines, f"The files in `print/` lie so{wider}. {solid}{_weigh(design, kinds, milled)}", ""]
+
+
+def _walls(dims: Dimensions) -> str:
+    """How many lines of plastic go around everything: as many as make the thinnest wall of the process."""
+    count, least = math.ceil(dims.minimum_wall / _LINE - _ROUNDING), f"{dims.minimum_wall:.3g}"
+    return (
+        f" Set at least {count} walls, with lines of {_LINE} mm: the thinnest wall there may be, {least} mm, "
+        "and the thread around each screw's hole are then of unbroken lines."
+    )
 
 
 def _weigh(design: Design, kinds: Sequence[str], milled: Sequence[str]) -> str:
@@ -91,19 +102,20 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     """Steps for the kinds this module has, and one for each kind that no step takes."""
     counts: dict[str, object] = {f"number_of_{one.kind}": one.quantity for one in items}
     counts |= {f"grams_of_{one.kind}": f"{one.mass:.2f}" for one in items}
-    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, dims)]
-    known = _Figures(design, dims, counts)
+    wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, design, dims)]
+    known = Figures(design, dims, counts)
     steps = [WrittenStep(str(step["text"]).format_map(known), step.get("place", ())) for step in wanted]
     taken = {kind for step in wanted for kind in step["kinds"]}
     left = [one for one in items if one.kind not in taken]
     return steps + [WrittenStep(f"Fit the {_words(one.kind)} ({one.quantity}).") for one in left]
 
 
-def _is_for(step: Mapping[str, Any], dims: Dimensions) -> bool:
-    """Whether a step is for a module with these dimensions, beside its kinds of part."""
+def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:
+    """Whether a step is for a module with these dimensions and choices, beside its kinds of part."""
     wanted = [getattr(dims, row) > 0.0 for row in step.get("where", ())]
     unwanted = [getattr(dims, row) > 0.0 for row in step.get("unless", ())]
-    return all(wanted) and not any(unwanted)
+    chosen = all(design.choices.get(row) == word for row, word in step.get("chosen", {}).items())
+    return chosen and all(wanted) and not any(unwanted)
 
 
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
@@ -116,26 +128,6 @@ def told() -> list[dict[str, Any]]:
     """All steps of the data file."""
     written: list[dict[str, Any]] = yaml.safe_load(_STEPS.read_text("utf-8"))
     return written
-
-
-class _Figures(dict[str, Any]):
-    """Rows by name as they are written in a text: lengths in mm, angles in degrees, counts as they are, else as rows
-    show them."""
-
-    def __init__(self, design: Design, dims: Dimensions, counts: Mapping[str, object]) -> None:
-        """`counts` are there beside the rows: of parts, and the grams of one."""
-        super().__init__(counts)
-        self._design, self._dims = design, dims
-        rows: list[Input | Output] = [*table_for(design.mode).inputs, *table_for(design.mode).outputs]
-        self._units = {row.name: row.unit for row in rows}
-
-    def __missing__(self, name: str) -> str:
-        """Value of a row."""
-        unit = self._units.get(name)
-        if unit == TORQUE:
-            return f"{self._design.value(name):.2g}"
-        value: float = getattr(self._dims, name)
-        return f"{degrees(value) if unit in ANGLES else value:.3g}"
 
 
 def _words(kind: str) -> str:

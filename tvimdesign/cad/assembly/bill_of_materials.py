@@ -104,7 +104,8 @@ def _titled(design: Design, kind: str, title: str) -> str:
     if kind in _SEALED:
         return f"{title}, sealed on both sides (2RS)"
     if kind not in _HANDS:
-        return title
+        sheet = kind == "spreader"
+        return f"{title}, {1e3 * design.value('spreader_thickness'):.3g} mm thick" if sheet else title
     wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
     turns = design.value("coil_count")
     size = f"wire {wire:.4g} mm, mean coil {coil:.4g} mm, {turns:.4g} coils, wound {_HANDS[kind]}"
@@ -124,9 +125,9 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     items += [*_of_the_heater(design), *_supply(design), *_glues(design)]
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
         record = str(design.choices["liner_adhesive"])
-        film = 1e3 * (inlay - design.value("liner_thickness"))
-        words = f"{titles.get('liner_adhesive', record)}, a film of {film:.2g} mm under each liner"
-        items.append(Item("liner_adhesive", 1, False, record, words, 0.0, ()))
+        film = inlay - design.value("liner_thickness")
+        words = f"{titles.get('liner_adhesive', record)}, a film of {1e3 * film:.2g} mm under each liner"
+        items.append(Item("liner_adhesive", 1, False, record, words, _liner_adhesive_mass(design, film), ()))
     if design.choices.get("tang_hold") == BONDED:
         mass = 1e3 * design.value("tang_adhesive_mass")
         record = str(design.choices["tang_adhesive"])
@@ -134,15 +135,26 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     return items
 
 
+def _liner_adhesive_mass(design: Design, film: float) -> float:
+    """Mass [g] of the film [m] under all liners, whose area is their volume over their thickness; zero where the table
+    has no density of it: it has that of the tangs' adhesive, which may be the same."""
+    if design.choices["liner_adhesive"] != design.choices.get("tang_adhesive"):
+        return 0.0
+    area = design.value("liner_volume") / design.value("liner_thickness")
+    return 1e3 * area * film * design.value("adhesive_density")
+
+
 def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
-    """What is made to make the module: the jig that its PCL is cast in. No part of it, and not in its mass."""
+    """What the PCL is cast with: the jig, which is made, and mould release. No part of it, and not in its mass."""
     record = str(design.choices["structure_material"])
     bears = f"of {titles.get('structure_material', record)} where that bears 80 °C, else of aluminium, PC or ABS"
-    return [
+    jig = [
         Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, (file_names.step(kind), file_names.print_3mf(kind)),
              fixture=True)
         for kind in casting_jig.MAKING
     ]  # fmt: skip
+    release = "Mould release for thermoplastics at 80 °C, wiped thinly on mould and lid"
+    return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]
 
 
 def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
@@ -170,9 +182,9 @@ def _with_spreaders(design: Design) -> list[Item]:
     if design.choices.get("heater_form", "flexible") == "flexible":
         return []
     hottest = f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
-    return [
-        Item("heat_conducting_adhesive", 1, False, "", f"Adhesive of modules and spreaders, for {hottest}", 0.0, ())
-    ]
+    area = 1e6 * design.value("peltier_area") * design.value("heater_count")
+    words = f"Adhesive of modules and spreaders, for {hottest}, a thin film over {area:.4g} mm² in all"
+    return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
 
 
 def _of_the_heater(design: Design) -> list[Item]:
@@ -183,6 +195,9 @@ def _of_the_heater(design: Design) -> list[Item]:
         through = f", through a hole of {1e3 * hole:.3g} mm" if hole else ""
         count = round(design.value("arc_count")) if hole else 1
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
+    if design.values.get("cutout_diameter", 0.0) > 0.0:
+        film = "Polyimide film with adhesive, to wrap the thermal cut-out"
+        items.append(Item("polyimide_film", 1, False, "", film, 0.0, ()))
     wire = wire_in_words(design, pad_count(design))
     return items + ([Item("heater_wire", 1, False, "", wire, 0.0, ())] if wire else [])
 

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import math
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import yaml
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
-from tvimdesign.base.units import ZERO_CELSIUS
+from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
 from tvimdesign.device.core.heat.heater_fuse import heater_fuse
 from tvimdesign.study.design import Design
 
 _HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")
 _STRONGEST = ("peak_current", "stiffening_peak_current")
 _ROUNDING = 1e-6
+_WIRES = Path(__file__).with_name("wire_ratings.yaml")
+_SENSES = "NTC 10 kohm at 25 °C with any beta: a choice, the controller must have its table"
 
 
 def up(value: float) -> str:
@@ -49,8 +56,8 @@ def thermistor_in_words(design: Design) -> str:
     rated = f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
     if design.values.get("thermistor_diameter", 0.0) > 0.0:
         size = " x ".join(f"{1e3 * design.value(name):.3g}" for name in ("thermistor_diameter", "thermistor_length"))
-        return f"Thermistor, bead of {size} mm with insulated wires, for {rated}"
-    return f"Thermistor, for {rated}, with insulated wires"
+        return f"Thermistor, bead of {size} mm with insulated wires, for {rated}; {_SENSES}"
+    return f"Thermistor, for {rated}, with insulated wires; {_SENSES}"
 
 
 def pad_count(design: Design) -> int:
@@ -66,4 +73,31 @@ def wire_in_words(design: Design, pads: int) -> str:
     if current is None:
         return ""
     rated = up(design.value("peltier_max_temperature") - ZERO_CELSIUS)
-    return f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rated} °C"
+    said = f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rated} °C"
+    wire = next((one for one in wires() if one.current >= current), None)
+    return f"{said}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {_source()})" if wire else said
+
+
+class Wire(NamedTuple):
+    """A size of stranded copper wire."""
+
+    gauge: str
+    section: float
+    """Of its copper [m2]."""
+    current: float
+    """What it bears in a bundle [A]."""
+
+
+@cache
+def wires() -> tuple[Wire, ...]:
+    """The sizes of the data file, the thinnest first."""
+    listed = yaml.safe_load(_WIRES.read_text("utf-8"))["wires"]
+    return tuple(
+        Wire(one["gauge"], parse_quantity(one["section"], "m^2"), parse_quantity(one["current"], "A")) for one in listed
+    )
+
+
+@cache
+def _source() -> str:
+    """Where the ratings are from, in words."""
+    return str(yaml.safe_load(_WIRES.read_text("utf-8"))["source"])

@@ -14,12 +14,12 @@ from tvimdesign.cad.geometry.solids import cylinder, turned
 def body(dims: Dimensions) -> cq.Shape:
     """The body, below what is centred on the x axis and across it."""
     radius, length = 0.5 * dims.cutout_diameter, dims.cutout_length
-    under = -dims.pad_depth if _fits_in_window(dims) else -dims.floor_thickness
+    under = -dims.pad_depth if fits_in_window(dims) else -dims.floor_thickness
     lying = cq.Location(cq.Vector(dims.cutout_radius, -0.5 * length, under - radius), cq.Vector(1, 0, 0), -90)
     return cylinder(radius, 0.0, length).moved(lying)
 
 
-def _fits_in_window(dims: Dimensions) -> bool:
+def fits_in_window(dims: Dimensions) -> bool:
     """Whether body and a running clearance around it go into the window below the first heater."""
     if dims.mode != "shear":
         return False

@@ -161,19 +161,42 @@ def trade_lines(front: Any, table: Table, width: int) -> list[str]:
 
 
 def chosen_lines(answer: StudyResult, table: Table, width: int) -> list[str]:
-    """What was chosen of what is listed, and by how much the next two are worse, with what they have instead."""
+    """What was chosen of what is listed, and by how much the next two are worse, with what they have instead.
+
+    Combinations are ranked without margins. Where a study asks for margins, the design's own choice can be another
+    one than the best of the ranking: the line names the design's, and says how the ranking was made.
+    """
     choosing = answer.solution.choosing if answer.solution else None
     if choosing is None or not choosing.best:
         return []
     best = choosing.best[0]
-    words = [f"{name} {_choice(name, word, table)}" for name, word in best.choices.items()]
-    others = [f"best of {choosing.combinations} combinations"]
+    own = {name: _choice(name, _of_design(answer, name, word), table) for name, word in best.choices.items()}
+    words = [f"{name} {word}" for name, word in own.items()]
+    count = f"of {choosing.combinations} combinations"
+    first = _instead(best.choices, own, table)
+    if not answer.design.study.get("robust"):
+        others = [f"best {count}"]
+    elif first:
+        others = [f"with margins, {count}", f"ranked without margins, the best is {', '.join(first)}"]
+    else:
+        others = [f"best {count}, ranked without margins"]
     for place, one in zip(("next", "third"), choosing.best[1:], strict=False):
         worse = 100.0 * (one.objective / best.objective - 1.0)
-        instead = [f"{name} {_choice(name, word, table)}" for name, word in one.choices.items()
-                   if _choice(name, word, table) != _choice(name, best.choices[name], table)]  # fmt: skip
+        instead = _instead(one.choices, own, table) or ["the one chosen"]
         others.append(f"the {place} is {worse:.2g} % worse: {', '.join(instead)}")
     return joined("Chosen", [*words, *others], width)
+
+
+def _of_design(answer: StudyResult, name: str, listed: str | float) -> str | float:
+    """The design's own choice of a record or a size, which is `listed` in the ranking."""
+    own = answer.design.choices.get(name) if isinstance(listed, str) else answer.design.values.get(name)
+    return listed if own is None else own
+
+
+def _instead(choices: Mapping[str, str | float], own: Mapping[str, str], table: Table) -> list[str]:
+    """What a combination has that the design has not, in words."""
+    shown = {name: _choice(name, word, table) for name, word in choices.items()}
+    return [f"{name} {word}" for name, word in shown.items() if word != own[name]]
 
 
 def _choice(name: str, word: str | float, table: Table) -> str:
