@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from math import floor
+from math import floor, hypot
 from pathlib import Path
 from typing import Any
 
@@ -53,6 +53,10 @@ class Seat:
     """Of the datum its axis is."""
     mates: str = ""
     """Kind of the bought part that sits there, if any."""
+    from_axis: float = 0.0
+    """Distance of its own axis from the part's."""
+    concave: bool = True
+    """Whether material is outside, as around a bore."""
 
 
 @dataclass(frozen=True)
@@ -112,9 +116,14 @@ class DrawingRequirements:
                 return one
         return None
 
-    def seat(self, diameter: float) -> Seat | None:
-        """The seat that is drawn with a diameter, if any."""
-        return next((one for one in self.seats if abs(one.drawn - diameter) < _SAME), None)
+    def seat(self, face: Cylinder) -> Seat | None:
+        """What seat a round face is, if any: of its diameter, at its distance from the axis, a bore or a journal."""
+        away = hypot(face.x, face.y)
+        for one in self.seats:
+            same_size = abs(one.drawn - 2.0 * face.radius) < _SAME
+            if same_size and abs(one.from_axis - away) < _SAME and one.concave == face.concave:
+                return one
+        return None
 
     def thread(self, hole: Cylinder) -> ThreadCallout | None:
         """What is cut in a hole, if anything: other holes of its diameter have another depth."""
@@ -207,7 +216,7 @@ def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
         frames = _bearing_frames(size)
     return Seat(
         reported["about"], size, drawn, fit, limits, reported["roughness"], reported.get("form", ""), tuple(frames),
-        letter, reported.get("mates", ""),
+        letter, reported.get("mates", ""), getattr(dims, reported["circle"]) if "circle" in reported else 0.0, inside,
     )  # fmt: skip
 
 

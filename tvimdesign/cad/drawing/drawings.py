@@ -36,7 +36,9 @@ def part_sheet(
     """
     plan, front = from_above(solid), section(solid)
     found = upright_cylinders(solid)
-    central = {2.0 * one.radius: one for one in found if one.is_central and one.is_round}
+    about_axis = [one for one in found if one.is_central and one.is_round]
+    # Of two with one diameter that which is a seat is dimensioned.
+    central = {2.0 * one.radius: one for one in sorted(about_axis, key=lambda one: asked.seat(one) is not None)}
     rows = feature_rows(solid, asked)
     rows = with_datum(rows) if asked.general and not central else rows
     beside = _beside(rows)
@@ -109,7 +111,7 @@ def _draw_section(
 def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], asked: DrawingRequirements) -> None:
     """Diameters about the axis with their fits, the smallest nearest, above the section; the datum beside its own."""
     top, left = front.view.bounds[3], front.view.bounds[0]
-    seats = [asked.seat(2.0 * one.radius) for one in round_faces]
+    seats = [asked.seat(one) for one in round_faces]
     has_seat = any(seat and seat.letter for seat in seats)
     for index, (one, seat) in enumerate(zip(round_faces, seats, strict=True)):
         level = top + front.paper(FIRST + index * NEXT)

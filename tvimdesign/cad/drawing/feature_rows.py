@@ -110,7 +110,7 @@ def _hole_key(one: Cylinder) -> Hashable:
 def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
     def told(group: list[Cylinder]) -> FeatureRow:
         one = group[0]
-        thread, seat, screw = asked.thread(one), asked.seat(2.0 * one.radius), asked.clearance_hole(one)
+        thread, seat, screw = asked.thread(one), asked.seat(one), asked.clearance_hole(one)
         about = next((reported.about for reported in (thread, seat, screw) if reported), "")
         frames = thread.frames if thread else screw.frames if screw else ()
         size = thread.designation if thread else sized(one, asked)
@@ -127,7 +127,7 @@ def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], Feat
 
 def sized(one: Cylinder, asked: DrawingRequirements) -> str:
     """A diameter with its fit."""
-    seat = asked.seat(2.0 * one.radius)
+    seat = asked.seat(one)
     return f"⌀{figure(seat.size)} {seat.fit}" if seat and seat.fit else f"⌀{figure(2.0 * one.radius)}"
 
 
@@ -210,7 +210,7 @@ def _arc_key(one: Cylinder) -> Hashable:
 def _told_of_arc(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
     def told(group: list[Cylinder]) -> FeatureRow:
         one = group[0]
-        size = sized(one, asked) if asked.seat(2.0 * one.radius) else f"R{figure(one.radius)}"
+        size = sized(one, asked) if asked.seat(one) else f"R{figure(one.radius)}"
         over = f"{figure(degrees(one.span))}°"
         if one.is_central:
             place = f"about the axis over {over}, middle {around(_azimuths([other.middle for other in group]))}"
