@@ -79,6 +79,7 @@ def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Ma
             faces_are_told(kind, solid, rows, document)
             no_text_lies_on_another(kind, document)
             no_leader_crosses_another(kind, document)
+            no_number_lies_on_a_section_s_mark(kind, document)
 
 
 def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Drawing) -> None:
@@ -138,6 +139,34 @@ def no_leader_crosses_another(kind: str, document: Drawing) -> None:
             first = (gap[0] * across[1] - gap[1] * across[0]) / turn
             second = (gap[0] * along[1] - gap[1] * along[0]) / turn
             assert not (0.0 <= first <= 1.0 and 0.0 <= second <= 1.0), f"{kind}: leaders cross at {start}, {other}"
+
+
+def no_number_lies_on_a_section_s_mark(kind: str, document: Drawing) -> None:
+    """Circles around numbers against straight strokes and arrows: a plan's own outlines are chains."""
+    space = document.modelspace()
+    strokes = [(one.dxf.start, one.dxf.end) for one in space.query("LINE") if one.dxf.layer in ("OUTLINE", "FINE")]
+    arrows = [(one.dxf.vtx0, one.dxf.vtx2) for one in space.query("SOLID")]
+    # The wider circles of the layer; the others are the leaders' ends.
+    circles = [one.dxf for one in space.query("CIRCLE") if one.dxf.layer == "DIMENSION"]
+    largest = max((one.radius for one in circles), default=0.0)
+    for circle in (one for one in circles if one.radius == largest):
+        for start, end in (*strokes, *arrows):
+            share = min(1.0, max(0.0, (circle.center - start).dot(end - start) / (end - start).magnitude ** 2))
+            gap = circle.center.distance(start.lerp(end, share)) - circle.radius
+            assert gap > 0.0, f"{kind}: the number at {circle.center} lies on the mark from {start} to {end}"
+
+
+@pytest.mark.parametrize(
+    ("case", "kind"), [("paper", "link"), ("paper", "peltier_pad"), ("tiles", "peltier_pad"), ("blocks", "pcl_block")]
+)
+def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
+    mode, changes = CASES[case]
+    design = design_of("marked", changes, mode)
+    sheet = sheet_of(design, kind, drawn_part(dimensions(design), kind))
+    document = ezdxf.read(io.StringIO(sheet.dxf().decode()))
+    assert {"A", "1"} <= set(texts(document))
+    no_number_lies_on_a_section_s_mark(kind, document)
+    no_leader_crosses_another(kind, document)
 
 
 def test_one_height_is_told_alike_wherever_it_stands() -> None:

@@ -16,7 +16,7 @@ from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.feature_table import draw_tables, table_height, with_datum
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
 from tvimdesign.cad.drawing.number_text import figure
-from tvimdesign.cad.drawing.placed_view import PlacedView, apart
+from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, half_section, section
 from tvimdesign.cad.drawing.sheet_layout import FIRST, NEXT, layout
 from tvimdesign.cad.export.step_file import Product
@@ -46,7 +46,7 @@ def part_sheet(
     place = layout(plan, front, half, len(central), table_height(rows, asked))
     sheet = DrawingSheet(place.scale, place.form)
     placed_plan, placed_front = PlacedView(sheet, plan, place.plan), PlacedView(sheet, front, place.front)
-    letters = _draw_plan(placed_plan, found, asked, half, beside)
+    marks = _draw_plan(placed_plan, found, asked, half, beside)
     _draw_section(placed_front, "A – A", solid, found, asked, 0.0)
     if half:
         _draw_section(PlacedView(sheet, half, place.half), "D – D", solid, found, asked, beside)
@@ -56,7 +56,7 @@ def part_sheet(
     _dimension_extent(placed_front, sorted(central))
     _dimension_levels(placed_front, levels(solid))
     draw_tables(sheet, rows, asked)
-    draw_balloons(placed_plan, rows, place.room, letters)
+    draw_balloons(placed_plan, rows, place.room, marks)
     _words(sheet, kind, solid, what, module, asked, material or what.material)
     return sheet
 
@@ -72,8 +72,8 @@ def _beside(rows: Sequence[FeatureRow]) -> float:
 
 def _draw_plan(
     plan: PlacedView, found: Sequence[Cylinder], asked: DrawingRequirements, half: View | None, beside: float
-) -> list[tuple[float, float]]:
-    """The view from above with its axes, its threads, and where the sections are taken; returns the letters' places."""
+) -> list[CuttingMark]:
+    """The view from above with its axes, its threads, and where the sections are taken; returns the marks of these."""
     plan.draw()
     plan.centre_lines([one for one in found if one.is_round])
     plan.threads([(one.x, one.y, _screw(one, asked)) for one in found if one.is_round and asked.thread(one)])

@@ -12,6 +12,16 @@ from tvimdesign.cad.geometry.features import Cylinder
 
 
 @dataclass(frozen=True)
+class CuttingMark:
+    """What shows on paper where a section is taken [mm]."""
+
+    letter: tuple[float, float]
+    """Middle of its letter."""
+    corners: tuple[tuple[float, float], ...]
+    """From the inner end of the thick stroke over the corner to the arrow's tip."""
+
+
+@dataclass(frozen=True)
 class PlacedView:
     """A view on a sheet, its own origin at a place on paper."""
 
@@ -23,6 +33,10 @@ class PlacedView:
         """Where a point of the view is in the drawing's coordinates."""
         left, bottom = self.sheet.at(self.origin)
         return left + x, bottom + y
+
+    def on_paper(self, x: float, y: float) -> tuple[float, float]:
+        """Where a point of the view is on paper [mm]."""
+        return self.origin[0] + x * self.sheet.scale, self.origin[1] + y * self.sheet.scale
 
     def paper(self, length: float) -> float:
         """A length on paper [mm] in the drawing's coordinates."""
@@ -95,11 +109,8 @@ class PlacedView:
             self.line((x - arm, y), (x + arm, y))
             self.line((x, y - arm), (x, y + arm))
 
-    def cutting_mark(self, letter: str, azimuth: float, reach: float) -> tuple[float, float]:
-        """Mark where a section is taken, `reach` from the axis at an azimuth [rad], with an arrow as it is looked at.
-
-        Returns where on paper its letter stands.
-        """
+    def cutting_mark(self, letter: str, azimuth: float, reach: float) -> CuttingMark:
+        """Mark where a section is taken, `reach` from the axis at an azimuth [rad]: an arrow as it is looked at."""
         out, beside = (cos(azimuth), sin(azimuth)), (-sin(azimuth), cos(azimuth))
         if cos(azimuth) < -0.5:  # the far end of a section across the axis is looked at the same way
             beside = (sin(azimuth), -cos(azimuth))
@@ -112,10 +123,9 @@ class PlacedView:
         self.line(at(8.0, 0.0), at(8.0, 5.0), "FINE")
         arrow = [self.at(*at(8.0 + half, 2.75)) for half in (-0.8, 0.8)]
         self.sheet.space.add_solid([*arrow, self.at(*at(8.0, 5.0))], dxfattribs={"layer": "FINE"})
-        x, y = at(8.0, -3.5)
-        place = self.origin[0] + x * self.sheet.scale, self.origin[1] + y * self.sheet.scale
+        place = self.on_paper(*at(8.0, -3.5))
         self.sheet.text(letter, place, 3.5, "MIDDLE_CENTER")
-        return place
+        return CuttingMark(place, tuple(self.on_paper(*at(*corner)) for corner in ((3.0, 0.0), (8.0, 0.0), (8.0, 5.0))))
 
     def threads(self, screws: Sequence[tuple[float, float, float]]) -> None:
         """Draw threads of holes from above, three quarters of a thin circle each (ISO 6410-1).
@@ -146,9 +156,7 @@ class PlacedView:
         self.line((x, bottom - tall), (x, middle + box), "FINE")
         corners = [(x + right * box, middle + up * box) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))]
         self.sheet.space.add_lwpolyline([self.at(*corner) for corner in corners], dxfattribs={"layer": "FINE"})
-        scale = self.sheet.scale
-        place = self.origin[0] + x * scale, self.origin[1] + middle * scale
-        self.sheet.text(letter, place, 2.8, "MIDDLE_CENTER")
+        self.sheet.text(letter, self.on_paper(x, middle), 2.8, "MIDDLE_CENTER")
 
     def datum(self, letter: str, end: tuple[float, float], x: float) -> None:
         """Mark what is dimensioned with an arrow at `end` as a datum by ISO 5459: its letter in a box at `x`."""
@@ -163,8 +171,7 @@ class PlacedView:
             (x + right * beside, end[1] + up * beside) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
         ]
         self.sheet.space.add_lwpolyline([self.at(*corner) for corner in corners], dxfattribs={"layer": "FINE"})
-        place = self.origin[0] + x * self.sheet.scale, self.origin[1] + end[1] * self.sheet.scale
-        self.sheet.text(letter, place, 2.8, "MIDDLE_CENTER")
+        self.sheet.text(letter, self.on_paper(x, end[1]), 2.8, "MIDDLE_CENTER")
 
 
 def apart(wanted: Sequence[float], least: float) -> list[float]:
