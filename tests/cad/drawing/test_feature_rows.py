@@ -6,7 +6,7 @@ import io
 import re
 from collections.abc import Mapping
 from itertools import combinations
-from math import atan2, degrees, hypot, pi
+from math import atan2, cos, degrees, hypot, pi, sin
 
 import cadquery as cq
 import ezdxf
@@ -61,6 +61,35 @@ def test_a_plate_s_pockets_slots_and_holes_are_told_with_width_depth_and_azimuth
     ))  # fmt: skip
 
 
+def test_walls_are_told_by_a_distance_and_the_way_they_face_and_no_two_alike() -> None:
+    # A pocket of 60 degrees from x on, 3 deep; a hole through the wall at its end makes two walls of that.
+    pocket = turned(sector(12.0, 30.0, pi / 3.0, 7.0, 10.0), pi / 6.0)
+    x, y = 20.0 * cos(pi / 3.0), 20.0 * sin(pi / 3.0)
+    disc = cylinder(40.0, 0.0, 10.0).cut(pocket, cylinder(3.0, 0.0, 10.0, (x, y)))
+    walls = [text for text in told(disc) if text.startswith("wall")]
+    assert sorted(walls) == [
+        "wall through the axis, R12 to R17 at 60°, faces clockwise, h 7 to 10 (3)",
+        "wall through the axis, R12 to R30 at 0°, faces counter-clockwise, h 7 to 10 (3)",
+        "wall through the axis, R23 to R30 at 60°, faces clockwise, h 7 to 10 (3)",
+    ]
+    # An upright prism on three corners, its sides 4 from the axis and out of it, and a pit of that form.
+    corners = [(8.0 * cos(2.0 * pi * corner / 3.0), 8.0 * sin(2.0 * pi * corner / 3.0)) for corner in range(3)]
+    prism = cq.Workplane().polyline(corners).close().extrude(5.0).val()
+    assert isinstance(prism, cq.Solid)
+    assert told(prism) == ["3× wall 4 from the axis, faces outwards every 120° from 60°, h 0 to 5 (5)"]
+    pit = cylinder(20.0, 0.0, 10.0).cut(prism)
+    assert told(pit) == ["3× wall 4 from the axis, faces inwards every 120° from 0°, h 0 to 5 (5)"]
+    # A rib from x 5 to 20 and y -20 to 20 that a notch breaks at y 4 to 6: flats of two lengths.
+    notch = block((4.0, 21.0), 2.0, 0.0, 4.0).moved(cq.Location(cq.Vector(0.0, 5.0, 0.0)))
+    ribs = cylinder(40.0, -2.0, 0.0).fuse(block((5.0, 20.0), 40.0, 0.0, 4.0).cut(notch))
+    alike = "flats 15 wide, mid-plane 12.5 from the axis, square to azimuths at 0°"
+    assert sorted(text for text in told(ribs) if text.startswith(alike)) == [
+        # At x = 20: y from 4 to -20, and from 6 to 20.
+        f"{alike}, R20.4 to R28.28, h 2 to 6 (4)",
+        f"{alike}, R20.88 to R28.28, h 2 to 6 (4)",
+    ]
+
+
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)
 def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
     design = design_of("dimensioned", changes, mode)
@@ -72,6 +101,7 @@ def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Ma
             document = ezdxf.read(io.StringIO(sheet_of(design, kind, solid).dxf().decode()))
             said = texts(document)
             assert all(row.text in said for row in rows), kind
+            assert len({row.text for row in rows}) == len(rows), kind
             for index, row in enumerate(rows, start=1):
                 assert said.count(str(index)) >= (2 if row.points else 1), (
                     f"{kind}: {row.text} has no number in the plan"
@@ -125,7 +155,11 @@ def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
         return any(
             abs(abs(offset) - abs(abs(float(away[0])) + side * 0.5 * float(width))) < 0.02 for side in (-1.0, 1.0)
         )
-    return row.what == "wall" and row.size == f"{figure(offset)} from the axis"
+    if row.what == "wall" and abs(offset) < 1e-3:
+        azimuth = f"{figure(degrees(atan2(middle.y, middle.x)) % 360.0)}°"
+        return row.size == "through the axis" and (azimuth in row.place or not row.place.startswith("R"))
+    is_behind = "faces inwards" in row.place
+    return row.what == "wall" and row.size == f"{figure(abs(offset))} from the axis" and is_behind == (offset < 0.0)
 
 
 def no_leader_crosses_another(kind: str, document: Drawing) -> None:

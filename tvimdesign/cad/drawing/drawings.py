@@ -57,7 +57,7 @@ def part_sheet(
     _dimension_levels(placed_front, levels(solid))
     draw_tables(sheet, rows, asked)
     draw_balloons(placed_plan, rows, place.room, marks)
-    _words(sheet, kind, solid, what, module, asked, material or what.material)
+    _words(sheet, kind, solid, what, module, asked, material or what.material, any(row.what == "wall" for row in rows))
     return sheet
 
 
@@ -159,7 +159,7 @@ def _dimension_levels(front: PlacedView, heights: Sequence[float]) -> None:
 
 def _words(
     sheet: DrawingSheet, kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements,
-    material: str,
+    material: str, has_walls: bool,
 ) -> None:  # fmt: skip
     """Notes and title block."""
     volume = solid.Volume()
@@ -167,7 +167,7 @@ def _words(
     notes = [
         "Millimetres. Heights h are over the lowest face; in brackets what lies between.",
         "Azimuths count from x, to the right, counter-clockwise in the plan.",
-        "Walls: distance from the axis along the way they face.",
+        *(["Walls: distance of their plane from the axis, azimuth of the way they face."] if has_walls else []),
         f"Exact shape: {file_names.step(kind)}.",
         *asked.notes,
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),

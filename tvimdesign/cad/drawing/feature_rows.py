@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import atan2, cos, degrees, hypot, pi, sin
@@ -74,7 +75,7 @@ def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow
         *_like(_told_of_arc(asked), [one for one in arcs if not is_corner(one)], _arc_key),
         *_like(_told_of_corners, [one for one in arcs if is_corner(one)], lambda one: round(one.radius, 4)),
     ]
-    return [_over(row, box.zmin, box.zmax) for row in rows]
+    return _unlike([_over(row, box.zmin, box.zmax) for row in rows])
 
 
 def is_corner(one: Cylinder) -> bool:
@@ -189,15 +190,48 @@ def _along(normal: float) -> float:
 
 def _wall_key(one: Wall) -> Hashable:
     reach = sorted((round(abs(one.start), 3), round(abs(one.end), 3)))
-    return round(one.offset, 3), *reach, one.bottom, one.top
+    return round(one.offset, 3), *reach, one.bottom, one.top, one.is_radial and _faces_onwards(one)
+
+
+def _faces_onwards(one: Wall) -> bool:
+    """Whether a wall through the axis faces counter-clockwise."""
+    x, y = one.middle
+    return sin(one.outwards - atan2(y, x)) > 0.0
 
 
 def _told_of_wall(group: list[Wall]) -> FeatureRow:
+    """Where its plane is and which way it faces: along that way the plane is before or behind the axis."""
     one = group[0]
-    size = f"{figure(one.offset)} from the axis"
-    place = f"faces {around(_azimuths([other.outwards for other in group]))}"
-    points = tuple(other.middle for other in group)
-    return FeatureRow("wall", size, place, one.bottom, one.top, points=points, of=tuple(group))
+    size = "through the axis" if abs(one.offset) < _SAME else f"{figure(abs(one.offset))} from the axis"
+    faced = _azimuths([other.outwards for other in group])
+    middles = [other.middle for other in group]
+    if one.is_radial:
+        way = "counter-clockwise" if _faces_onwards(one) else "clockwise"
+        place = f"{_reach(one)} {around(_directions(middles))}, faces {way}"
+    else:
+        way = "" if abs(one.offset) < _SAME else " outwards" if one.offset > 0.0 else " inwards"
+        # Two that face one way stand beside each other, as far to the left as to the right.
+        both = "" if len(set(faced)) == len(faced) else ", two beside each other"
+        place = f"faces{way} {around(sorted(set(faced)))}{both}"
+    return FeatureRow("wall", size, place, one.bottom, one.top, points=tuple(middles), of=tuple(group))
+
+
+def _reach(one: Wall) -> str:
+    near, far = one.radii
+    return f"R{figure(near)} to R{figure(far)}"
+
+
+def _unlike(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
+    """The rows, with the ends of walls told where nothing else tells these from those of another row."""
+    alike = Counter(row.text for row in rows)
+    told = []
+    for row in rows:
+        wall = row.of[0] if row.what in ("slot", "flats", "wall") else None
+        if alike[row.text] > 1 and isinstance(wall, Wall):
+            told.append(replace(row, place=f"{row.place}, {_reach(wall)}"))
+        else:
+            told.append(row)
+    return told
 
 
 # --- arcs ------------------------------------------------------------------------------------------------------------
