@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from math import atan2, cos, degrees, hypot, pi, sin
 
 import cadquery as cq
 import ezdxf
+import numpy as np
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, design_of
 from ezdxf.document import Drawing
@@ -20,6 +21,7 @@ from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows
 from tvimdesign.cad.drawing.number_text import figure
+from tvimdesign.cad.drawing.projection import half_section, section
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.geometry.solids import block, cylinder, sector, turned
@@ -201,6 +203,28 @@ def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
     assert {"A", "1"} <= set(texts(document))
     no_number_lies_on_a_section_s_mark(kind, document)
     no_leader_crosses_another(kind, document)
+
+
+def test_a_housing_with_vanes_and_threads_has_a_section_through_the_middle_of_a_vane() -> None:
+    design = design_of("vanes", BEARING_BLOCKS, "compression")
+    dims = dimensions(design)
+    solid = drawn_part(dims, "housing")
+    hatched = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode())).modelspace().query("HATCH")
+    loops = [path.vertices for one in hatched for path in one.paths.paths]
+    # The rotor's vanes are drawn on x, the housing's in the middle between them.
+    through_vane = (*section(solid).cut, *half_section(solid, pi / dims.count("vane_count")).cut)
+    expected = [outline.points for face in through_vane for outline in face]
+    assert sorted(map(area, loops)) == pytest.approx(sorted(map(area, expected)))
+    assert sorted(map(area, expected)) != pytest.approx(
+        sorted(area(outline.points) for face in (*section(solid).cut, *half_section(solid, 0.25 * pi).cut)
+               for outline in face)
+    )  # fmt: skip
+
+
+def area(corners: Sequence[Sequence[float]]) -> float:
+    """Of a polygon."""
+    x, y = np.array([corner[:2] for corner in corners]).T
+    return abs(0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
 
 def test_one_height_is_told_alike_wherever_it_stands() -> None:

@@ -23,8 +23,11 @@ from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.production import PRODUCTION
 
-_BESIDE = ("pocket", "thread", "vane", "hole", "slot")
-"""Features that are looked for beside the section's plane, the first before the others."""
+_BESIDE = ("pocket", "vane", "thread", "hole", "slot")
+"""Features that are looked for beside the section's plane, the first before the others.
+
+A thread is told in full by its row; a vane, with its slots and steps, is seen only where it is cut.
+"""
 
 
 def part_sheet(
