@@ -134,6 +134,22 @@ def test_a_hole_as_wide_as_a_dowel_pin_is_its_seat_on_the_pins_circle_alone() ->
     assert all(one.top == pytest.approx(dims.link_bottom_level) for one in seats)
 
 
+@pytest.mark.parametrize("case", ["tiles", "tiles in vanes", "paper", "blocks"])
+def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
+    mode, overrides = CASES[case]
+    design = design_of(case, overrides, mode)
+    dims = dimensions(design)
+    sheet = sheet_of(design, "peltier_pad", drawn_part(dims, "peltier_pad"))
+    said = [one.dxf.text for one in sheet.document.modelspace().query("TEXT")]
+    is_whole = case.startswith("tiles")
+    assert ("nominal sizes; limits as the maker's" in said) == is_whole
+    assert any("+0 / −0.1" in text for text in said) != is_whole  # the others are ordered to their outline
+    assert not any("axis" in text or "middle at" in text for text in said)
+    if is_whole:
+        assert not any("°" in text or "Azimuth" in text for text in said)
+        assert sum(text.startswith("flats ") for text in said) == 2
+
+
 def test_every_seat_is_a_face_of_its_part() -> None:
     for case, mode, kinds in (
         (BEARING_BLOCKS, "compression", ("housing", "rotor", "adjuster", "cover")),

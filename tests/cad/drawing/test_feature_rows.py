@@ -14,6 +14,8 @@ import numpy as np
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, design_of
 from ezdxf.document import Drawing
+from ezdxf.entities import Hatch
+from ezdxf.entities.boundary_paths import PolylinePath
 from test_drawings import measured, no_text_lies_on_another, sheet_of, texts
 
 from tvimdesign.cad.assembly.assembly import drawn_part
@@ -131,7 +133,9 @@ def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document:
                 f"{kind}: cylinder R{radius} {heights}"
             )
         elif abs(face.normalAt().z) < 1e-9:
-            assert any(wall_is_told(row, face) for row in level), f"{kind}: wall at {face.Center()} {heights}"
+            assert any(wall_is_told(row, face) or width_is_told(row, face, solid) for row in level), (
+                f"{kind}: wall at {face.Center()} {heights}"
+            )
 
 
 def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
@@ -140,6 +144,13 @@ def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
     if row.what in ("corners", "pocket", "vane", "sector") or from_axis < 1e-6:
         return is_sized
     return is_sized and (f"on ⌀{figure(2.0 * from_axis)} " in row.place or row.place.startswith(("x ", "over")))
+
+
+def width_is_told(row: FeatureRow, face: cq.Face, solid: cq.Solid) -> bool:
+    """Whether a row without a place, as of what is bought, tells how wide the part is across a face."""
+    normal = face.normalAt()
+    across = [vertex.X * normal.x + vertex.Y * normal.y for vertex in solid.Vertices()]
+    return not row.place and row.size == f"{figure(max(across) - min(across))} wide"
 
 
 def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
@@ -158,8 +169,8 @@ def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
             abs(abs(offset) - abs(abs(float(away[0])) + side * 0.5 * float(width))) < 0.02 for side in (-1.0, 1.0)
         )
     if row.what == "wall" and abs(offset) < 1e-3:
-        azimuth = f"{figure(degrees(atan2(middle.y, middle.x)) % 360.0)}°"
-        return row.size == "through the axis" and (azimuth in row.place or not row.place.startswith("R"))
+        at = f"{figure(degrees(atan2(middle.y, middle.x)) % 360.0)}°"
+        return row.size == "through the axis" and (at in row.place or not row.place.startswith("R"))
     is_behind = "faces inwards" in row.place
     return row.what == "wall" and row.size == f"{figure(abs(offset))} from the axis" and is_behind == (offset < 0.0)
 
@@ -209,8 +220,10 @@ def test_a_housing_with_vanes_and_threads_has_a_section_through_the_middle_of_a_
     design = design_of("vanes", BEARING_BLOCKS, "compression")
     dims = dimensions(design)
     solid = drawn_part(dims, "housing")
-    hatched = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode())).modelspace().query("HATCH")
-    loops = [path.vertices for one in hatched for path in one.paths.paths]
+    document = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode()))
+    hatched = [one for one in document.modelspace().query("HATCH") if isinstance(one, Hatch)]
+    paths = [path for one in hatched for path in one.paths.paths if isinstance(path, PolylinePath)]
+    loops = [path.vertices for path in paths]
     # The rotor's vanes are drawn on x, the housing's in the middle between them.
     through_vane = (*section(solid).cut, *half_section(solid, pi / dims.count("vane_count")).cut)
     expected = [outline.points for face in through_vane for outline in face]

@@ -107,6 +107,8 @@ class DrawingRequirements:
     clearance_holes: Sequence[ClearanceHole] = ()
     general: tuple[Frame, ...] = ()
     """What holds for every face without a tolerance of its own: ISO 22081."""
+    placed: bool = True
+    """Whether places from the joint's axis are told: not of what is bought, and put where the assembly's note says."""
 
     def clearance_hole(self, hole: Cylinder) -> ClearanceHole | None:
         """What passes through a hole, if it is one for a screw."""
@@ -143,7 +145,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
     ]  # fmt: skip
     threads = [one for one in reported["threads"].get(kind, ()) if _is_there(one, dims)]
     holes = [one for one in reported["clearance_holes"].get(kind, ()) if _is_there(one, dims)]
-    general = reported["of_kind"].get(kind, reported["general"][method])
+    general = _of_kind(kind, dims) or reported["general"][method]
     is_milled = method == "milled" and kind not in reported["of_kind"]
     return DrawingRequirements(
         tolerances=general["tolerances"],
@@ -158,7 +160,15 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         threads=[_thread(one, dims, is_milled) for one in threads],
         clearance_holes=[_clearance_hole(one, dims, is_milled) for one in holes],
         general=(Frame("profile", general["profile"], GROUND + DATUM),) if is_milled else (),
+        placed=general.get("placed", True),
     )
+
+
+def _of_kind(kind: str, dims: Dimensions) -> dict[str, Any]:
+    """What is told of a part that the module's process does not make, and of one that is bought as it is."""
+    general: dict[str, Any] = told()["of_kind"].get(kind, {})
+    whole = general.get("whole")
+    return general | whole if whole and getattr(dims, whole["where"]) else general
 
 
 def _clearance_hole(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ClearanceHole:

@@ -28,6 +28,8 @@ _BESIDE = ("pocket", "vane", "thread", "hole", "slot")
 
 A thread is told in full by its row; a vane, with its slots and steps, is seen only where it is cut.
 """
+_AZIMUTHS = "Azimuths count from x, to the right, counter-clockwise in the plan."
+_WALLS = "Walls: distance of their plane from the axis, azimuth of the way they face."
 
 
 def part_sheet(
@@ -60,7 +62,7 @@ def part_sheet(
     _dimension_levels(placed_front, levels(solid))
     draw_tables(sheet, rows, asked)
     draw_balloons(placed_plan, rows, place.room, marks)
-    _words(sheet, kind, solid, what, module, asked, material or what.material, any(row.what == "wall" for row in rows))
+    _words(sheet, kind, solid, what, module, asked, material or what.material, rows)
     return sheet
 
 
@@ -162,15 +164,15 @@ def _dimension_levels(front: PlacedView, heights: Sequence[float]) -> None:
 
 def _words(
     sheet: DrawingSheet, kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements,
-    material: str, has_walls: bool,
+    material: str, rows: Sequence[FeatureRow],
 ) -> None:  # fmt: skip
     """Notes and title block."""
     volume = solid.Volume()
     lying = "standing as in the section" if PRODUCTION[kind].down == "bottom" else "turned over"
     notes = [
         "Millimetres. Heights h are over the lowest face; in brackets what lies between.",
-        "Azimuths count from x, to the right, counter-clockwise in the plan.",
-        *(["Walls: distance of their plane from the axis, azimuth of the way they face."] if has_walls else []),
+        *([_AZIMUTHS] if any("°" in row.place for row in rows) else []),
+        *([_WALLS] if any(row.what == "wall" for row in rows) else []),
         f"Exact shape: {file_names.step(kind)}.",
         *asked.notes,
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),

@@ -21,6 +21,8 @@ Point = tuple[float, float]
 T = TypeVar("T")
 _CORNER = 2.0
 """Radius [mm] up to which an arc is the corner of a pocket, whose place its walls say."""
+_BODY = ("flats", "sector")
+"""What a part is as a whole, whose place is that of the part."""
 _SAME = 1e-3
 """Distance [mm] below which two places are one."""
 
@@ -51,7 +53,7 @@ class FeatureRow:
     def text(self) -> str:
         """The line of the table."""
         many = f"{self.count}× " if self.count > 1 else ""
-        return f"{many}{self.what} {self.size}, {self.place}, {self.heights}"
+        return ", ".join(filter(None, (f"{many}{self.what} {self.size}", self.place, self.heights)))
 
     @property
     def heights(self) -> str:
@@ -75,6 +77,7 @@ def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow
         *_like(_told_of_arc(asked), [one for one in arcs if not is_corner(one)], _arc_key),
         *_like(_told_of_corners, [one for one in arcs if is_corner(one)], lambda one: round(one.radius, 4)),
     ]
+    rows = [row if asked.placed or row.what not in _BODY else replace(row, place="") for row in rows]
     return _unlike([_over(row, box.zmin, box.zmax) for row in rows])
 
 
