@@ -204,14 +204,17 @@ def no_number_lies_on_a_section_s_mark(kind: str, document: Drawing) -> None:
 
 
 @pytest.mark.parametrize(
-    ("case", "kind"), [("paper", "link"), ("paper", "peltier_pad"), ("tiles", "peltier_pad"), ("blocks", "pcl_block")]
-)
+    ("case", "kind"),
+    [("paper", "link"), ("paper", "peltier_pad"), ("tiles", "peltier_pad"), ("blocks", "pcl_block"),
+     ("bearings", "adjuster")],  # whose two sections are taken near each other
+)  # fmt: skip
 def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
     mode, changes = CASES[case]
     design = design_of("marked", changes, mode)
     sheet = sheet_of(design, kind, drawn_part(dimensions(design), kind))
     document = ezdxf.read(io.StringIO(sheet.dxf().decode()))
     assert {"A", "1"} <= set(texts(document))
+    no_text_lies_on_another(kind, document)
     no_number_lies_on_a_section_s_mark(kind, document)
     no_leader_crosses_another(kind, document)
 

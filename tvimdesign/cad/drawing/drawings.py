@@ -84,7 +84,7 @@ def _draw_plan(
     plan.threads([(one.x, one.y, _screw(one, asked)) for one in found if one.is_round and asked.thread(one)])
     left, right = plan.view.bounds[:2]
     marks = [plan.cutting_mark("A", 0.0, right), plan.cutting_mark("A", radians(180.0), -left)]
-    return [*marks, plan.cutting_mark("D", beside, half.bounds[1])] if half else marks
+    return [*marks, plan.cutting_mark("D", beside, half.bounds[1], marks)] if half else marks
 
 
 def _screw(one: Cylinder, asked: DrawingRequirements) -> float:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, cos, degrees, hypot, sin
+from itertools import pairwise
+from math import atan2, cos, degrees, dist, hypot, sin
 
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.drawing.projection import Arc, Chain, View
 from tvimdesign.cad.geometry.features import Cylinder
+
+_CLEAR = 4.5
+"""Least distance of the letters and strokes of two sections [mm]: letters are 3.5 high."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,17 @@ class CuttingMark:
     """Middle of its letter."""
     corners: tuple[tuple[float, float], ...]
     """From the inner end of the thick stroke over the corner to the arrow's tip."""
+    barbs: tuple[tuple[float, float], ...]
+    """Both ends of the arrow's back."""
+
+    def lies_on(self, other: CuttingMark) -> bool:
+        """Whether it is so near to another that letters or strokes touch."""
+        return any(dist(one, far) < _CLEAR for one in self._points for far in other._points)
+
+    @property
+    def _points(self) -> tuple[tuple[float, float], ...]:
+        middles = (((x + far) / 2.0, (y + high) / 2.0) for (x, y), (far, high) in pairwise(self.corners))
+        return (self.letter, *self.corners, *middles)
 
 
 @dataclass(frozen=True)
@@ -109,23 +124,36 @@ class PlacedView:
             self.line((x - arm, y), (x + arm, y))
             self.line((x, y - arm), (x, y + arm))
 
-    def cutting_mark(self, letter: str, azimuth: float, reach: float) -> CuttingMark:
-        """Mark where a section is taken, `reach` from the axis at an azimuth [rad]: an arrow as it is looked at."""
+    def cutting_mark(
+        self, letter: str, azimuth: float, reach: float, others: Sequence[CuttingMark] = ()
+    ) -> CuttingMark:
+        """Mark where a section is taken, `reach` from the axis at an azimuth [rad]: an arrow as it is looked at.
+
+        Further out, where it would lie on one of the others.
+        """
+        mark = self._mark_at(azimuth, reach)
+        while any(mark.lies_on(other) for other in others):
+            reach += self.paper(1.0)
+            mark = self._mark_at(azimuth, reach)
+        inner, corner, tip = (self.sheet.at(point) for point in mark.corners)
+        self.sheet.space.add_line(inner, corner, dxfattribs={"layer": "OUTLINE"})
+        self.sheet.space.add_line(corner, tip, dxfattribs={"layer": "FINE"})
+        self.sheet.space.add_solid([*map(self.sheet.at, mark.barbs), tip], dxfattribs={"layer": "FINE"})
+        self.sheet.text(letter, mark.letter, 3.5, "MIDDLE_CENTER")
+        return mark
+
+    def _mark_at(self, azimuth: float, reach: float) -> CuttingMark:
         out, beside = (cos(azimuth), sin(azimuth)), (-sin(azimuth), cos(azimuth))
         if cos(azimuth) < -0.5:  # the far end of a section across the axis is looked at the same way
             beside = (sin(azimuth), -cos(azimuth))
 
         def at(along: float, aside: float) -> tuple[float, float]:
             far = reach + self.paper(along)
-            return far * out[0] + self.paper(aside) * beside[0], far * out[1] + self.paper(aside) * beside[1]
+            across = self.paper(aside)
+            return self.on_paper(far * out[0] + across * beside[0], far * out[1] + across * beside[1])
 
-        self.line(at(3.0, 0.0), at(8.0, 0.0), "OUTLINE")
-        self.line(at(8.0, 0.0), at(8.0, 5.0), "FINE")
-        arrow = [self.at(*at(8.0 + half, 2.75)) for half in (-0.8, 0.8)]
-        self.sheet.space.add_solid([*arrow, self.at(*at(8.0, 5.0))], dxfattribs={"layer": "FINE"})
-        place = self.on_paper(*at(8.0, -3.5))
-        self.sheet.text(letter, place, 3.5, "MIDDLE_CENTER")
-        return CuttingMark(place, tuple(self.on_paper(*at(*corner)) for corner in ((3.0, 0.0), (8.0, 0.0), (8.0, 5.0))))
+        corners = (at(3.0, 0.0), at(8.0, 0.0), at(8.0, 5.0))
+        return CuttingMark(at(8.0, -3.5), corners, (at(7.2, 2.75), at(8.8, 2.75)))
 
     def threads(self, screws: Sequence[tuple[float, float, float]]) -> None:
         """Draw threads of holes from above, three quarters of a thin circle each (ISO 6410-1).
