@@ -121,6 +121,48 @@ def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None
     assert all((asked.thread(one) is not None) == one.is_central for one in wide)
 
 
+def test_a_hole_as_wide_as_a_dowel_pin_is_its_seat_on_the_pins_circle_alone() -> None:
+    mode, overrides = CASES["paper"]
+    design = design_of("paper", {**overrides, "key_diameter": 2e-3, "link_dowel": "iso_8734_2"}, mode)
+    dims = dimensions(design)
+    found = upright_cylinders(drawn_part(dims, "rotor"))
+    asked = drawing_requirements("rotor", dims, design.choices)
+    wide = [one for one in found if one.concave and one.radius == pytest.approx(0.5 * dims.link_dowel_diameter)]
+    seats = [one for one in wide if asked.seat(one)]
+    # The others are pockets that the PCL's keys are in, below the rotor.
+    assert len(wide) > len(seats) == dims.count("dowels_fitted")
+    assert all(one.top == pytest.approx(dims.link_bottom_level) for one in seats)
+
+
+@pytest.mark.parametrize("case", ["tiles", "tiles in vanes", "paper", "blocks"])
+def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
+    mode, overrides = CASES[case]
+    design = design_of(case, overrides, mode)
+    dims = dimensions(design)
+    sheet = sheet_of(design, "peltier_pad", drawn_part(dims, "peltier_pad"))
+    said = [one.dxf.text for one in sheet.document.modelspace().query("TEXT")]
+    is_whole = case.startswith("tiles")
+    assert ("nominal sizes; limits as the maker's" in said) == is_whole
+    assert any("+0 / −0.1" in text for text in said) != is_whole  # the others are ordered to their outline
+    assert not any("axis" in text or "middle at" in text for text in said)
+    if is_whole:
+        assert not any("°" in text or "Azimuth" in text for text in said)
+        assert sum(text.startswith("flats ") for text in said) == 2
+
+
+def test_every_seat_is_a_face_of_its_part() -> None:
+    for case, mode, kinds in (
+        (BEARING_BLOCKS, "compression", ("housing", "rotor", "adjuster", "cover")),
+        (FLANGE, "shear", ("housing", "rotor", "link")),
+        (DRIVEN, "shear", ("motor_hub", "motor_housing")),
+    ):
+        design = milled(case, mode)
+        for kind in kinds:
+            asked = drawing_requirements(kind, dimensions(design), design.choices)
+            there = {asked.seat(one) for one in upright_cylinders(drawn_part(dimensions(design), kind))}
+            assert set(asked.seats) <= there, kind
+
+
 def test_every_seat_and_thread_is_of_a_part_that_is_drawn() -> None:
     reported = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
     words = [one["about"] for part in ("seats", "threads") for group in reported[part].values() for one in group]

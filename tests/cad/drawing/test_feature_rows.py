@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import combinations
-from math import atan2, degrees, hypot, pi
+from math import atan2, cos, degrees, hypot, pi, sin
 
 import cadquery as cq
 import ezdxf
+import numpy as np
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, CASES, DRIVEN, TILES, VANE_TILES, design_of
 from ezdxf.document import Drawing
+from ezdxf.entities import Hatch
+from ezdxf.entities.boundary_paths import PolylinePath
 from test_drawings import measured, no_text_lies_on_another, sheet_of, texts
 
 from tvimdesign.cad.assembly.assembly import drawn_part
@@ -20,6 +23,7 @@ from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows
 from tvimdesign.cad.drawing.number_text import figure
+from tvimdesign.cad.drawing.projection import half_section, section
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.geometry.solids import block, cylinder, sector, turned
@@ -61,6 +65,35 @@ def test_a_plate_s_pockets_slots_and_holes_are_told_with_width_depth_and_azimuth
     ))  # fmt: skip
 
 
+def test_walls_are_told_by_a_distance_and_the_way_they_face_and_no_two_alike() -> None:
+    # A pocket of 60 degrees from x on, 3 deep; a hole through the wall at its end makes two walls of that.
+    pocket = turned(sector(12.0, 30.0, pi / 3.0, 7.0, 10.0), pi / 6.0)
+    x, y = 20.0 * cos(pi / 3.0), 20.0 * sin(pi / 3.0)
+    disc = cylinder(40.0, 0.0, 10.0).cut(pocket, cylinder(3.0, 0.0, 10.0, (x, y)))
+    walls = [text for text in told(disc) if text.startswith("wall")]
+    assert sorted(walls) == [
+        "wall through the axis, R12 to R17 at 60°, faces clockwise, h 7 to 10 (3)",
+        "wall through the axis, R12 to R30 at 0°, faces counter-clockwise, h 7 to 10 (3)",
+        "wall through the axis, R23 to R30 at 60°, faces clockwise, h 7 to 10 (3)",
+    ]
+    # An upright prism on three corners, its sides 4 from the axis and out of it, and a pit of that form.
+    corners = [(8.0 * cos(2.0 * pi * corner / 3.0), 8.0 * sin(2.0 * pi * corner / 3.0)) for corner in range(3)]
+    prism = cq.Workplane().polyline(corners).close().extrude(5.0).val()
+    assert isinstance(prism, cq.Solid)
+    assert told(prism) == ["3× wall 4 from the axis, faces outwards every 120° from 60°, h 0 to 5 (5)"]
+    pit = cylinder(20.0, 0.0, 10.0).cut(prism)
+    assert told(pit) == ["3× wall 4 from the axis, faces inwards every 120° from 0°, h 0 to 5 (5)"]
+    # A rib from x 5 to 20 and y -20 to 20 that a notch breaks at y 4 to 6: flats of two lengths.
+    notch = block((4.0, 21.0), 2.0, 0.0, 4.0).moved(cq.Location(cq.Vector(0.0, 5.0, 0.0)))
+    ribs = cylinder(40.0, -2.0, 0.0).fuse(block((5.0, 20.0), 40.0, 0.0, 4.0).cut(notch))
+    alike = "flats 15 wide, mid-plane 12.5 from the axis, square to azimuths at 0°"
+    assert sorted(text for text in told(ribs) if text.startswith(alike)) == [
+        # At x = 20: y from 4 to -20, and from 6 to 20.
+        f"{alike}, R20.4 to R28.28, h 2 to 6 (4)",
+        f"{alike}, R20.88 to R28.28, h 2 to 6 (4)",
+    ]
+
+
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)
 def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
     design = design_of("dimensioned", changes, mode)
@@ -72,6 +105,7 @@ def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Ma
             document = ezdxf.read(io.StringIO(sheet_of(design, kind, solid).dxf().decode()))
             said = texts(document)
             assert all(row.text in said for row in rows), kind
+            assert len({row.text for row in rows}) == len(rows), kind
             for index, row in enumerate(rows, start=1):
                 assert said.count(str(index)) >= (2 if row.points else 1), (
                     f"{kind}: {row.text} has no number in the plan"
@@ -79,6 +113,7 @@ def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Ma
             faces_are_told(kind, solid, rows, document)
             no_text_lies_on_another(kind, document)
             no_leader_crosses_another(kind, document)
+            no_number_lies_on_a_section_s_mark(kind, document)
 
 
 def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Drawing) -> None:
@@ -98,7 +133,9 @@ def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document:
                 f"{kind}: cylinder R{radius} {heights}"
             )
         elif abs(face.normalAt().z) < 1e-9:
-            assert any(wall_is_told(row, face) for row in level), f"{kind}: wall at {face.Center()} {heights}"
+            assert any(wall_is_told(row, face) or width_is_told(row, face, solid) for row in level), (
+                f"{kind}: wall at {face.Center()} {heights}"
+            )
 
 
 def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
@@ -107,6 +144,13 @@ def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
     if row.what in ("corners", "pocket", "vane", "sector") or from_axis < 1e-6:
         return is_sized
     return is_sized and (f"on ⌀{figure(2.0 * from_axis)} " in row.place or row.place.startswith(("x ", "over")))
+
+
+def width_is_told(row: FeatureRow, face: cq.Face, solid: cq.Solid) -> bool:
+    """Whether a row without a place, as of what is bought, tells how wide the part is across a face."""
+    normal = face.normalAt()
+    across = [vertex.X * normal.x + vertex.Y * normal.y for vertex in solid.Vertices()]
+    return not row.place and row.size == f"{figure(max(across) - min(across))} wide"
 
 
 def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
@@ -124,7 +168,11 @@ def wall_is_told(row: FeatureRow, face: cq.Face) -> bool:
         return any(
             abs(abs(offset) - abs(abs(float(away[0])) + side * 0.5 * float(width))) < 0.02 for side in (-1.0, 1.0)
         )
-    return row.what == "wall" and row.size == f"{figure(offset)} from the axis"
+    if row.what == "wall" and abs(offset) < 1e-3:
+        at = f"{figure(degrees(atan2(middle.y, middle.x)) % 360.0)}°"
+        return row.size == "through the axis" and (at in row.place or not row.place.startswith("R"))
+    is_behind = "faces inwards" in row.place
+    return row.what == "wall" and row.size == f"{figure(abs(offset))} from the axis" and is_behind == (offset < 0.0)
 
 
 def no_leader_crosses_another(kind: str, document: Drawing) -> None:
@@ -138,6 +186,61 @@ def no_leader_crosses_another(kind: str, document: Drawing) -> None:
             first = (gap[0] * across[1] - gap[1] * across[0]) / turn
             second = (gap[0] * along[1] - gap[1] * along[0]) / turn
             assert not (0.0 <= first <= 1.0 and 0.0 <= second <= 1.0), f"{kind}: leaders cross at {start}, {other}"
+
+
+def no_number_lies_on_a_section_s_mark(kind: str, document: Drawing) -> None:
+    """Circles around numbers against straight strokes and arrows: a plan's own outlines are chains."""
+    space = document.modelspace()
+    strokes = [(one.dxf.start, one.dxf.end) for one in space.query("LINE") if one.dxf.layer in ("OUTLINE", "FINE")]
+    arrows = [(one.dxf.vtx0, one.dxf.vtx2) for one in space.query("SOLID")]
+    # The wider circles of the layer; the others are the leaders' ends.
+    circles = [one.dxf for one in space.query("CIRCLE") if one.dxf.layer == "DIMENSION"]
+    largest = max((one.radius for one in circles), default=0.0)
+    for circle in (one for one in circles if one.radius == largest):
+        for start, end in (*strokes, *arrows):
+            share = min(1.0, max(0.0, (circle.center - start).dot(end - start) / (end - start).magnitude ** 2))
+            gap = circle.center.distance(start.lerp(end, share)) - circle.radius
+            assert gap > 0.0, f"{kind}: the number at {circle.center} lies on the mark from {start} to {end}"
+
+
+@pytest.mark.parametrize(
+    ("case", "kind"),
+    [("paper", "link"), ("paper", "peltier_pad"), ("tiles", "peltier_pad"), ("blocks", "pcl_block"),
+     ("bearings", "adjuster")],  # whose two sections are taken near each other
+)  # fmt: skip
+def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
+    mode, changes = CASES[case]
+    design = design_of("marked", changes, mode)
+    sheet = sheet_of(design, kind, drawn_part(dimensions(design), kind))
+    document = ezdxf.read(io.StringIO(sheet.dxf().decode()))
+    assert {"A", "1"} <= set(texts(document))
+    no_text_lies_on_another(kind, document)
+    no_number_lies_on_a_section_s_mark(kind, document)
+    no_leader_crosses_another(kind, document)
+
+
+def test_a_housing_with_vanes_and_threads_has_a_section_through_the_middle_of_a_vane() -> None:
+    design = design_of("vanes", BEARING_BLOCKS, "compression")
+    dims = dimensions(design)
+    solid = drawn_part(dims, "housing")
+    document = ezdxf.read(io.StringIO(sheet_of(design, "housing", solid).dxf().decode()))
+    hatched = [one for one in document.modelspace().query("HATCH") if isinstance(one, Hatch)]
+    paths = [path for one in hatched for path in one.paths.paths if isinstance(path, PolylinePath)]
+    loops = [path.vertices for path in paths]
+    # The rotor's vanes are drawn on x, the housing's in the middle between them.
+    through_vane = (*section(solid).cut, *half_section(solid, pi / dims.count("vane_count")).cut)
+    expected = [outline.points for face in through_vane for outline in face]
+    assert sorted(map(area, loops)) == pytest.approx(sorted(map(area, expected)))
+    assert sorted(map(area, expected)) != pytest.approx(
+        sorted(area(outline.points) for face in (*section(solid).cut, *half_section(solid, 0.25 * pi).cut)
+               for outline in face)
+    )  # fmt: skip
+
+
+def area(corners: Sequence[Sequence[float]]) -> float:
+    """Of a polygon."""
+    x, y = np.array([corner[:2] for corner in corners]).T
+    return abs(0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
 
 def test_one_height_is_told_alike_wherever_it_stands() -> None:

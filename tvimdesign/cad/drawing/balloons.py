@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from tvimdesign.cad.drawing.feature_rows import FeatureRow
-from tvimdesign.cad.drawing.placed_view import PlacedView
+from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView
 from tvimdesign.cad.drawing.projection import Chain
 
 Point = tuple[float, float]
@@ -27,6 +27,8 @@ _STEP = 1.0
 """Distance of the points of outlines that are looked at [mm]."""
 _FREE = 1.6
 """Least distance of a number and a leader from what others point at [mm]."""
+_ARROW = 1.4
+"""Least distance of a number's circle from a section's mark [mm], whose arrow is 0.8 wide to either side."""
 
 
 @dataclass
@@ -39,21 +41,24 @@ class _Placed:
     """Points of the plan's lines."""
     circles: list[Point] = field(default_factory=list)
     leaders: list[Line] = field(default_factory=list)
+    strokes: list[Line] = field(default_factory=list)
+    """Of the marks where sections are taken."""
 
 
 def draw_balloons(
-    plan: PlacedView, rows: Sequence[FeatureRow], room: tuple[float, float, float, float], taken: Sequence[Point]
+    plan: PlacedView, rows: Sequence[FeatureRow], room: tuple[float, float, float, float], marks: Sequence[CuttingMark]
 ) -> None:
     """Number the rows in the plan.
 
-    `room` is where numbers may stand on paper: least and largest x, then y [mm]; `taken` are places of letters there.
+    `room` is where numbers may stand on paper: least and largest x, then y [mm]; `marks` are where sections are taken.
     """
     scale, (left, bottom) = plan.sheet.scale, plan.origin
     feet = {
         index: [(left + x * scale, bottom + y * scale) for x, y in row.points]
         for index, row in enumerate(rows, start=1)
     }
-    placed = _Placed(feet, _outlines(plan), list(taken))
+    strokes = [stroke for mark in marks for stroke in pairwise(mark.corners)]
+    placed = _Placed(feet, _outlines(plan), [mark.letter for mark in marks], strokes=strokes)
     # Those with the fewest places to point at choose first.
     for index in sorted(feet, key=lambda one: (len(feet[one]), one)):
         leader = next((one for one in _leaders(placed, index, room) if _is_free(placed, one)), None)
@@ -102,7 +107,9 @@ def _is_free(placed: _Placed, leader: Line) -> bool:
         all(dist(number, other) > 2.0 * _RADIUS + 0.8 for other in placed.circles)
         and all(_away(other, (foot, edge)) > _RADIUS + 0.6 for other in placed.circles)
         and all(_away(number, (line[0], _towards(line[1], line[0]))) > _RADIUS + 0.6 for line in placed.leaders)
-        and not any(_crosses((foot, edge), line) for line in placed.leaders)
+        and all(_away(number, stroke) > _RADIUS + _ARROW for stroke in placed.strokes)
+        and not any(_crosses((foot, edge), line) for line in (*placed.leaders, *placed.strokes))
+        and all(_away(end, (foot, edge)) > _FREE for stroke in placed.strokes for end in stroke)
         and all(dist(foot, line[0]) > _FREE for line in placed.leaders)
     )
 

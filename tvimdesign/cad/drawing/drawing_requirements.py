@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from math import floor
+from math import floor, hypot
 from pathlib import Path
 from typing import Any
 
@@ -53,6 +53,10 @@ class Seat:
     """Of the datum its axis is."""
     mates: str = ""
     """Kind of the bought part that sits there, if any."""
+    from_axis: float = 0.0
+    """Distance of its own axis from the part's."""
+    concave: bool = True
+    """Whether material is outside, as around a bore."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +107,8 @@ class DrawingRequirements:
     clearance_holes: Sequence[ClearanceHole] = ()
     general: tuple[Frame, ...] = ()
     """What holds for every face without a tolerance of its own: ISO 22081."""
+    placed: bool = True
+    """Whether places from the joint's axis are told: not of what is bought, and put where the assembly's note says."""
 
     def clearance_hole(self, hole: Cylinder) -> ClearanceHole | None:
         """What passes through a hole, if it is one for a screw."""
@@ -112,9 +118,14 @@ class DrawingRequirements:
                 return one
         return None
 
-    def seat(self, diameter: float) -> Seat | None:
-        """The seat that is drawn with a diameter, if any."""
-        return next((one for one in self.seats if abs(one.drawn - diameter) < _SAME), None)
+    def seat(self, face: Cylinder) -> Seat | None:
+        """What seat a round face is, if any: of its diameter, at its distance from the axis, a bore or a journal."""
+        away = hypot(face.x, face.y)
+        for one in self.seats:
+            same_size = abs(one.drawn - 2.0 * face.radius) < _SAME
+            if same_size and abs(one.from_axis - away) < _SAME and one.concave == face.concave:
+                return one
+        return None
 
     def thread(self, hole: Cylinder) -> ThreadCallout | None:
         """What is cut in a hole, if anything: other holes of its diameter have another depth."""
@@ -134,7 +145,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
     ]  # fmt: skip
     threads = [one for one in reported["threads"].get(kind, ()) if _is_there(one, dims)]
     holes = [one for one in reported["clearance_holes"].get(kind, ()) if _is_there(one, dims)]
-    general = reported["of_kind"].get(kind, reported["general"][method])
+    general = _of_kind(kind, dims) or reported["general"][method]
     is_milled = method == "milled" and kind not in reported["of_kind"]
     return DrawingRequirements(
         tolerances=general["tolerances"],
@@ -149,7 +160,15 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         threads=[_thread(one, dims, is_milled) for one in threads],
         clearance_holes=[_clearance_hole(one, dims, is_milled) for one in holes],
         general=(Frame("profile", general["profile"], GROUND + DATUM),) if is_milled else (),
+        placed=general.get("placed", True),
     )
+
+
+def _of_kind(kind: str, dims: Dimensions) -> dict[str, Any]:
+    """What is told of a part that the module's process does not make, and of one that is bought as it is."""
+    general: dict[str, Any] = told()["of_kind"].get(kind, {})
+    whole = general.get("whole")
+    return general | whole if whole and getattr(dims, whole["where"]) else general
 
 
 def _clearance_hole(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ClearanceHole:
@@ -207,7 +226,7 @@ def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
         frames = _bearing_frames(size)
     return Seat(
         reported["about"], size, drawn, fit, limits, reported["roughness"], reported.get("form", ""), tuple(frames),
-        letter, reported.get("mates", ""),
+        letter, reported.get("mates", ""), getattr(dims, reported["circle"]) if "circle" in reported else 0.0, inside,
     )  # fmt: skip
 
 

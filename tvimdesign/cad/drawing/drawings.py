@@ -16,15 +16,20 @@ from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.feature_table import draw_tables, table_height, with_datum
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
 from tvimdesign.cad.drawing.number_text import figure
-from tvimdesign.cad.drawing.placed_view import PlacedView, apart
+from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, half_section, section
 from tvimdesign.cad.drawing.sheet_layout import FIRST, NEXT, layout
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.production import PRODUCTION
 
-_BESIDE = ("pocket", "thread", "vane", "hole", "slot")
-"""Features that are looked for beside the section's plane, the first before the others."""
+_BESIDE = ("pocket", "vane", "thread", "hole", "slot")
+"""Features that are looked for beside the section's plane, the first before the others.
+
+A thread is told in full by its row; a vane, with its slots and steps, is seen only where it is cut.
+"""
+_AZIMUTHS = "Azimuths count from x, to the right, counter-clockwise in the plan."
+_WALLS = "Walls: distance of their plane from the axis, azimuth of the way they face."
 
 
 def part_sheet(
@@ -36,7 +41,9 @@ def part_sheet(
     """
     plan, front = from_above(solid), section(solid)
     found = upright_cylinders(solid)
-    central = {2.0 * one.radius: one for one in found if one.is_central and one.is_round}
+    about_axis = [one for one in found if one.is_central and one.is_round]
+    # Of two with one diameter that which is a seat is dimensioned.
+    central = {2.0 * one.radius: one for one in sorted(about_axis, key=lambda one: asked.seat(one) is not None)}
     rows = feature_rows(solid, asked)
     rows = with_datum(rows) if asked.general and not central else rows
     beside = _beside(rows)
@@ -44,7 +51,7 @@ def part_sheet(
     place = layout(plan, front, half, len(central), table_height(rows, asked))
     sheet = DrawingSheet(place.scale, place.form)
     placed_plan, placed_front = PlacedView(sheet, plan, place.plan), PlacedView(sheet, front, place.front)
-    letters = _draw_plan(placed_plan, found, asked, half, beside)
+    marks = _draw_plan(placed_plan, found, asked, half, beside)
     _draw_section(placed_front, "A – A", solid, found, asked, 0.0)
     if half:
         _draw_section(PlacedView(sheet, half, place.half), "D – D", solid, found, asked, beside)
@@ -54,8 +61,8 @@ def part_sheet(
     _dimension_extent(placed_front, sorted(central))
     _dimension_levels(placed_front, levels(solid))
     draw_tables(sheet, rows, asked)
-    draw_balloons(placed_plan, rows, place.room, letters)
-    _words(sheet, kind, solid, what, module, asked, material or what.material)
+    draw_balloons(placed_plan, rows, place.room, marks)
+    _words(sheet, kind, solid, what, module, asked, material or what.material, rows)
     return sheet
 
 
@@ -70,14 +77,14 @@ def _beside(rows: Sequence[FeatureRow]) -> float:
 
 def _draw_plan(
     plan: PlacedView, found: Sequence[Cylinder], asked: DrawingRequirements, half: View | None, beside: float
-) -> list[tuple[float, float]]:
-    """The view from above with its axes, its threads, and where the sections are taken; returns the letters' places."""
+) -> list[CuttingMark]:
+    """The view from above with its axes, its threads, and where the sections are taken; returns the marks of these."""
     plan.draw()
     plan.centre_lines([one for one in found if one.is_round])
     plan.threads([(one.x, one.y, _screw(one, asked)) for one in found if one.is_round and asked.thread(one)])
     left, right = plan.view.bounds[:2]
     marks = [plan.cutting_mark("A", 0.0, right), plan.cutting_mark("A", radians(180.0), -left)]
-    return [*marks, plan.cutting_mark("D", beside, half.bounds[1])] if half else marks
+    return [*marks, plan.cutting_mark("D", beside, half.bounds[1], marks)] if half else marks
 
 
 def _screw(one: Cylinder, asked: DrawingRequirements) -> float:
@@ -109,7 +116,7 @@ def _draw_section(
 def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], asked: DrawingRequirements) -> None:
     """Diameters about the axis with their fits, the smallest nearest, above the section; the datum beside its own."""
     top, left = front.view.bounds[3], front.view.bounds[0]
-    seats = [asked.seat(2.0 * one.radius) for one in round_faces]
+    seats = [asked.seat(one) for one in round_faces]
     has_seat = any(seat and seat.letter for seat in seats)
     for index, (one, seat) in enumerate(zip(round_faces, seats, strict=True)):
         level = top + front.paper(FIRST + index * NEXT)
@@ -157,15 +164,15 @@ def _dimension_levels(front: PlacedView, heights: Sequence[float]) -> None:
 
 def _words(
     sheet: DrawingSheet, kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements,
-    material: str,
+    material: str, rows: Sequence[FeatureRow],
 ) -> None:  # fmt: skip
     """Notes and title block."""
     volume = solid.Volume()
     lying = "standing as in the section" if PRODUCTION[kind].down == "bottom" else "turned over"
     notes = [
         "Millimetres. Heights h are over the lowest face; in brackets what lies between.",
-        "Azimuths count from x, to the right, counter-clockwise in the plan.",
-        "Walls: distance from the axis along the way they face.",
+        *([_AZIMUTHS] if any("°" in row.place for row in rows) else []),
+        *([_WALLS] if any(row.what == "wall" for row in rows) else []),
         f"Exact shape: {file_names.step(kind)}.",
         *asked.notes,
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import atan2, cos, degrees, hypot, pi, sin
@@ -20,6 +21,8 @@ Point = tuple[float, float]
 T = TypeVar("T")
 _CORNER = 2.0
 """Radius [mm] up to which an arc is the corner of a pocket, whose place its walls say."""
+_BODY = ("flats", "sector")
+"""What a part is as a whole, whose place is that of the part."""
 _SAME = 1e-3
 """Distance [mm] below which two places are one."""
 
@@ -50,7 +53,7 @@ class FeatureRow:
     def text(self) -> str:
         """The line of the table."""
         many = f"{self.count}× " if self.count > 1 else ""
-        return f"{many}{self.what} {self.size}, {self.place}, {self.heights}"
+        return ", ".join(filter(None, (f"{many}{self.what} {self.size}", self.place, self.heights)))
 
     @property
     def heights(self) -> str:
@@ -74,7 +77,8 @@ def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow
         *_like(_told_of_arc(asked), [one for one in arcs if not is_corner(one)], _arc_key),
         *_like(_told_of_corners, [one for one in arcs if is_corner(one)], lambda one: round(one.radius, 4)),
     ]
-    return [_over(row, box.zmin, box.zmax) for row in rows]
+    rows = [row if asked.placed or row.what not in _BODY else replace(row, place="") for row in rows]
+    return _unlike([_over(row, box.zmin, box.zmax) for row in rows])
 
 
 def is_corner(one: Cylinder) -> bool:
@@ -110,7 +114,7 @@ def _hole_key(one: Cylinder) -> Hashable:
 def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
     def told(group: list[Cylinder]) -> FeatureRow:
         one = group[0]
-        thread, seat, screw = asked.thread(one), asked.seat(2.0 * one.radius), asked.clearance_hole(one)
+        thread, seat, screw = asked.thread(one), asked.seat(one), asked.clearance_hole(one)
         about = next((reported.about for reported in (thread, seat, screw) if reported), "")
         frames = thread.frames if thread else screw.frames if screw else ()
         size = thread.designation if thread else sized(one, asked)
@@ -127,7 +131,7 @@ def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], Feat
 
 def sized(one: Cylinder, asked: DrawingRequirements) -> str:
     """A diameter with its fit."""
-    seat = asked.seat(2.0 * one.radius)
+    seat = asked.seat(one)
     return f"⌀{figure(seat.size)} {seat.fit}" if seat and seat.fit else f"⌀{figure(2.0 * one.radius)}"
 
 
@@ -189,15 +193,48 @@ def _along(normal: float) -> float:
 
 def _wall_key(one: Wall) -> Hashable:
     reach = sorted((round(abs(one.start), 3), round(abs(one.end), 3)))
-    return round(one.offset, 3), *reach, one.bottom, one.top
+    return round(one.offset, 3), *reach, one.bottom, one.top, one.is_radial and _faces_onwards(one)
+
+
+def _faces_onwards(one: Wall) -> bool:
+    """Whether a wall through the axis faces counter-clockwise."""
+    x, y = one.middle
+    return sin(one.outwards - atan2(y, x)) > 0.0
 
 
 def _told_of_wall(group: list[Wall]) -> FeatureRow:
+    """Where its plane is and which way it faces: along that way the plane is before or behind the axis."""
     one = group[0]
-    size = f"{figure(one.offset)} from the axis"
-    place = f"faces {around(_azimuths([other.outwards for other in group]))}"
-    points = tuple(other.middle for other in group)
-    return FeatureRow("wall", size, place, one.bottom, one.top, points=points, of=tuple(group))
+    size = "through the axis" if abs(one.offset) < _SAME else f"{figure(abs(one.offset))} from the axis"
+    faced = _azimuths([other.outwards for other in group])
+    middles = [other.middle for other in group]
+    if one.is_radial:
+        way = "counter-clockwise" if _faces_onwards(one) else "clockwise"
+        place = f"{_reach(one)} {around(_directions(middles))}, faces {way}"
+    else:
+        way = "" if abs(one.offset) < _SAME else " outwards" if one.offset > 0.0 else " inwards"
+        # Two that face one way stand beside each other, as far to the left as to the right.
+        both = "" if len(set(faced)) == len(faced) else ", two beside each other"
+        place = f"faces{way} {around(sorted(set(faced)))}{both}"
+    return FeatureRow("wall", size, place, one.bottom, one.top, points=tuple(middles), of=tuple(group))
+
+
+def _reach(one: Wall) -> str:
+    near, far = one.radii
+    return f"R{figure(near)} to R{figure(far)}"
+
+
+def _unlike(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
+    """The rows, with the ends of walls told where nothing else tells these from those of another row."""
+    alike = Counter(row.text for row in rows)
+    told = []
+    for row in rows:
+        wall = row.of[0] if row.what in ("slot", "flats", "wall") else None
+        if alike[row.text] > 1 and isinstance(wall, Wall):
+            told.append(replace(row, place=f"{row.place}, {_reach(wall)}"))
+        else:
+            told.append(row)
+    return told
 
 
 # --- arcs ------------------------------------------------------------------------------------------------------------
@@ -210,7 +247,7 @@ def _arc_key(one: Cylinder) -> Hashable:
 def _told_of_arc(asked: DrawingRequirements) -> Callable[[list[Cylinder]], FeatureRow]:
     def told(group: list[Cylinder]) -> FeatureRow:
         one = group[0]
-        size = sized(one, asked) if asked.seat(2.0 * one.radius) else f"R{figure(one.radius)}"
+        size = sized(one, asked) if asked.seat(one) else f"R{figure(one.radius)}"
         over = f"{figure(degrees(one.span))}°"
         if one.is_central:
             place = f"about the axis over {over}, middle {around(_azimuths([other.middle for other in group]))}"

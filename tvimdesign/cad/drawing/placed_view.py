@@ -4,11 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, cos, degrees, hypot, sin
+from itertools import pairwise
+from math import atan2, cos, degrees, dist, hypot, sin
 
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.drawing.projection import Arc, Chain, View
 from tvimdesign.cad.geometry.features import Cylinder
+
+_CLEAR = 4.5
+"""Least distance of the letters and strokes of two sections [mm]: letters are 3.5 high."""
+
+
+@dataclass(frozen=True)
+class CuttingMark:
+    """What shows on paper where a section is taken [mm]."""
+
+    letter: tuple[float, float]
+    """Middle of its letter."""
+    corners: tuple[tuple[float, float], ...]
+    """From the inner end of the thick stroke over the corner to the arrow's tip."""
+    barbs: tuple[tuple[float, float], ...]
+    """Both ends of the arrow's back."""
+
+    def lies_on(self, other: CuttingMark) -> bool:
+        """Whether it is so near to another that letters or strokes touch."""
+        return any(dist(one, far) < _CLEAR for one in self._points for far in other._points)
+
+    @property
+    def _points(self) -> tuple[tuple[float, float], ...]:
+        middles = (((x + far) / 2.0, (y + high) / 2.0) for (x, y), (far, high) in pairwise(self.corners))
+        return (self.letter, *self.corners, *middles)
 
 
 @dataclass(frozen=True)
@@ -23,6 +48,10 @@ class PlacedView:
         """Where a point of the view is in the drawing's coordinates."""
         left, bottom = self.sheet.at(self.origin)
         return left + x, bottom + y
+
+    def on_paper(self, x: float, y: float) -> tuple[float, float]:
+        """Where a point of the view is on paper [mm]."""
+        return self.origin[0] + x * self.sheet.scale, self.origin[1] + y * self.sheet.scale
 
     def paper(self, length: float) -> float:
         """A length on paper [mm] in the drawing's coordinates."""
@@ -95,27 +124,36 @@ class PlacedView:
             self.line((x - arm, y), (x + arm, y))
             self.line((x, y - arm), (x, y + arm))
 
-    def cutting_mark(self, letter: str, azimuth: float, reach: float) -> tuple[float, float]:
-        """Mark where a section is taken, `reach` from the axis at an azimuth [rad], with an arrow as it is looked at.
+    def cutting_mark(
+        self, letter: str, azimuth: float, reach: float, others: Sequence[CuttingMark] = ()
+    ) -> CuttingMark:
+        """Mark where a section is taken, `reach` from the axis at an azimuth [rad]: an arrow as it is looked at.
 
-        Returns where on paper its letter stands.
+        Further out, where it would lie on one of the others.
         """
+        mark = self._mark_at(azimuth, reach)
+        while any(mark.lies_on(other) for other in others):
+            reach += self.paper(1.0)
+            mark = self._mark_at(azimuth, reach)
+        inner, corner, tip = (self.sheet.at(point) for point in mark.corners)
+        self.sheet.space.add_line(inner, corner, dxfattribs={"layer": "OUTLINE"})
+        self.sheet.space.add_line(corner, tip, dxfattribs={"layer": "FINE"})
+        self.sheet.space.add_solid([*map(self.sheet.at, mark.barbs), tip], dxfattribs={"layer": "FINE"})
+        self.sheet.text(letter, mark.letter, 3.5, "MIDDLE_CENTER")
+        return mark
+
+    def _mark_at(self, azimuth: float, reach: float) -> CuttingMark:
         out, beside = (cos(azimuth), sin(azimuth)), (-sin(azimuth), cos(azimuth))
         if cos(azimuth) < -0.5:  # the far end of a section across the axis is looked at the same way
             beside = (sin(azimuth), -cos(azimuth))
 
         def at(along: float, aside: float) -> tuple[float, float]:
             far = reach + self.paper(along)
-            return far * out[0] + self.paper(aside) * beside[0], far * out[1] + self.paper(aside) * beside[1]
+            across = self.paper(aside)
+            return self.on_paper(far * out[0] + across * beside[0], far * out[1] + across * beside[1])
 
-        self.line(at(3.0, 0.0), at(8.0, 0.0), "OUTLINE")
-        self.line(at(8.0, 0.0), at(8.0, 5.0), "FINE")
-        arrow = [self.at(*at(8.0 + half, 2.75)) for half in (-0.8, 0.8)]
-        self.sheet.space.add_solid([*arrow, self.at(*at(8.0, 5.0))], dxfattribs={"layer": "FINE"})
-        x, y = at(8.0, -3.5)
-        place = self.origin[0] + x * self.sheet.scale, self.origin[1] + y * self.sheet.scale
-        self.sheet.text(letter, place, 3.5, "MIDDLE_CENTER")
-        return place
+        corners = (at(3.0, 0.0), at(8.0, 0.0), at(8.0, 5.0))
+        return CuttingMark(at(8.0, -3.5), corners, (at(7.2, 2.75), at(8.8, 2.75)))
 
     def threads(self, screws: Sequence[tuple[float, float, float]]) -> None:
         """Draw threads of holes from above, three quarters of a thin circle each (ISO 6410-1).
@@ -146,9 +184,7 @@ class PlacedView:
         self.line((x, bottom - tall), (x, middle + box), "FINE")
         corners = [(x + right * box, middle + up * box) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))]
         self.sheet.space.add_lwpolyline([self.at(*corner) for corner in corners], dxfattribs={"layer": "FINE"})
-        scale = self.sheet.scale
-        place = self.origin[0] + x * scale, self.origin[1] + middle * scale
-        self.sheet.text(letter, place, 2.8, "MIDDLE_CENTER")
+        self.sheet.text(letter, self.on_paper(x, middle), 2.8, "MIDDLE_CENTER")
 
     def datum(self, letter: str, end: tuple[float, float], x: float) -> None:
         """Mark what is dimensioned with an arrow at `end` as a datum by ISO 5459: its letter in a box at `x`."""
@@ -163,8 +199,7 @@ class PlacedView:
             (x + right * beside, end[1] + up * beside) for right, up in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
         ]
         self.sheet.space.add_lwpolyline([self.at(*corner) for corner in corners], dxfattribs={"layer": "FINE"})
-        place = self.origin[0] + x * self.sheet.scale, self.origin[1] + end[1] * self.sheet.scale
-        self.sheet.text(letter, place, 2.8, "MIDDLE_CENTER")
+        self.sheet.text(letter, self.on_paper(x, end[1]), 2.8, "MIDDLE_CENTER")
 
 
 def apart(wanted: Sequence[float], least: float) -> list[float]:
