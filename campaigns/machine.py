@@ -43,6 +43,8 @@ class Lack:
     """Options of the file system on which the results are to stand; the usual one where it is empty."""
     stdout: str = ""
     """Where the standard output goes."""
+    parts: bool = False
+    """Whether the parts are made as well, by processes that have the same limits."""
 
 
 PROGRESS = "... "
@@ -53,6 +55,8 @@ LACKS = (
     Lack("a HOME that is not there", 0, environment={"HOME": "/nowhere/at/all"}),
     Lack("64 descriptors", 0, limits=((resource.RLIMIT_NOFILE, 64),)),
     Lack("3 GB of address space", 0, limits=((resource.RLIMIT_AS, 3000 * MEGABYTE),)),
+    Lack("64 descriptors, with parts", 0, limits=((resource.RLIMIT_NOFILE, 64),), parts=True),
+    Lack("3 GB of address space, with parts", 0, limits=((resource.RLIMIT_AS, 3000 * MEGABYTE),), parts=True),
     Lack("8 descriptors", 4, "Too many open files", limits=((resource.RLIMIT_NOFILE, 8),)),
     Lack("files of 20 kB at most", 4, "File too large", limits=((resource.RLIMIT_FSIZE, 20_000),)),
     Lack("a read-only file system", 2, "Read-only file system", mount="ro"),
@@ -75,12 +79,14 @@ def faults_of(lack: Lack, folder: Path) -> list[str]:
     """Run the study into an empty folder, and say what is not as it should be."""
     out = folder / "disk" / "out"
     out.parent.mkdir()
-    words = [sys.executable, "-m", "tvimdesign", "run", str(STUDY), "--no-cad", "--out", str(out)]
+    words = [sys.executable, "-m", "tvimdesign", "run", str(STUDY), "--out", str(out)]
+    words += [] if lack.parts else ["--no-cad"]
     if lack.mount:
         tmpfs = f"mount -t tmpfs -o {lack.mount} none {out.parent}"
         kept = f"cp -r {out.parent} {folder / 'kept'}"  # the mount is gone with the namespace
         words = ["unshare", "-rm", "sh", "-c", f'{tmpfs} && "$@"; code=$?; {kept}; exit $code', "sh", *words]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1", **lack.environment}
+    uncached = {"TVIMDESIGN_CACHE": ""} if lack.parts else {}  # parts that are kept would not be made
+    environment = {**os.environ, **uncached, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1", **lack.environment}
     with Path(lack.stdout or folder / "told.txt").open("wb") as told:
         done = subprocess.run(
             words, stdout=told, stderr=subprocess.PIPE, check=False, cwd=folder, preexec_fn=_limited(lack.limits),
@@ -93,6 +99,8 @@ def faults_of(lack: Lack, folder: Path) -> list[str]:
         found.append("a traceback")
     if lack.says and (len(lines) != 1 or lack.says not in said):
         found.append(f"not one line about {lack.says!r}: {said[-300:]!r}")
+    if lack.parts and not lack.code and not list(out.rglob("*.step")):
+        found.append("no parts")
     results = folder / "kept" if lack.mount else out
     for path in sorted(path for path in results.rglob("*") if path.is_file()):
         if path.name.startswith(".") or not whole(path, path.read_bytes()):

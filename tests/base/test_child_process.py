@@ -73,3 +73,32 @@ def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     parent.wait()
     parent.stdout.close()
     assert all_gone([int(first), int(other)])
+
+
+ELSEWHERE = """
+import sys
+from types import SimpleNamespace
+from tvimdesign.base import child_process
+child_process.sys = SimpleNamespace(platform="darwin", executable=sys.executable)
+"""
+NAMES_ITS_PIPE = """
+import os, time
+print(os.getpid(), os.environ["TVIMDESIGN_ALIVE"], flush=True)
+time.sleep(60)
+"""
+
+
+def test_a_child_is_told_by_a_pipe_where_the_kernel_does_not_tell_it(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text(ELSEWHERE)  # every interpreter begins with it, the child's too
+    parent = started("told_child", NAMES_ITS_PIPE, tmp_path)
+    assert parent.stdout is not None
+    child, pipe = map(int, parent.stdout.readline().split())
+    assert pipe > 2
+    assert is_at_work(child)
+    parent.kill()
+    parent.wait()
+    parent.stdout.close()
+    gone = all_gone([child])
+    if not gone:
+        os.kill(child, signal.SIGKILL)
+    assert gone

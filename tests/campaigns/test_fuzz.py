@@ -24,8 +24,9 @@ USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "c
 @pytest.mark.parametrize(
     ("kind", "inputs"),
     [
-        *((kind, 15) for kind in USUAL),
-        *(pytest.param(kind, 4, marks=pytest.mark.slow) for kind in ("fits", "messages", "answers")),
+        *((kind, 15) for kind in (*USUAL, "messages")),
+        ("answers", 4),
+        pytest.param("fits", 4, marks=pytest.mark.slow),
         *(pytest.param(kind, 500, marks=pytest.mark.slow) for kind in USUAL),
     ],
 )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import kills
@@ -19,9 +21,20 @@ from tvimdesign.explore.states.source import open_source
     ("command", "number", "after"),
     [
         ("run", signal.SIGKILL, 1.0),
+        ("simulate", signal.SIGTERM, 1.2),
+        ("explorer", signal.SIGINT, 2.5),
         *(
             pytest.param(command, number, after, marks=pytest.mark.slow)
-            for command, after in (("run", 2.5), ("front", 4.0), ("sweep", 5.0), ("parts", 6.0), ("explorer", 6.0))
+            for command, after in (
+                ("run", 2.5),
+                ("run_with_parts", 12.0),
+                ("front", 4.0),
+                ("sweep", 5.0),
+                ("parts", 6.0),
+                ("explorer", 6.0),
+                ("tolerate", 6.0),
+                ("robot", 6.5),
+            )
             for number in kills.SIGNALS
         ),
     ],
@@ -38,16 +51,57 @@ def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, mon
         kills.run_through("run", tmp_path)
 
 
+ENDS = """
+import json, os, pathlib, signal, sys
+def end(*_):
+    (out / "manifest.json").write_text(json.dumps({{"status": "{status}"}}))
+    os._exit({code})
+signal.signal(signal.SIGTERM, end)
+out = pathlib.Path("out")
+out.mkdir()
+while True:
+    pass
+"""
+
+
+@pytest.mark.parametrize(
+    ("code", "status", "faults"),
+    [
+        (143, "interrupted", []),
+        (0, "evaluated", []),
+        (4, "interrupted", ["exit code 4"]),
+        (4, "failed", ["exit code 4", "the manifest says failed, not interrupted"]),
+        (3, "interrupted", ["exit code 3"]),
+        (143, "failed", ["the manifest says failed, not interrupted"]),
+        (0, "interrupted", ["the manifest says interrupted of what was through"]),
+    ],
+)
+def test_after_a_signal_a_command_is_interrupted_or_was_through(
+    code: int, status: str, faults: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def start(_: list[str], own: Path) -> subprocess.Popen[bytes]:
+        (own / "said.txt").write_text("")
+        command = [sys.executable, "-S", "-c", ENDS.format(code=code, status=status)]
+        return subprocess.Popen(command, cwd=own, env=kills.environment(own))
+
+    monkeypatch.setattr(kills, "start", start)
+    assert kills.faults_after(Try("run", signal.SIGTERM, 0.2), tmp_path) == faults
+
+
 def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
     (tmp_path / "manifest.json").write_text(json.dumps({"status": "running"}))
     (tmp_path / "results.json").write_text('{"a": ')
     (tmp_path / "cycle.png").write_bytes(b"\x89PNG")
     (tmp_path / ".why.csv.x.part").write_text("a")
-    found = kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), ended=False)
+    found = kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)
     assert found == [
         ".why.csv.x.part is left half written", "cycle.png is broken", "results.json is broken",
         "the manifest says running, not interrupted",
     ]  # fmt: skip
+    (tmp_path / "manifest.json").write_text('{"status": ')
+    assert "manifest.json is broken" in kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)
+    (tmp_path / "joint.fmu").write_bytes(b"PK")
+    assert "joint.fmu is broken" in kills.broken_files(tmp_path, Try("robot", signal.SIGKILL, 1.0), through=False)
 
 
 def test_the_campaign_sees_what_an_explorer_has_lost(tmp_path: Path) -> None:

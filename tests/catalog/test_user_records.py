@@ -2,11 +2,13 @@
 
 import os
 import time
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
+from support import Command
 
-from tvimdesign.base.errors import CatalogError
+from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.device.core.impedance.joint_impedance import melt_modes
 
@@ -345,3 +347,50 @@ def test_a_spectrum_of_ones_own_says_viscosity_and_plateau(tmp_path: Path) -> No
     lines = [line for line in OWN_SPECTRUM.splitlines() if "zero_shear" not in line]
     record = put(tmp_path, "\n".join(lines), category="polymers").record("polymers", "mine")
     assert record.value("zero_shear_viscosity") == pytest.approx(3491.07, rel=1e-5)
+
+
+def test_a_folder_that_is_a_link_is_told_with_where_it_leads(tmp_path: Path) -> None:
+    (tmp_path / "kept").mkdir()
+    put(tmp_path / "kept", GOOD)
+    (tmp_path / "records").symlink_to(tmp_path / "kept")
+    with pytest.warns(FolderWarning) as told:
+        catalog = Catalog(tmp_path / "records")
+    assert [str(one.message) for one in told] == [
+        f"{tmp_path / 'records'}: the folder of records leads to {tmp_path / 'kept'}"
+    ]
+    assert catalog.record("peltiers", "mine").title == "A module I measured"
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own/peltiers").symlink_to(tmp_path / "kept/peltiers")
+    with pytest.warns(FolderWarning, match="own/peltiers: the folder of records leads to"):
+        Catalog(tmp_path / "own")
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="folders have no owner here")
+@pytest.mark.parametrize("folder", [".", "peltiers"])
+def test_another_user_s_folder_is_told_and_refused_where_anybody_writes_it(
+    folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(tmp_path, GOOD)
+    (tmp_path / folder).chmod(0o777)
+    Catalog(tmp_path)  # one's own stays one's own
+    theirs = (tmp_path / folder).stat().st_uid
+    monkeypatch.setattr("tvimdesign.catalog.user_folder.os.getuid", lambda: theirs + 1)
+    monkeypatch.setattr("tvimdesign.catalog.user_folder._ROOT", -1)  # who runs this may be root
+    refused = pytest.raises(CatalogError, match=r"belongs to another user, .*anybody may write to it; copy it")
+    with pytest.warns(FolderWarning) if folder == "peltiers" else nullcontext(), refused as found:
+        Catalog(tmp_path)
+    assert "\n" not in str(found.value)
+    (tmp_path / folder).chmod(0o755)
+    with pytest.warns(FolderWarning, match="belongs to another user, "):
+        Catalog(tmp_path)
+    monkeypatch.setattr("tvimdesign.catalog.user_folder._ROOT", theirs)
+    Catalog(tmp_path)  # what is the machine's is as good as the program
+
+
+def test_the_commands_tell_of_such_a_folder_in_one_line(tmp_path: Path, tvimdesign: Command) -> None:
+    (tmp_path / "kept").mkdir()
+    (tmp_path / "records").symlink_to(tmp_path / "kept")
+    (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: records\n")
+    done = tvimdesign("check", str(tmp_path / "study.yaml"))
+    said = f"Warning: {tmp_path / 'records'}: the folder of records leads to {tmp_path / 'kept'}"
+    assert [line for line in done.stderr.splitlines() if "records" in line] == [said]

@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import runpy
 import sys
+import warnings
 
 from tvimdesign.base.child_process import follow_parent
+from tvimdesign.base.errors import FolderWarning
 
 
 def main() -> None:
     """Follow the parent, then be the module."""
     follow_parent()
+    warnings.simplefilter("ignore", FolderWarning)  # the parent tells of it
     del sys.argv[0]
     runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
 

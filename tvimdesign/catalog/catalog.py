@@ -11,6 +11,7 @@ from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.record import Record
 from tvimdesign.catalog.categories import CATEGORIES
 from tvimdesign.catalog.inherited_laws import meaningless_laws
+from tvimdesign.catalog.user_folder import vouch_for
 from tvimdesign.catalog.validate import build_record
 from tvimdesign.catalog.yaml_file import Tree, read_tree
 
@@ -22,13 +23,17 @@ class Catalog:
     """The shipped records, and those of a user's folder `<category>/<name>.yaml`, which add to them or replace them."""
 
     def __init__(self, extra_folder: Path | None = None) -> None:
-        """Note the folders; no record is read yet. Raises CatalogError where `feature` is no folder of categories."""
+        """Note the folders; no record is read yet.
+
+        Raises CatalogError where `extra_folder` is no folder of categories, or one of another user that anybody writes.
+        """
         self._folders = [_SHIPPED] if extra_folder is None else [extra_folder, _SHIPPED]
         self._records: dict[tuple[str, str], Record] = {}
         if extra_folder is None:
             return
         try:
             folders = [item.name for item in extra_folder.iterdir() if item.is_dir()]
+            vouch_for(extra_folder, [folder for folder in folders if folder in CATEGORIES])
         except (OSError, ValueError):
             raise CatalogError(
                 f"{str(extra_folder)[:200]}: the catalogue folder is not there or cannot be read"

@@ -12,7 +12,7 @@ from typing import Any
 import typer
 
 from tvimdesign.base import interrupts
-from tvimdesign.base.errors import InputError, OutputError, RenamedWarning, TvimError
+from tvimdesign.base.errors import FolderWarning, InputError, OutputError, RenamedWarning, TvimError
 from tvimdesign.base.interrupts import heeding_interrupts, ignore_interrupts, raise_pending
 from tvimdesign.cli.commands import app
 from tvimdesign.cli.output_streams import drop_what_cannot_be_written, flush_output, speak_plainly
@@ -42,7 +42,7 @@ def _command() -> Any:
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
     """What a user can act on, in plain words; libraries' own warnings are for developers and stay unsaid."""
-    if issubclass(category, RenamedWarning):
+    if issubclass(category, (FolderWarning, RenamedWarning)):
         sys.stderr.write(f"Warning: {message}\n")
 
 

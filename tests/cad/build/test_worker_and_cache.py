@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+import pickle
 import shutil
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,6 +16,7 @@ from pathlib import Path
 import psutil
 import pytest
 from cad_designs import design_of, whole
+from support import ROOT, is_at_work
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
@@ -213,6 +217,78 @@ def test_a_child_does_one_piece_of_work_after_another_and_another_takes_the_plac
     assert by["a"] == by["b"] != by["c"] == by["d"]
     assert str(os.getpid()) not in by.values()
     assert not any(psutil.pid_exists(int(one)) for one in by.values())
+
+
+def test_children_that_are_spawned_do_the_same_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on a system where a fork is not safe: they import all anew, and all that they are given is sent to them."""
+    pool = of_elsewhere(tmp_path, monkeypatch)
+    done = pool.do([PLATE, STACK, Work(name="who", do=by_whom)])
+    assert done.failed == {}
+    assert text(done, "stack") == "4toy"
+    assert done.results["plate"].checks == (SolidCheck("plate", 0.0, 1.0, True, "plate"),)
+    assert not psutil.pid_exists(int(text(done, "who")))
+
+
+def test_a_plan_of_parts_can_be_sent_to_a_child_that_is_spawned() -> None:
+    plan = build_plan(dimensions(design_of("toy", {})))
+    again, subject = pickle.loads(pickle.dumps((plan, TrackedDesign(design_of("toy", {}), TITLES))))
+    assert [work.name for work in again] == [work.name for work in plan]
+    assert subject.watched(True)[0].name == "toy"
+
+
+SPAWNING = """
+import os, sys, time
+from pathlib import Path
+from types import SimpleNamespace
+
+from cad_designs import design_of
+from tvimdesign.base import child_process
+from tvimdesign.cad.build import worker
+from tvimdesign.cad.build.cache import Cache
+from tvimdesign.cad.build.read_tracking import TrackedDesign
+
+child_process.sys = worker.sys = SimpleNamespace(platform="darwin")
+
+def never_ends(job):
+    print(os.getpid(), flush=True)
+    while True:
+        time.sleep(0.01)
+
+if __name__ == "__main__":
+    subject = TrackedDesign(design_of("toy", {}), {})
+    pool = worker.WorkerPool(subject, Cache(Path("kept").absolute()), lambda _: None, hands=1)
+    pool.do([worker.Work(name="plate", do=never_ends)])
+"""
+
+
+def test_a_spawned_child_is_gone_with_its_parent_though_it_is_at_work(tmp_path: Path) -> None:
+    """The kernel tells of a parent's end on Linux alone; here it is told as elsewhere."""
+    (tmp_path / "spawning.py").write_text(SPAWNING)
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests/helpers")])}
+    command = [sys.executable, "spawning.py"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True, env=environment) as parent:
+        assert parent.stdout is not None
+        child = int(parent.stdout.readline())
+        assert is_at_work(child)
+        parent.kill()
+        parent.wait()
+        end = time.monotonic() + 2.0
+        while is_at_work(child) and time.monotonic() < end:
+            time.sleep(0.02)
+        left = is_at_work(child)
+        if left:
+            os.kill(child, signal.SIGKILL)
+    assert not left
+
+
+def of_elsewhere(folder: Path, monkeypatch: pytest.MonkeyPatch) -> WorkerPool:
+    """The pool of a system that is no Linux, with one child."""
+    subject = TrackedDesign(design_of("toy", {}), TITLES)
+    with monkeypatch.context() as patched:
+        patched.setattr("tvimdesign.cad.build.worker.sys.platform", "darwin")
+        pool = WorkerPool(subject, Cache(folder / "kept"), lambda _: None, timeout_s=60.0, hands=1)
+    assert pool._context.get_start_method() == "spawn"
+    return pool
 
 
 def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

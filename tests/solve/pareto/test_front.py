@@ -12,6 +12,7 @@ import pytest
 from comparable import COARSE, COMPRESSION, SHEAR
 
 from tvimdesign.device import table_for
+from tvimdesign.report.run.front_report import front_csv, plain
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Run
@@ -219,6 +220,32 @@ def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeyp
     assert len(front.points) == 2
     assert {failure.reason for failure in front.failures} == {f"not converged: {meaning('Restoration_Failed').words}"}
     assert len(front.failures) >= 2
+
+
+@pytest.mark.parametrize("lost", [(TIME, MASS), (MASS,)], ids=["both", "one"])
+def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
+    solved: Solved, lost: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It once ended in an IndexError."""
+    solve, trade = Optimizer.solve, solved.trade()
+    one_each = trade.weights({TIME: 1.0, MASS: 1.0})
+
+    def lost_at_the_end(self: Optimizer, *args: Any, objective: Objective, **more: Any) -> Run:
+        run = solve(self, *args, objective=objective, **more)
+        if max(one_each, key=lambda name: objective.weights[name] / one_each[name]) in lost:
+            run.start = replace(run.start, converged=False, status="Restoration_Failed")
+        return run
+
+    monkeypatch.setattr(Optimizer, "solve", lost_at_the_end)
+    front = completed(trace_front(trade, (TIME, MASS), 4), trade)
+    assert front.notes[0] == "an end has no design"
+    assert [failure.where for failure in front.failures] == [
+        f"least {one}, then {other}" for one, other in ((TIME, MASS), (MASS, TIME)) if one in lost
+    ]
+    assert len(front.points) == 2 - len(lost)
+    table = table_for(solved.study.mode)
+    assert front_csv(front, front.outputs, table).count("\n") == 1 + len(front.points)
+    assert plain(front, front.outputs, table)["in_words"][0] == "An end has no design."
 
 
 def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:

@@ -12,6 +12,7 @@ import gc
 import multiprocessing as mp
 import os
 import sys
+import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
@@ -228,11 +229,19 @@ class WorkerPool:
 def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> None:
     """Do the pieces of work that are asked for by their places in the plan, until nobody asks."""
     parent = mp.parent_process()
+    if parent and sys.platform != "linux":  # the kernel does not tell of its end, and work is not left to listen
+        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
     follow_parent(parent.pid if parent else None)
     with contextlib.suppress(EOFError):
         while True:
             place, needs, folder = line.recv()
             line.send(_done(plan[place], subject, needs, folder, lambda step: line.send({"step": step})))
+
+
+def _end_with(parent: BaseProcess) -> None:
+    """End this process once its parent has ended."""
+    parent.join()
+    os._exit(1)
 
 
 def _done(

@@ -5,17 +5,21 @@ from __future__ import annotations
 import json
 from contextlib import ExitStack
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.process_tree import give_way
-from tvimdesign.base.whole_files import write_whole
+from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts
 from tvimdesign.study.design import Design, write_design
 
 CAD_TIME_LIMIT = 300.0  # s
+
+
+_ASKED = ".design.json.part"
+"""The design as the parts are asked for, beside them: what a run that is killed leaves there is no result
+(`whole_files.HALF_WRITTEN`)."""
 
 
 def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
@@ -47,8 +51,10 @@ class PartsAhead:
 
     def begin(self, design: Design, out: Path) -> None:
         """Let the parts be made into a folder, and come back at once."""
-        folder = Path(self._stack.enter_context(TemporaryDirectory()))
-        self.begin_with(write_design(design, folder / "design.json"), out)
+        make_folder(out)
+        asked = out / _ASKED
+        self._stack.callback(asked.unlink, missing_ok=True)
+        self.begin_with(write_design(design, asked), out)
 
     def begin_with(self, design: Path, out: Path) -> None:
         """Do so with a design.json, which is read while this goes on."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
-from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 from rich.markup import escape
@@ -16,15 +17,17 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.cad.fe.run_solvers import Solved, hold_ready, run_solvers
 from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.progress import progress_output, wide_console
+from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.verify.comparison import HEAT, SOLVERS, TIMES, compared
+from tvimdesign.report.verify.comparison import HEAT, SOLVERS, TIMES, Compared, compared
 from tvimdesign.report.verify.verify_page import verify_page
 from tvimdesign.report.verify.verify_tables import page, print_rows, table_csv, verified
 from tvimdesign.report.verify.warm_joint import WarmJoint, softening_time
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design
 
+_WORK = ".verify-"
+"""What the name of the folder begins with in which the parts stand while they are solved."""
 TITLES = {
     "joint": "von Mises\nMPa at 1 N m", "spring": "von Mises\nMPa at 1 N m", "link": "von Mises\nMPa at 1 N",
     "screws": "von Mises\nMPa at 1 N", "heat": "degC at the\npolymer's\ntarget",
@@ -39,26 +42,11 @@ def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, pic
     hold_ready(python)
     module = resolve_design(design)
     refuse_other_parts(module)
-    with ExitStack() as stack:
-        folder = stack.enter_context(ResultsFolder(out, overwrite))
-        progress = stack.enter_context(progress_output())
-        work = Path(stack.enter_context(TemporaryDirectory(prefix="tvimdesign-verify-")))
-        progress("verify: drawing the parts")
-        _export(design, work / "parts")
-        names = solvers_of(design)
-        solved = run_solvers(names, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
-        if HEAT in solved:
-            solved[HEAT] = _with_softening(module, solved[HEAT], work / "parts")
-        rows = compared(module, solved, design.values)
-        data = verified(rows, solved)
-        folder.write_json("verify.json", data)
-        folder.write("verify.csv", table_csv(rows))
-        folder.write("verify.md", page(design.name, rows, solved, pictures=pictures))
-        if pictures:
-            progress("verify: drawing the fields")
-            for name, one in solved.items():
-                _draw(folder, name, one)
-        write_page(folder, verify_page(folder, design.name, rows, solved))
+    with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
+        for left in out.glob(f"{_WORK}*"):  # of a process that was killed
+            shutil.rmtree(left, ignore_errors=True)
+        with TemporaryDirectory(dir=out, prefix=_WORK) as work:
+            rows, data = _verified(design, module, folder, Path(work).resolve(), python, progress, pictures=pictures)
         progress("")
         folder.finish("verified", {"design": source}, design.study)
     if as_json:
@@ -98,18 +86,41 @@ def refuse_other_parts(module: ResolvedModule) -> None:
         raise InputError(f"verify: liner_material is {liner.name}; FE knows no sheet between PCL and rotor")
 
 
+def _verified(
+    design: Design, module: ResolvedModule, folder: ResultsFolder, work: Path, python: str, progress: Progress,
+    *, pictures: bool,
+) -> tuple[list[Compared], dict[str, Any]]:  # fmt: skip
+    """Solve in a folder of work and write the results; the rows, and all as plain data."""
+    progress("verify: drawing the parts")
+    _export(design, work / "parts")
+    names = solvers_of(design)
+    solved = run_solvers(names, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
+    if HEAT in solved:
+        solved[HEAT] = _with_softening(module, solved[HEAT], work / "parts")
+    rows = compared(module, solved, design.values)
+    data = verified(rows, solved)
+    folder.write_json("verify.json", data)
+    folder.write("verify.csv", table_csv(rows))
+    folder.write("verify.md", page(design.name, rows, solved, pictures=pictures))
+    if pictures:
+        progress("verify: drawing the fields")
+        for name, one in solved.items():
+            _draw(folder, work, name, one)
+    write_page(folder, verify_page(folder, design.name, rows, solved))
+    return rows, data
+
+
 def _export(design: Design, folder: Path) -> None:
     from tvimdesign.cad.fe.exported_parts import export_parts
 
     export_parts(design, folder)
 
 
-def _draw(folder: ResultsFolder, name: str, solved: Solved) -> None:
+def _draw(folder: ResultsFolder, work: Path, name: str, solved: Solved) -> None:
     from tvimdesign.cad.render.field_picture import write_field_picture
 
     with np.load(solved.field) as field:
         points, triangles, values, ways = (field[part] for part in ("points", "triangles", "values", "ways"))
-    with TemporaryDirectory() as beside:
-        picture = Path(beside) / f"{name}.png"
-        write_field_picture(picture, points, triangles, values, ways, TITLES[name])
-        folder.write(picture.name, picture.read_bytes())
+    picture = work / f"{name}.png"
+    write_field_picture(picture, points, triangles, values, ways, TITLES[name])
+    folder.write(picture.name, picture.read_bytes())

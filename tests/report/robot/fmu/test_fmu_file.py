@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
+import time
 import zipfile
 from pathlib import Path
+from threading import Thread
 
 import pytest
 from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 from robot_models import module_of
+from support import is_at_work
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.robot.fmu.fmu_file import compiled, write_fmu
@@ -51,7 +56,43 @@ def test_without_a_compiler_it_holds_every_source_that_is_named(without_compiler
     assert not [name for name in names if name.startswith("binaries")]
 
 
-def test_a_compiler_that_fails_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_compiler_that_fails_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CC", f"{sys.executable} -c 'import sys; sys.exit(\"no room\")'")
     with pytest.raises(InputError, match="cannot build the FMU"):
-        compiled({"one.c": ""}, ".so")
+        compiled({"one.c": ""}, ".so", tmp_path)
+
+
+COMPILER = """
+import os, subprocess, sys, tempfile, time
+own = tempfile.mkstemp()[1]
+worker = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+open(os.environ["TOLD"] + ".part", "w").write(f"{worker.pid} {own}")
+os.rename(os.environ["TOLD"] + ".part", os.environ["TOLD"])
+time.sleep(60)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="there are no groups of processes")
+def test_an_interrupt_ends_all_that_a_compiler_started_and_its_files_are_beside_the_fmu(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = tmp_path / "told"
+    (tmp_path / "cc.py").write_text(COMPILER)
+    monkeypatch.setenv("CC", f"{sys.executable} {tmp_path / 'cc.py'}")
+    monkeypatch.setenv("TOLD", str(told))
+    (tmp_path / "beside").mkdir()
+
+    def interrupt() -> None:
+        while not told.exists():
+            time.sleep(0.02)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    Thread(target=interrupt, daemon=True).start()
+    with pytest.raises(KeyboardInterrupt):
+        compiled({"one.c": ""}, ".so", tmp_path / "beside")
+    number, own = told.read_text().split()
+    end = time.monotonic() + 5.0
+    while is_at_work(int(number)) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert not is_at_work(int(number))
+    assert Path(own).parent == tmp_path / "beside"

@@ -7,6 +7,7 @@ import os
 import platform
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import zipfile
@@ -17,6 +18,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.whole_files import whole_file
 from tvimdesign.report.robot.fmu.fmu_variables import Variable, fmu_variables
 from tvimdesign.report.robot.fmu.joint_equations import JointEquations, joint_equations, listed, sizes
 from tvimdesign.report.robot.fmu.model_description import IDENTIFIER, model_description
@@ -28,6 +30,8 @@ WITHIN = 600.0
 """Time that compiling may take [s]."""
 SETTINGS = {"FIRST_STEP": 1e-3, "LONGEST_STEP": 1.0, "TOLERANCE": 1e-5}
 """Of the heat's integration: steps [s], error of a step in a state, which is of the order of one."""
+_BESIDE = ".fmu-"
+"""What the name of the folder begins with that it is built in."""
 _MOMENT = (1980, 1, 1, 0, 0, 0)
 _PLATFORMS = {"Linux": ("linux", ".so"), "Darwin": ("darwin", ".dylib"), "Windows": ("win", ".dll")}
 
@@ -53,10 +57,18 @@ class WrittenFmu:
 
 
 def write_fmu(resolved: ResolvedModule, path: Path) -> WrittenFmu:
-    """Write the FMU of a module. Raises InputError where a compiler was found and fails."""
+    """Write the FMU of a module. Raises InputError where a compiler was found and fails, OutputError."""
+    for left in path.parent.glob(_BESIDE + "*"):  # of a process that was killed
+        shutil.rmtree(left, ignore_errors=True)
+    with TemporaryDirectory(dir=path.parent, prefix=_BESIDE) as folder:
+        return _written(resolved, path, Path(folder))
+
+
+def _written(resolved: ResolvedModule, path: Path, beside: Path) -> WrittenFmu:
+    """The FMU, with what it is made of in a folder beside it."""
     equations = joint_equations(resolved)
     variables = fmu_variables(equations, resolved)
-    sources = source_files(equations, variables)
+    sources = source_files(equations, variables, beside)
     guid = hashlib.sha256("".join(sources.values()).encode()).hexdigest()[:32]
     sources["sizes.h"] = sources["sizes.h"].replace("@GUID@", guid)
     description = model_description(
@@ -64,8 +76,8 @@ def write_fmu(resolved: ResolvedModule, path: Path) -> WrittenFmu:
         stop=float(resolved.values["horizon"]),
     )  # fmt: skip
     folder, suffix = binary_place()
-    binary = compiled(sources, suffix)
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    binary = compiled(sources, suffix, beside)
+    with whole_file(path) as half, zipfile.ZipFile(half, "w", zipfile.ZIP_DEFLATED) as archive:
         _put(archive, "modelDescription.xml", description.encode())
         for name, text in sources.items():
             _put(archive, f"sources/{name}", text.encode())
@@ -77,7 +89,7 @@ def write_fmu(resolved: ResolvedModule, path: Path) -> WrittenFmu:
 _ABOUT = "Heat and torque of a thermo-active variable impedance joint. Written by tvimdesign robot."
 
 
-def source_files(equations: JointEquations, variables: tuple[Variable, ...]) -> dict[str, str]:
+def source_files(equations: JointEquations, variables: tuple[Variable, ...], beside: Path) -> dict[str, str]:
     """The C code by name; `sizes.h` has a place for the GUID."""
     own = files("tvimdesign.report.robot.fmu") / "source"
     written = {
@@ -89,7 +101,11 @@ def source_files(equations: JointEquations, variables: tuple[Variable, ...]) -> 
     lines = [f"#define {name} {value}" for name, value in defined.items()]
     lines += [listed("input_start", inputs), listed("constants", constants), sizes(equations)]
     head = "/* What tvimdesign knows of the module when the code is built. */\n#ifndef SIZES_H\n#define SIZES_H\n"
-    return {**dict(sorted(written.items())), **equations.code(), "sizes.h": head + "\n".join(lines) + "\n#endif\n"}
+    return {
+        **dict(sorted(written.items())),
+        **equations.code(beside),
+        "sizes.h": head + "\n".join(lines) + "\n#endif\n",
+    }
 
 
 def binary_place() -> tuple[str, str]:
@@ -106,30 +122,45 @@ def compiler() -> list[str]:
     return next(([name] for name in COMPILERS if shutil.which(name)), [])
 
 
-def compiled(sources: Mapping[str, str], suffix: str) -> bytes:
-    """The binary; empty where there is no compiler. Raises InputError with what a compiler says that fails."""
+def compiled(sources: Mapping[str, str], suffix: str, folder: Path) -> bytes:
+    """The binary, built in a folder; empty where no compiler is. Raises InputError with what one says that fails."""
     command = compiler()
     if not command:
         return b""
-    with TemporaryDirectory() as name:
-        folder = Path(name)
-        for file, text in sources.items():
-            (folder / file).write_text(text, encoding="utf-8")
-        built = folder / f"{IDENTIFIER}{suffix}"
-        code = [file for file in sources if file.endswith(".c")]
+    for file, text in sources.items():
+        (folder / file).write_text(text, encoding="utf-8")
+    built = folder / f"{IDENTIFIER}{suffix}"
+    code = [file for file in sources if file.endswith(".c")]
+    try:
+        _run([*command, *FLAGS, "-o", built.name, *code, "-lm"], folder)
+    except subprocess.CalledProcessError as error:
+        raise InputError(
+            f"the C compiler {command[0]!r} cannot build the FMU; choose another by CC, or none by CC=none "
+            f"for an FMU of sources alone:\n{error.stderr[-1000:]}"
+        ) from error
+    except subprocess.TimeoutExpired as error:
+        raise InputError(f"the C compiler {command[0]!r} took more than {WITHIN:g} s to build the FMU") from error
+    return built.read_bytes()
+
+
+def _run(command: list[str], folder: Path) -> None:
+    """Run a compiler whose own files stay in a folder; where this process is interrupted, all that it started ends."""
+    own = {name: str(folder.absolute()) for name in ("TMPDIR", "TMP", "TEMP")}
+    with subprocess.Popen(
+        command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace",
+        env={**os.environ, **own}, start_new_session=True,
+    ) as process:  # fmt: skip
         try:
-            subprocess.run(
-                [*command, *FLAGS, "-o", built.name, *code, "-lm"],
-                cwd=folder, check=True, capture_output=True, text=True, timeout=WITHIN,
-            )  # fmt: skip
-        except subprocess.CalledProcessError as error:
-            raise InputError(
-                f"the C compiler {command[0]!r} cannot build the FMU; choose another by CC, or none by CC=none "
-                f"for an FMU of sources alone:\n{error.stderr[-1000:]}"
-            ) from error
-        except subprocess.TimeoutExpired as error:
-            raise InputError(f"the C compiler {command[0]!r} took more than {WITHIN:g} s to build the FMU") from error
-        return built.read_bytes()
+            _, said = process.communicate(timeout=WITHIN)
+        except BaseException:
+            if hasattr(os, "killpg"):
+                os.killpg(process.pid, signal.SIGKILL)
+            else:
+                process.kill()
+            process.wait()
+            raise
+    if process.returncode:
+        raise subprocess.CalledProcessError(process.returncode, command, stderr=said)
 
 
 def _put(archive: zipfile.ZipFile, name: str, data: bytes) -> None:

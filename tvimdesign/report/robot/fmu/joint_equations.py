@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -58,14 +57,13 @@ class JointEquations:
         """One function by name."""
         return next(function for function in self.functions if function.name() == name)
 
-    def code(self) -> dict[str, str]:
-        """The generated files by name."""
+    def code(self, folder: Path) -> dict[str, str]:
+        """The generated files by name; they are generated in a folder."""
         generator = ca.CodeGenerator("equations.c", {"with_header": True})
         for function in self.functions:
             generator.add(function)
-        with TemporaryDirectory() as folder:
-            generator.generate(f"{folder}/")
-            return {name: _HIDDEN + (Path(folder) / name).read_text(encoding="utf-8") for name in GENERATED}
+        generator.generate(f"{folder}/")
+        return {name: _HIDDEN + (folder / name).read_text(encoding="utf-8") for name in GENERATED}
 
 
 def joint_equations(resolved: ResolvedModule) -> JointEquations:

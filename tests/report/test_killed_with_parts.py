@@ -1,0 +1,80 @@
+"""What is made beside the results stands in their folder: a process that is killed leaves no temporary folder."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cad_designs import design_of, whole
+
+from tvimdesign.base.errors import SimulationError
+from tvimdesign.base.whole_files import HALF_WRITTEN
+from tvimdesign.report.run import parts_of_design
+from tvimdesign.report.verify import verify_design
+from tvimdesign.study.design import read_design, write_design
+
+
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of temporary files, of this test alone."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    return folder
+
+
+class NoProcess:
+    """Stands in for the process that makes the parts: notes what it is asked for."""
+
+    process = os.getpid()
+    asked: Path
+
+    def __enter__(self) -> NoProcess:
+        return self
+
+    def __exit__(self, *raised: object) -> None:
+        pass
+
+    def begin(self, design: Path, _: Path) -> None:
+        NoProcess.asked = design
+
+
+def test_the_design_of_parts_under_way_is_no_temporary_folder(
+    tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tvimdesign.cad.make.PartsProcess", NoProcess)
+    monkeypatch.setattr(parts_of_design, "give_way", lambda _: None)
+    out = tmp_path / "out/cad"
+    with parts_of_design.PartsAhead() as parts:
+        parts.begin(whole(design_of("paper", {})), out)
+        assert list(out.glob(HALF_WRITTEN)) == [NoProcess.asked]  # which is removed once it is found half written
+        assert read_design(NoProcess.asked).mode == "shear"
+        assert list(temporary.iterdir()) == []
+    assert list(out.iterdir()) == []
+
+
+def test_what_is_verified_stands_beside_the_results_while_it_is_solved(
+    tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen: list[Path] = []
+
+    def solve(_names: Any, parts: Path, work: Path, *_: Any) -> None:
+        seen.append(work)
+        assert parts.is_relative_to(work)
+        assert list(temporary.iterdir()) == []
+        raise SimulationError("the mesh has no end")
+
+    monkeypatch.setattr(verify_design, "hold_ready", lambda _: None)
+    monkeypatch.setattr(verify_design, "_export", lambda *_: None)
+    monkeypatch.setattr(verify_design, "run_solvers", solve)
+    out = tmp_path / "out"
+    (out / ".verify-killed").mkdir(parents=True)
+    (out / "manifest.json").write_text('{"status": "running"}')
+    design = write_design(whole(design_of("paper", {})), tmp_path / "design.json")
+    with pytest.raises(SimulationError, match="the mesh has no end"):
+        verify_design.verify_design(design, out, "", overwrite=True, pictures=False, as_json=False)
+    assert seen[0].parent == out
+    assert [path.name for path in out.iterdir()] == ["manifest.json"]

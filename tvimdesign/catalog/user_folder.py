@@ -1,0 +1,49 @@
+"""Whose records are read: a folder that is a link or another user's is told, one that anybody writes is refused."""
+
+from __future__ import annotations
+
+import os
+import stat
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+
+from tvimdesign.base.errors import CatalogError, FolderWarning
+
+_ROOT = 0
+"""The user who may write all folders anyway; a folder of theirs is the machine's."""
+
+
+def vouch_for(folder: Path, categories: Sequence[str]) -> None:
+    """Tell of a folder of records, and of those of its categories, that is a link or another user's.
+
+    Raises CatalogError for one of another user that anybody may write: what it says is nobody's word. Raises OSError.
+    """
+    for one in (folder, *(folder / category for category in categories)):
+        owner = _other_owner(one)
+        leads = f"leads to {one.resolve()}" if one.is_symlink() else ""
+        belongs = f"belongs to another user, {owner}" if owner else ""
+        if said := " and ".join(filter(None, (leads, belongs))):
+            warnings.warn(f"{one}: the folder of records {said}", FolderWarning, stacklevel=3)
+
+
+def _other_owner(folder: Path) -> str:
+    """Who owns a folder, empty where it is this user or the machine. Raises CatalogError where it is anybody's."""
+    if not hasattr(os, "getuid"):
+        return ""
+    found = folder.stat()
+    if found.st_uid == os.getuid():
+        return ""
+    if found.st_mode & stat.S_IWOTH:
+        raise CatalogError(
+            f"{str(folder)[:200]}: the folder of records belongs to another user, {_name(folder)}, and anybody may "
+            "write to it; copy it, or have its owner run chmod o-w on it"
+        )
+    return "" if found.st_uid == _ROOT else _name(folder)
+
+
+def _name(folder: Path) -> str:
+    try:
+        return folder.owner()
+    except KeyError:  # it has a number alone
+        return str(folder.stat().st_uid)
