@@ -1,16 +1,20 @@
-// A front: two outputs against each other, and all of its columns as parallel axes that can be brushed.
+// A front, or the cells of a sweep: two columns against each other, and all of them as parallel axes to brush.
 import { axis, chart, frame, short } from "page/charts.js";
 import { button, choice, make } from "page/dom.js";
 
-/** Draw the front; a brush, or the ends typed in below, keep only the designs within, in the table too. */
+/** What a front's points are called; a sweep calls them by its own words. */
+const FRONT = { title: "Front", one: "point", many: "designs" };
+
+/** Draw the points; a brush, or the ends typed in below, keep only those within, in the table too. A value that is null never happens. */
 export function draw(place, data) {
+  const words = data.words ?? FRONT;
   const varying = data.names.map((_, i) => i).filter((i) => varies(data.points.map(({ values }) => values[i])));
   const ends = data.names.map(() => [null, null]);
   const shown = { x: data.names.indexOf(data.of[1]), y: data.names.indexOf(data.of[0]) };
-  const inside = ({ values }) => values.every((value, i) =>
+  const inside = ({ values }) => values.every((value, i) => value === null ? ends[i].every((end) => end === null) :
     (ends[i][0] === null || value >= ends[i][0]) && (ends[i][1] === null || value <= ends[i][1]));
   const named = Object.fromEntries(data.labels.map((label, i) => [i, label]));
-  const controls = make("div", { className: "controls", role: "group", "aria-label": "What the front shows" });
+  const controls = make("div", { className: "controls", role: "group", "aria-label": "What the figure shows" });
   const x = choice("Across", named, (value) => { shown.x = Number(value); scatter.show(); });
   const y = choice("Up", named, (value) => { shown.y = Number(value); scatter.show(); });
   x.select.value = shown.x;
@@ -20,9 +24,9 @@ export function draw(place, data) {
   controls.append(x.row, y.row, clear);
   place.append(controls, count);
 
-  const scatter = chart(place, { says: `Front: ${data.labels[shown.y]} against ${data.labels[shown.x]}`, height: 340 }, (look) => ({
+  const scatter = chart(place, { says: `${words.title}: ${data.labels[shown.y]} against ${data.labels[shown.x]}`, height: 340 }, (look) => ({
     ...frame(look), legend: { show: false },
-    tooltip: { ...frame(look).tooltip, trigger: "item", formatter: ({ data: one }) => `point ${one.number}${one.status === "between" ? "" : `, ${one.status}`}<br>${one.said}` },
+    tooltip: { ...frame(look).tooltip, trigger: "item", formatter: ({ data: one }) => `${words.one} ${one.number}${one.status === "between" ? "" : `, ${one.status}`}<br>${one.said}` },
     xAxis: axis(data.labels[shown.x], look),
     yAxis: axis(data.labels[shown.y], look, { nameGap: 46 }),
     series: [{
@@ -30,9 +34,9 @@ export function draw(place, data) {
       data: data.points.map((point) => ({
         value: [point.values[shown.x], point.values[shown.y]], number: point.number, status: point.status,
         said: [shown.x, shown.y].map((i) => `${data.labels[i]}: ${short(point.values[i])}`).join("<br>"),
-        symbol: point.status === "knee" ? "diamond" : "circle", symbolSize: point.status === "knee" ? 16 : 9,
-        itemStyle: { opacity: inside(point) ? 1 : 0.15, color: point.status === "knee" ? look.accent : look.colours[0] },
-        label: { show: point.status !== "between" && inside(point), formatter: point.status.split(",")[0], position: "top", color: look.text },
+        symbol: point.status === "knee" ? "diamond" : point.hollow ? "emptyCircle" : "circle", symbolSize: point.status === "knee" ? 16 : 9,
+        itemStyle: { opacity: inside(point) ? 1 : 0.15, color: colourOf(point, look) },
+        label: { show: point.status !== "between" && !point.hollow && inside(point), formatter: point.status.split(",")[0], position: "top", color: look.text },
       })),
       labelLayout: { hideOverlap: true },
     }],
@@ -49,7 +53,7 @@ export function draw(place, data) {
       type: "parallel", inactiveOpacity: 0.06, activeOpacity: 1, smooth: false,
       lineStyle: { width: 1.6, color: look.colours[0], opacity: 0.7 },
       data: data.points.map((point) => ({
-        value: varying.map((i) => point.values[i]), lineStyle: { color: point.status === "knee" ? look.accent : look.colours[0], width: point.status === "knee" ? 3 : 1.6, opacity: inside(point) ? 0.8 : 0.06 },
+        value: varying.map((i) => point.values[i]), lineStyle: { color: colourOf(point, look), width: point.status === "knee" ? 3 : 1.6, opacity: inside(point) ? 0.8 : 0.06 },
       })),
     }],
   }));
@@ -71,13 +75,18 @@ export function draw(place, data) {
   place.append(typed);
 
   const same = data.names.map((_, i) => i).filter((i) => !varying.includes(i)).map((i) => `${data.labels[i]}: ${short(data.points[0].values[i])}`);
-  if (same.length) place.append(make("p", { className: "note" }, `The same in every design: ${same.join(", ")}.`));
+  if (same.length) place.append(make("p", { className: "note" }, `The same in all ${words.many}: ${same.join(", ")}.`));
 
+  const drawn = new Set(data.points.map(({ number }) => String(number)));
   const rows = [...place.closest("section").querySelectorAll("tbody tr")];
   const renew = (write = true) => {
     const kept = new Set(data.points.filter(inside).map(({ number }) => String(number)));
-    for (const row of rows) row.hidden = !kept.has(row.cells[0].textContent.trim());
-    count.textContent = kept.size === data.points.length ? `${kept.size} designs` : `${kept.size} of ${data.points.length} designs are within`;
+    const brushed = ends.flat().some((end) => end !== null);
+    for (const row of rows) {
+      const number = row.cells[0].textContent.trim();
+      row.hidden = drawn.has(number) ? !kept.has(number) : brushed;
+    }
+    count.textContent = kept.size === data.points.length ? `${kept.size} ${words.many}` : `${kept.size} of ${data.points.length} ${words.many} are within`;
     place.dataset.kept = kept.size;
     scatter.show();
     if (write) ends.forEach((end, i) => end.forEach((value, j) => { fields[i][j].value = value === null ? "" : short(value); }));
@@ -89,8 +98,15 @@ const SAME = 1e-4; // share of a value within which all designs have it
 
 /** Whether values differ by more than rounding. */
 function varies(values) {
-  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const numbers = values.filter((value) => value !== null);
+  if (numbers.length && numbers.length < values.length) return true;
+  const [low, high] = [Math.min(...numbers), Math.max(...numbers)];
   return high - low > SAME * Math.max(Math.abs(low), Math.abs(high));
+}
+
+/** The colour of a point: a knee stands out, one that breaks a limit steps back. */
+function colourOf(point, look) {
+  return point.status === "knee" ? look.accent : point.hollow ? look.quiet : look.colours[0];
 }
 
 /** A label in short lines. */

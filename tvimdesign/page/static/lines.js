@@ -1,7 +1,7 @@
 // Panels of lines, such as the curves of a virtual test or the fronts of a comparison.
 import { axis, chart, frame, legendRows, lineOf } from "page/charts.js";
 
-/** Draw each panel: lines with labels, bands where history leaves an interval, points where it says so. */
+/** Draw each panel: lines with labels, bands where history leaves an interval, points where it says so, hollow or apart. */
 export function draw(place, { panels }) {
   place.className += " panels";
   for (const panel of panels) {
@@ -22,8 +22,10 @@ export function draw(place, { panels }) {
 }
 
 function series(line, number, look) {
-  const pairs = line.x.map((x, i) => [x, line.y[i]]);
+  const pairs = line.x.map((x, i) => line.hollow?.[i] ? { value: [x, line.y[i]], symbol: "emptyCircle" } : [x, line.y[i]]);
   const made = [lineOf(line.label, pairs, number, look, line.points ? { showSymbol: true, symbolSize: 6 } : {})];
+  if (line.hollow) made[0].symbol = "circle"; // else the library's own, which is hollow
+  if (line.apart) made[0].lineStyle.width = 0;
   if (line.dashed) made[0].lineStyle.type = [3, 3];
   for (const edge of line.band ?? []) {
     made.push({ ...lineOf(line.label, line.x.map((x, i) => [x, edge[i]]), number, look), lineStyle: { width: 1, opacity: 0.5, type: "dotted", color: look.colours[number % look.colours.length] }, silent: true });

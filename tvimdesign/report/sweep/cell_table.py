@@ -1,4 +1,4 @@
-"""What is seen of cells while they go by to their files: how they ended, the best of them, points of the figure."""
+"""What is seen of cells while they go by to their files: how they ended, the best of them, what is drawn and listed."""
 
 from __future__ import annotations
 
@@ -12,6 +12,10 @@ from tvimdesign.sweep.plan import ALWAYS, SweepPlan
 
 MOST_DRAWN = 20_000
 """Cells of a figure; of more, every second, third, ... is drawn."""
+MOST_LISTED = 2_000
+"""Cells of a page, which a browser draws and sorts; of more, every second, third, ... is there."""
+MOST_FAILED = 500
+"""Cells without an answer that a page lists; of more, the first."""
 PANELS = 3
 
 
@@ -23,6 +27,8 @@ class CellTable:
         self._names = [column.name for column in columns(plan)]
         self._units = {column.name: column.unit for column in columns(plan)}
         self._every = -(-plan.count // MOST_DRAWN)
+        self.every_listed = -(-plan.count // MOST_LISTED)
+        """Each how many-th cell the page has."""
         study = plan.first
         wanted = [*study.minimize, *(limit.output for limit in study.require), *ALWAYS]
         apart = {axis.name for axis in plan.axes}
@@ -34,10 +40,18 @@ class CellTable:
         """By output that is to be small: the cell with the least value that keeps every limit."""
         self.drawn: list[dict[str, Value]] = []
         """Rows of the figure."""
+        self.listed: list[dict[str, Value]] = []
+        """Rows of the page."""
+        self.failed: list[dict[str, Value]] = []
+        """Rows of the first cells without an answer."""
+        self.failures = 0
+        """Count of the cells without an answer."""
+        self.keeping = 0
+        """Count of the cells that keep every limit."""
 
     @property
     def statuses(self) -> dict[str, int]:
-        """Count of cells by status, and of those that keep every limit."""
+        """Count of cells by status."""
         return dict(sorted(self._ended.items()))
 
     def seeing(self, rows: Iterable[list[Value]]) -> Iterator[list[Value]]:
@@ -49,7 +63,19 @@ class CellTable:
                 self._compare(name, row)
             if number % self._every == 0:
                 self.drawn.append(row)
+            if number % self.every_listed == 0:
+                self.listed.append(row)
+            self._note_end(row)
             yield values
+
+    def _note_end(self, row: dict[str, Value]) -> None:
+        """Count a cell by whether it has an answer, and one that keeps every limit."""
+        self.keeping += row["broken"] == 0
+        if row["broken"] is not None:
+            return
+        self.failures += 1
+        if len(self.failed) < MOST_FAILED:
+            self.failed.append(row)
 
     def _compare(self, name: str, row: dict[str, Value]) -> None:
         value = row[name]

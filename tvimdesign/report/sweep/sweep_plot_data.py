@@ -12,13 +12,17 @@ from tvimdesign.sweep.plan import SweepPlan
 MOST_LINES = 6
 
 
-def figure_data(plan: SweepPlan, seen: CellTable) -> dict[str, Any]:
-    """Panels of an output each: lines over the first number that is swept, or points over the first two."""
+def figure_data(plan: SweepPlan, seen: CellTable, rows: list[dict[str, Value]] | None = None) -> dict[str, Any]:
+    """Panels of an output each: lines over the first number that is swept, or points over the first two.
+
+    `rows` are the cells that are drawn: those of the picture unless given.
+    """
+    drawn = seen.drawn if rows is None else rows
     every = [column for column in columns(plan) if column.kind == "axis"]
     numbers = [column for column in every if column.unit]
     across = numbers[0] if numbers else Column("cell", "1", "cell", "")
     others = [column for column in every if column is not across]
-    kinds = {_label(row, others) for row in seen.drawn}
+    kinds = {_label(row, others) for row in drawn}
     over_two = len(numbers) > 1 and len(kinds) > MOST_LINES
     up = numbers[1].name if over_two else ""
     lines = len(kinds) <= MOST_LINES
@@ -26,7 +30,7 @@ def figure_data(plan: SweepPlan, seen: CellTable) -> dict[str, Any]:
         {
             "label": axis_label(name, plan.unit(name)),
             "series": [
-                _series(kind if lines else "", [r for r in seen.drawn if not lines or _label(r, others) == kind],
+                _series(kind if lines else "", [r for r in drawn if not lines or _label(r, others) == kind],
                         across.name, up, name)
                 for kind in (sorted(kinds, key=str) if lines else [""])
             ],
@@ -34,13 +38,14 @@ def figure_data(plan: SweepPlan, seen: CellTable) -> dict[str, Any]:
         for name in seen.shown
     ]  # fmt: skip
     return {
-        "x": _axis_label(across), "y": _axis_label(numbers[1]) if over_two else "", "panels": panels,
+        "x": axis_words(across), "y": axis_words(numbers[1]) if over_two else "", "panels": panels,
         "legend": ", ".join(name_in_words(column.name) for column in others) if lines else "",
         "joined": lines and bool(numbers) and plan.block.method == "grid",
     }  # fmt: skip
 
 
-def _axis_label(column: Column) -> str:
+def axis_words(column: Column) -> str:
+    """What stands at an axis that is swept."""
     return axis_label(column.name.replace("require.", "limit on ").replace(".", " "), column.unit)
 
 

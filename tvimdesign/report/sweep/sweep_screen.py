@@ -9,13 +9,14 @@ from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.base.units import pretty
+from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.remaining_time import duration
 from tvimdesign.report.output.tables import number
 from tvimdesign.sweep.plan import SweepPlan
 
 
 def print_sweep(told: dict[str, Any], plan: SweepPlan, out: Path, console: Console) -> None:
-    """Print how the cells ended, the best of them, and where the tables are."""
+    """Print how the cells ended, the best of them, and where to look first."""
     run = told["run"]
     done = "evaluated" if told["task"] == "evaluate" else "optimised"
     console.print(f"[bold]{escape(told['study'])}[/bold]: {told['cells']} cells {done} ({told['method']})")
@@ -26,7 +27,7 @@ def print_sweep(told: dict[str, Any], plan: SweepPlan, out: Path, console: Conso
         console.print(f"  least {name}: {_best(best, plan)}", soft_wrap=True)
     if not told["best"]:
         console.print("  no cell keeps every limit: `reason` in the table says which limits each breaks")
-    console.print(f"\nTables and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
+    console.print(f"\nLook first: [bold]{escape(str(out / FILE))}[/bold]; the tables are beside it", soft_wrap=True)
 
 
 def print_part(told: dict[str, Any], part: tuple[int, int], out: Path, console: Console) -> None:

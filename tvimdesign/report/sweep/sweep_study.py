@@ -18,6 +18,7 @@ from tvimdesign.report.output.progress import Progress, progress_output, wide_co
 from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
 from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.report.sweep.sweep_drawing import DRAWN_FROM, KeptFigure, SweepDrawing, kept_figure
+from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
 from tvimdesign.report.sweep.sweep_screen import print_part, print_sweep
 from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
@@ -51,16 +52,17 @@ def sweep_folder(
     plan: SweepPlan, out: Path, where: Where, progress: Progress, *, overwrite: bool, resume: bool,
     parquet: bool = False, plots: bool = True,
 ) -> dict[str, Any]:  # fmt: skip
-    """Answer every cell into a folder with its tables and figure; returns what is told. Raises as `sweep_study`."""
+    """Answer every cell into a folder with tables, figure and page; returns what is told. Raises as `sweep_study`."""
     with ExitStack() as stack:
         kept = kept_figure(out) if resume else KeptFigure()
+        page = kept_page(out) if resume else b""
         figure = SweepDrawing(stack, kept) if plots and plan.study.write.plots else None
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume, SHARDS))
         if figure:
             figure.expect()
         began = time.perf_counter()
         done = run_sweep(plan, folder.path, where, progress)
-        return _gathered(plan, folder, done, progress, figure, parquet=parquet, began=began)
+        return _gathered(plan, folder, done, progress, figure, page, parquet=parquet, began=began)
 
 
 def _part(
@@ -100,10 +102,10 @@ def _join(out: Path) -> None:
 
 
 def _gathered(
-    plan: SweepPlan, folder: ResultsFolder, done: SweepDone, progress: Progress, figure: SweepDrawing | None, *,
-    parquet: bool, began: float,
+    plan: SweepPlan, folder: ResultsFolder, done: SweepDone, progress: Progress, figure: SweepDrawing | None,
+    kept: bytes = b"", *, parquet: bool, began: float,
 ) -> dict[str, Any]:  # fmt: skip
-    """Write the tables, the figure and the manifest; returns what is told."""
+    """Write the tables, the figure, the page and the manifest; returns what is told. `kept` is the page of before."""
     progress("gathering the cells")
     seen = CellTable(plan)
     every = seen.seeing(rows(plan, done.keys, Shards(folder.path, plan.columns)))
@@ -119,6 +121,7 @@ def _gathered(
     if figure:
         found[DRAWN_FROM] = figure.draw(plan, seen, folder)
     folder.write_json("sweep.json", found)
+    write_sweep_page(plan, seen, folder, kept)
     spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
     seconds = time.perf_counter() - began
     timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}

@@ -1,0 +1,169 @@
+"""The page of a sweep: what it shows, the commands of its cells, and that it is made anew only where it changed."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import shlex
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import html5lib
+import pytest
+
+from tvimdesign.page.page_file import FILE
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.sweep import cell_table, sweep_page
+from tvimdesign.report.sweep.cell_commands import CellCommands
+from tvimdesign.report.sweep.cell_table import CellTable
+from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
+from tvimdesign.study import given, read_tree
+from tvimdesign.study.tree import tree_of_file, tree_of_text, tree_of_values
+from tvimdesign.sweep.gather import columns
+from tvimdesign.sweep.plan import SweepPlan, plan_of
+
+THICKNESS = {"from": "0.6 mm", "to": "2 mm"}
+GRID: dict[str, Any] = {"over": {"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]}}
+CLOUD: dict[str, Any] = {
+    "method": "sobol", "count": 8, "over": {"pcl_thickness": THICKNESS, "current": {"from": "1 A", "to": "2 A"}}
+}  # fmt: skip
+OPTIMISED = """
+mode: shear
+vary: {pcl_thickness: [0.6 mm, 2 mm], coil_count: [3, 6]}
+minimize: module_mass
+front: {of: [module_mass, response_time], points: 3}
+sweep: {task: evaluate, over: {require.holding_torque: [">= 9 N.m", ">= 10 N.m"]}}
+"""
+
+
+def plan(section: dict[str, Any]) -> SweepPlan:
+    return plan_of(tree_of_values({"mode": "shear", "name": "small", "sweep": section}, "study", Path()))
+
+
+def seen(asked: SweepPlan, masses: Iterable[float | None]) -> CellTable:
+    """Cells with these masses, refused where there is none; every even one breaks a limit, and none is ever soft."""
+    table = CellTable(asked)
+    list(table.seeing(row(asked, number, mass) for number, mass in enumerate(masses, start=1)))
+    return table
+
+
+def row(asked: SweepPlan, number: int, mass: float | None) -> list[Any]:
+    told = ["evaluated", (number + 1) % 2, 0.1, ""] if mass else ["refused", None, None, "no such <module>"]
+    outputs = {"module_mass": mass, "envelope_diameter": 100.0 if mass else None, "response_time": float("inf")}
+    names = [column.name for column in columns(asked) if column.kind == "output"]
+    return [number, *asked.axis_values(number - 1), *told, *(outputs[name] for name in names)]
+
+
+def page(asked: SweepPlan, table: CellTable, out: Path, kept: bytes = b"") -> str:
+    with ResultsFolder(out, overwrite=True) as folder:
+        (out / "cells.csv").write_text("cell\n")
+        write_sweep_page(asked, table, folder, kept)
+        folder.finish("swept", {}, {})
+    text = (out / FILE).read_text("utf-8")
+    html5lib.HTMLParser(strict=True).parse(text)
+    return text
+
+
+def drawn(text: str) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(re.findall(r'id="page-data">(.*?)</script>', text, re.DOTALL)[0])
+    return found
+
+
+def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
+    asked = plan(GRID)
+    text = page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out")
+    assert "5 OF 6 CELLS EVALUATED" in text
+    assert "<code>pcl_thickness</code> from 0.6 mm to 2 mm, 3 values; <code>rate_model</code>: smi, bending" in text
+    assert "grid; each cell is evaluated" in text
+    assert "3 g in cell 5, among the cells that keep every limit" in text
+    failed = text[text.index('<section id="failed"') :]
+    assert "no such &lt;module&gt;" in failed[: failed.index("</section>")]
+    assert "every cell as CSV" in text
+    assert "the figure</a>" not in text  # there is none beside it
+
+
+def test_a_line_for_each_word_and_hollow_where_a_limit_is_broken(tmp_path: Path) -> None:
+    asked = plan(GRID)
+    data = drawn(page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
+    assert list(data) == ["curves"]  # over one number: nothing to brush
+    mass, size = data["curves"]["panels"]  # none of what never happens
+    assert size["y_label"] == "Envelope diameter (mm)"
+    lines = {line["label"]: (line["y"], line["hollow"]) for line in mass["lines"]}
+    assert lines == {"smi": ([5.0, 4.0, 3.0], [False] * 3), "bending": ([6.0, 2.0], [True] * 2)}
+
+
+def test_cells_over_two_numbers_are_brushed(tmp_path: Path) -> None:
+    asked = plan(CLOUD)
+    data = drawn(page(asked, seen(asked, [None, *map(float, range(2, 9))]), tmp_path / "out"))
+    assert list(data) == ["brushed"]
+    assert data["brushed"]["names"] == ["pcl_thickness", "current", "module_mass", "envelope_diameter"]
+    assert [point["number"] for point in data["brushed"]["points"]] == [2, 3, 4, 5, 6, 7, 8]
+    assert data["brushed"]["points"][0]["hollow"]
+
+
+def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cell_table, "MOST_LISTED", 3)
+    monkeypatch.setattr(cell_table, "MOST_FAILED", 1)
+    asked = plan(CLOUD)
+    text = page(asked, seen(asked, [1.0, None, None, 4.0, 5.0, 6.0, 7.0, 8.0]), tmp_path / "out")
+    assert "3 of 8 cells are in this table, one in 3. cells.csv and cells.sqlite have all." in text
+    assert "The first 1 of 2; `reason` in cells.csv has all." in text
+    assert [point["number"] for point in drawn(text)["brushed"]["points"]] == [1, 4, 7]
+
+
+def test_a_page_is_put_back_unless_it_would_be_another(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked, out = plan(GRID), tmp_path / "out"
+    masses = [5.0, 6.0, 4.0, None, 3.0, 2.0]
+    first = page(asked, seen(asked, masses), out)
+
+    def none(*_: Any) -> None:
+        raise AssertionError("nothing is to be made")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(sweep_page, "write_page", none)
+        assert page(asked, seen(asked, masses), out, kept_page(out)) == first
+        with pytest.raises(AssertionError, match="nothing is to be made"):
+            page(asked, seen(asked, [5.5, *masses[1:]]), out, first.encode())
+    assert page(asked, seen(asked, [5.5, *masses[1:]]), out, first.encode()) != first
+    assert kept_page(tmp_path / "none") == b""
+
+
+def settings(command: str) -> list[str]:
+    words = shlex.split(command)
+    return [words[i + 1] for i, word in enumerate(words) if word == "--set"]
+
+
+def test_the_command_of_a_cell_is_its_study(tmp_path: Path) -> None:
+    path = tmp_path / "my study.yaml"
+    path.write_text(OPTIMISED)
+    asked = plan_of(tree_of_file(path))
+    run = CellCommands(asked, tmp_path / "out").run(2)
+    assert shlex.split(run)[:3] == ["tvimdesign", "run", str(path)]
+    assert shlex.split(run)[-2:] == ["--out", str(tmp_path / "out-cell-2")]
+    study = read_tree(tree_of_file(path, settings(run)))
+    assert study.task == "evaluate"  # as its sweep has it, though the study varies
+    assert study.front is None
+    assert [limit.limit for limit in study.require if limit.output == "holding_torque"] == [10.0]
+    begun, run_alone = given(asked.first), given(study)
+    assert [run_alone[name] for name in asked.first.vary] == pytest.approx([begun[name] for name in asked.first.vary])
+    assert settings(CellCommands(asked, tmp_path / "out").explore(2)) == settings(run)
+
+
+def test_a_study_that_options_changed_is_the_one_beside_the_page(tmp_path: Path) -> None:
+    path = tmp_path / "study.yaml"
+    path.write_text(OPTIMISED)
+    changed = plan_of(tree_of_file(path, ["current=1 A"]))
+    assert shlex.split(CellCommands(changed, tmp_path / "out").run(1))[2] == str(tmp_path / "out/study.yaml")
+    told = plan_of(tree_of_text(OPTIMISED, "python", "small", tmp_path))
+    assert shlex.split(CellCommands(told, tmp_path / "out").run(1))[2] == str(tmp_path / "out/study.yaml")
+
+
+def test_the_commands_stand_on_the_page(tmp_path: Path) -> None:
+    asked = plan(GRID)
+    text = html.unescape(page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
+    commands = CellCommands(asked, tmp_path / "out")
+    assert f"{commands.run(5)}\n{commands.explore(5)}" in text
+    assert commands.run(2) in text
+    assert commands.run(4) not in text  # it has no answer

@@ -1,0 +1,131 @@
+"""The page of a sweep: what was swept and how, its figures, the cells, those without an answer, and how to open one."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from tvimdesign import __version__
+from tvimdesign.base.units import pretty
+from tvimdesign.page.blocks import Block, Facts, Folded, Listing, Page, Section, Words
+from tvimdesign.page.page_file import FILE
+from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.tables import number
+from tvimdesign.report.sweep.cell_commands import CellCommands
+from tvimdesign.report.sweep.cell_grids import cells_grid, failed_grid
+from tvimdesign.report.sweep.cell_table import CellTable
+from tvimdesign.report.sweep.sweep_page_figures import figures
+from tvimdesign.report.sweep.sweep_plot_data import figure_data
+from tvimdesign.study.tree import study_file
+from tvimdesign.sweep.plan import SweepPlan
+from tvimdesign.sweep.points import written
+
+_FILES = {
+    "cells.csv": "every cell as CSV", "cells.sqlite": "as SQLite", "cells.parquet": "as Parquet",
+    "sweep.json": "columns with units and meanings", "sweep.png": "the figure",
+}  # fmt: skip
+_MARK = re.compile(rb'<meta name="made-from" content="([0-9a-f]+)">')
+_FEW = 8
+"""Values of an axis that are told one by one."""
+
+
+def kept_page(folder: Path) -> bytes:
+    """The page that a folder has; empty where there is none. A sweep that is resumed clears it away."""
+    try:
+        return (folder / FILE).read_bytes()
+    except OSError:
+        return b""
+
+
+def write_sweep_page(plan: SweepPlan, seen: CellTable, folder: ResultsFolder, kept: bytes) -> None:
+    """Write the page, or put back the one that an earlier sweep made from the same."""
+    files, study = there(folder, _FILES), _study_text(plan)
+    mark = _mark_of(plan, seen, folder.path, [files, study])
+    found = _MARK.search(kept[:2000])
+    if found and found[1].decode() == mark:
+        folder.write(FILE, kept)
+        return
+    write_page(folder, _page(plan, seen, folder, files, study, mark))
+
+
+def _mark_of(plan: SweepPlan, seen: CellTable, folder: Path, more: list[Any]) -> str:
+    """Mark of a page: of what it tells, of the commands in it, and of the version that makes it."""
+    commands = CellCommands(plan, folder)
+    told = [seen.statuses, seen.keeping, seen.best, seen.failures, commands.run(1), commands.explore(1)]
+    text = json.dumps([__version__, told, seen.listed, seen.failed, *more], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _page(
+    plan: SweepPlan, seen: CellTable, folder: ResultsFolder, files: Mapping[str, str], study: str, mark: str
+) -> Page:
+    answered = plan.count - seen.failures
+    done = "EVALUATED" if plan.task == "evaluate" else "OPTIMISED"
+    said = f"{answered if seen.failures == 0 else f'{answered} OF {plan.count}'} CELLS {done}"
+    lines, brushed = figures(plan, seen, figure_data(plan, seen, seen.listed))
+    sections = [Section("curves", "Figure", [lines])] if lines else []
+    sections += [Section("cells", "Cells", [*([brushed] if brushed else []), cells_grid(plan, seen)])]
+    sections += [Section("failed", "Cells without an answer", [failed_grid(plan, seen)])] if seen.failures else []
+    sections += [_commands(seen, CellCommands(plan, folder.path))] if answered else []
+    sections += [study_section(study), versions_section(folder)]
+    return Page(
+        plan.study.name, f"sweep of a {plan.study.mode} module", said, "warn" if seen.failures else "",
+        [_glance(plan, seen)], None, sections, made_by_words(folder), files, made_from=mark,
+    )  # fmt: skip
+
+
+def _glance(plan: SweepPlan, seen: CellTable) -> Facts:
+    """What was swept and how, how the cells ended, and the least of what is to be small."""
+    ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in seen.statuses.items())
+    task = "each cell is evaluated" if plan.task == "evaluate" else "each cell is optimised"
+    seed = f", seed {plan.block.seed}" if plan.block.count else ""
+    rows = [("Swept", "; ".join(_axis(plan, place) for place in range(len(plan.axes))))]
+    rows += [("Method", f"{plan.block.method.replace('_', ' ')}{seed}; {task}"), ("Cells", f"{plan.count}: {ended}")]
+    rows += [("Every limit kept", f"in {seen.keeping} of {plan.count} cells")]
+    for name, best in seen.best.items():
+        value = f"{number(best['value'])} {pretty(best['unit'])}".strip()
+        rows += [(f"Least {name}", f"{value} in cell {best['cell']}, among the cells that keep every limit")]
+    return Facts(rows)
+
+
+def _axis(plan: SweepPlan, place: int) -> str:
+    """One axis: its values, or their ends and how many there are."""
+    axis = plan.axes[place]
+    if axis.range:
+        ends = (written(axis, end) for end in (axis.range.lower, axis.range.upper))
+        count = f", {axis.range.count} values" if axis.range.count else ""
+        spacing = ", logarithmic" if axis.range.logarithmic else ""
+        return f"`{axis.name}` from {' to '.join(ends)}{count}{spacing}"
+    listed = [row[place] for row in plan.block.rows] or axis.values
+    values = list(dict.fromkeys(text.value for text in listed))
+    shown = ", ".join(values) if len(values) <= _FEW else f"{values[0]} ... {values[-1]}, {len(values)} values"
+    return f"`{axis.name}`: {shown}"
+
+
+def _commands(seen: CellTable, commands: CellCommands) -> Section:
+    """How a cell becomes a study of its own."""
+    with_answer = [int(str(row["cell"])) for row in seen.listed if row["broken"] is not None]
+    chosen = list(dict.fromkeys(int(best["cell"]) for best in seen.best.values())) or with_answer[:1]
+    words = Words([
+        "`run` does a cell as a study of its own, with its parts, and writes its report; `--no-cad` leaves the parts "
+        "out. `explore` opens it with controls that change it. Both start from the folder in which the sweep was done.",
+    ])  # fmt: skip
+    first = "\n".join(line for cell in chosen for line in (commands.run(cell), commands.explore(cell)))
+    every = "\n".join(commands.run(cell) for cell in with_answer)
+    blocks: list[Block] = [words]
+    if chosen:
+        of = "the least of each output" if seen.best else "one cell"
+        blocks += [Listing(f"Commands of {of}", first)]
+    if with_answer:
+        blocks += [Folded("The command of each cell of the table", [Listing("Commands of the cells", every)])]
+    return Section("open", "Open a cell", blocks)
+
+
+def _study_text(plan: SweepPlan) -> str:
+    text = study_file(plan.written)
+    return text if isinstance(text, str) else text.decode("utf-8-sig")
