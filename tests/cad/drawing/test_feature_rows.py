@@ -94,6 +94,17 @@ def test_walls_are_told_by_a_distance_and_the_way_they_face_and_no_two_alike() -
     ]
 
 
+def test_a_wall_that_runs_behind_a_vane_is_no_part_of_it() -> None:
+    # Four grooves part the wall into arcs of 82 degrees, two of them behind a vane of 86 degrees.
+    grooves = [
+        turned(block((28.0, 31.0), 4.0, -1.0, 9.0), azimuth) for azimuth in (pi / 4, 3 * pi / 4, -pi / 4, -3 * pi / 4)
+    ]
+    wall = cylinder(34.0, 0.0, 9.0).cut(cylinder(30.0, 1.0, 9.0), *grooves)
+    vanes = [turned(sector(12.0, 20.0, 1.5, 0.5, 5.0), azimuth) for azimuth in (0.0, pi)]
+    told_of_vanes = [text for text in told(wall.fuse(*vanes)) if "between ends" in text]
+    assert told_of_vanes == ["2× vane R12 to R20, 85.94° between ends, middle every 180° from 0°, h 1 to 5 (4)"]
+
+
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)
 def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
     design = design_of("dimensioned", changes, mode)

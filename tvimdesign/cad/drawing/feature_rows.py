@@ -13,14 +13,12 @@ import cadquery as cq
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements
 from tvimdesign.cad.drawing.iso_1101 import Frame
 from tvimdesign.cad.drawing.number_text import around, figure
-from tvimdesign.cad.drawing.sectors import Sector, sectors
+from tvimdesign.cad.drawing.sectors import CORNER, Sector, sectors
 from tvimdesign.cad.geometry.features import Cylinder, upright_cylinders
 from tvimdesign.cad.geometry.upright_walls import Pair, Wall, pairs, upright_walls
 
 Point = tuple[float, float]
 T = TypeVar("T")
-_CORNER = 2.0
-"""Radius [mm] up to which an arc is the corner of a pocket, whose place its walls say."""
 _BODY = ("flats", "sector")
 """What a part is as a whole, whose place is that of the part."""
 _SAME = 1e-3
@@ -83,7 +81,7 @@ def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow
 
 def is_corner(one: Cylinder) -> bool:
     """Whether it is the rounded corner of a pocket."""
-    return one.concave and not one.is_round and one.radius <= _CORNER
+    return one.concave and not one.is_round and one.radius <= CORNER
 
 
 def _like(told: Callable[[list[T]], FeatureRow], found: Iterable[T], key: Callable[[T], Hashable]) -> list[FeatureRow]:

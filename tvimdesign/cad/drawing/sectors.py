@@ -9,6 +9,8 @@ from math import atan2, cos, pi, sin
 from tvimdesign.cad.geometry.features import Cylinder
 from tvimdesign.cad.geometry.upright_walls import Wall
 
+CORNER = 2.0
+"""Radius [mm] up to which an arc is the corner of a pocket, whose place its walls say."""
 _SAME = 1e-3
 """Lengths [mm] that differ by less are one."""
 
@@ -77,11 +79,23 @@ def _of_height(walls: Sequence[Wall], arcs: Sequence[Cylinder]) -> list[Sector]:
             arc for arc in arcs
             if arc.is_central and arc.bottom < wall.top - _SAME and arc.top > wall.bottom + _SAME
             and 0.5 * span < arc.span < span + 1e-4 and abs(_apart(arc.middle, first + 0.5 * span)) < 1e-4
+            and _bounds(arc, wall)
         )  # fmt: skip
         whole = tuple(arc for arc in between if arc.bottom < wall.bottom + _SAME and arc.top > wall.top - _SAME)
         if len(around) > 1 and whole and _empty_beyond(wall) != _empty_beyond(following):
             found.append(Sector((wall, following), whole, _empty_beyond(wall), first, span))
     return found
+
+
+def _bounds(arc: Cylinder, wall: Wall) -> bool:
+    """Whether an arc is at an end of a wall, its corner between, and has the sector on its own side.
+
+    A housing's wall that runs behind a vane may be as wide as this by chance, and is none of its arcs.
+    """
+    near, far = wall.radii
+    is_outer = arc.radius > 0.5 * (near + far)
+    is_at_end = near - CORNER < arc.radius < far + CORNER
+    return is_at_end and arc.concave == (is_outer == _empty_beyond(wall))
 
 
 def _azimuth(wall: Wall) -> float:
