@@ -74,7 +74,7 @@ bench-random-choices: $(STAMP)  ## 200 random choices of heater, process, spring
 fuzz: $(STAMP)  ## mutated inputs of every kind, from studies to the explorer's messages: each is read or refused in words (minutes)
 	OMP_NUM_THREADS=1 $(BIN)/python campaigns/fuzz.py
 
-kills: $(STAMP)  ## end runs, fronts, sweeps, the making of parts and explorers at random moments, and look at what is left (minutes)
+kills: $(STAMP)  ## end every command at random moments, and look at what is left (an hour)
 	$(BIN)/python campaigns/kills.py
 
 sweep-kills: $(STAMP)  ## end jobs of an array, workers and scheduler of a cluster, and compare the tables (minutes)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
 import sys
 import time
 import zipfile
@@ -14,7 +15,7 @@ import pytest
 from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 from robot_models import module_of
-from support import is_at_work
+from support import ROOT, is_at_work
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.robot.fmu.fmu_file import compiled, write_fmu
@@ -96,3 +97,27 @@ def test_an_interrupt_ends_all_that_a_compiler_started_and_its_files_are_beside_
         time.sleep(0.02)
     assert not is_at_work(int(number))
     assert Path(own).parent == tmp_path / "beside"
+
+
+KILLED = """
+import sys
+from pathlib import Path
+from tvimdesign.report.robot.fmu.fmu_file import compiled
+compiled({"one.c": ""}, ".so", Path(sys.argv[1]))
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="there are no groups of processes")
+def test_all_that_a_compiler_started_ends_with_a_command_that_is_killed(tmp_path: Path) -> None:
+    told = tmp_path / "told"
+    (tmp_path / "cc.py").write_text(COMPILER)
+    own = {"CC": f"{sys.executable} {tmp_path / 'cc.py'}", "TOLD": str(told), "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)], env={**os.environ, **own}) as parent:
+        while not told.exists() and parent.poll() is None:
+            time.sleep(0.02)
+        parent.kill()
+    number = int(told.read_text().split()[0])
+    end = time.monotonic() + 5.0
+    while is_at_work(number) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert not is_at_work(number)
