@@ -8,6 +8,7 @@ from scipy.integrate import quad
 from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
+from tvimdesign.physics.solids import wedge
 
 TABLE = table_for("compression")
 HERTZ = 3.0
@@ -18,7 +19,7 @@ def joint(squeezed: dict[str, Any]) -> dict[str, Any]:
     sizes = {"block_height": 10e-3, "block_depth": 5e-3}
     given = {**squeezed, **STIFF_WHEN_WARM, **sizes, "frequency@cold": HERTZ, "frequency@hot": HERTZ}
     names = [name for name in TABLE.names(("cold", "hot")) if TABLE.output(name).group == "Impedance"]
-    more = ["link_bottom_level", "rotor_top_level", "housing_vane_angle", "pcl_moment"]
+    more = ["link_bottom_level", "rotor_top_level", "housing_vane_angle", "pcl_moment", "block_lean_out"]
     more += [f"support@{point}" for point in ("cold", "hot")]
     return {**given, **TABLE.evaluate(given, [*names, *more])}
 
@@ -103,13 +104,18 @@ def test_joint_holds_what_its_weakest_part_holds(joint: dict[str, Any]) -> None:
     assert joint["block_holding_torque"] == pytest.approx(6 * 16e6 * 140e-6 * 33e-3, rel=1e-9)
     parts = [joint[f"{part}_holding_torque"] for part in ("block", "rotor_vane", "housing_vane", "core", "link")]
     assert joint["holding_torque"] == min(parts)
-    for part, width, thickness in (
-        ("rotor_vane", 14e-3, 5e-3),
-        ("housing_vane", 7e-3, joint["housing_vane_thickness"]),
+    lean = joint["block_lean_out"]
+    assert 0.01 < lean < 0.1
+    for part, width, thickness, angle in (
+        ("rotor_vane", 14e-3, 5e-3, lean),
+        ("housing_vane", 7e-3, joint["housing_vane_thickness"], 0.0),
     ):
         force = 1.25 * joint[f"{part}_holding_torque"] / (6 * 33e-3)  # with the safety it is stated by
-        bending = force * 5.4e-3 / (width * thickness**2 / 6.0)
-        assert bending**2 + 3.0 * (force / (width * thickness)) ** 2 == pytest.approx((31e6) ** 2, rel=1e-9), part
+        across, along = 6.0 / (width * thickness**2), 6.0 / (width**2 * thickness)
+        bending = force * 5.4e-3 * (np.cos(angle) * across + np.sin(angle) * along)
+        twist = 33e-3 * (1.0 - np.cos(angle)) * wedge.stress_of_twist(width, thickness)
+        shear = force * (1.0 / (width * thickness) + twist)
+        assert bending**2 + 3.0 * shear**2 == pytest.approx((31e6) ** 2, rel=1e-9), part
 
 
 def test_stroke_squeezes_the_block_by_its_share_of_the_depth(joint: dict[str, Any]) -> None:
