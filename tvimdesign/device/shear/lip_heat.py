@@ -14,7 +14,7 @@ from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, star
+from tvimdesign.physics.heat_flow import lumps, star, stepped_sheet
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Link
 from tvimdesign.physics.heat_flow.star import Arm
 
@@ -39,7 +39,7 @@ def lip_over(melt_lip: str, rotor_rim: Scalar, beside_area: Scalar, edge_length:
     """
     if melt_lip == NO_LIP:
         return (0.0,) * len(STRIP)
-    return lumps.reaches(rotor_rim, [share * beside_area / edge_length for share in STRIP])
+    return stepped_sheet.reaches(rotor_rim, [share * beside_area / edge_length for share in STRIP])
 
 
 @quantities.helper()
@@ -59,11 +59,11 @@ def lip_ways(
         return (0.0,) * len(STRIP)
     share = rotor_thickness / (rotor_thickness + lip_height)
     ways = [way * beside_area / edge_length for way in WAYS]
-    covered = lumps.reaches(rotor_rim, ways)
+    covered = stepped_sheet.reaches(rotor_rim, ways)
     within = [1.0, *(one / way for one, way in zip(covered, ways, strict=True)), 0.0]
     ends = [within[i + 1] - within[i + 2] for i in range(len(ways))]
     ends[0] = ends[0] + 1.0
-    step = lumps.step(share)
+    step = stepped_sheet.step(share)
     return tuple(step * end - one * (1.0 - share) / rotor_thickness for one, end in zip(covered, ends, strict=True))
 
 

@@ -291,27 +291,6 @@ def corner_shape(shape: Any) -> Any:
     return 3.0 / shape
 
 
-def step(share: Any) -> Any:
-    """What a sheet resists more where its depth steps down to a `share` of it on one side, times k and length [1].
-
-    With the shares a and 1 the map of a strip with a step (Schwarz-Christoffel; Carslaw and Jaeger, ch. XVI) gives
-
-        ((a + 1/a) ln((1 + a)/(1 - a)) - 2 ln(4 a/(1 - a^2)))/pi
-
-    beyond what both depths resist up to the step.
-    """
-    rise = np.log((1.0 + share) / (1.0 - share))
-    return ((share + 1.0 / share) * rise - 2.0 * np.log(4.0 * share / (1.0 - share**2))) / np.pi
-
-
-def reaches(width: Any, parts: Sequence[Any]) -> tuple[Any, ...]:
-    """What of each of several parts in a row something of a `width` lies over, smoothly as it gets wider than one."""
-    found: list[Any] = []
-    for part in parts:
-        found.append(part * np.tanh((width - sum(found)) / part))
-    return tuple(found)
-
-
 def strip(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple[Lump, ...]:
     """A strip heated along its edge, in three bodies in a row from the edge on.
 
