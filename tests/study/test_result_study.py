@@ -3,12 +3,12 @@
 import json
 from pathlib import Path
 
-import pytest
 from support import ROOT, Command
 
-from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study.design import Design, read_design
-from tvimdesign.study.result_study import evaluating
+from tvimdesign.study.reader import read_study_text
+from tvimdesign.study.result_study import evaluating, study_text
 from tvimdesign.study.study import Options, Range
 
 SEARCHED = """
@@ -64,7 +64,15 @@ def test_what_the_module_lacks_is_left_out() -> None:
     assert study.task == "evaluate"
 
 
-def test_a_design_whose_current_follows_a_profile_is_refused_in_words() -> None:
-    profile = {"softening": {"moments": [0.0, 1.0], "currents": [0.0, 1.0]}}
-    with pytest.raises(InputError, match=r"follows a profile \(softening\)"):
-        evaluating(design(current_profiles=profile))
+PROFILES = {
+    "softening": {"moments": [0.0, 0.1, 7.3, 40.0], "currents": [0.0, 1.0 / 3.0, 2.0, 1.2]},
+    "stiffening": {"moments": [0.0, 0.1], "currents": [0.0, -0.3]},
+}
+
+
+def test_a_design_whose_current_follows_a_profile_is_a_study_that_gives_its_currents() -> None:
+    study = evaluating(design(current_profiles=PROFILES))
+    assert {phase: one.model_dump(mode="json") for phase, one in study.currents.items()} == PROFILES
+    again = read_study_text(study_text(study, "written", ROOT), "again", ROOT)
+    assert again.currents == study.currents  # to the last digit
+    assert resolve_study(again).current_profiles["softening"].plain() == PROFILES["softening"]

@@ -64,6 +64,7 @@ class Study:
         front: Values | None = None,
         operating_points: Values | None = None,
         profile: Values | None = None,
+        currents: Values | None = None,
         tolerances: Any = None,
         robust: Any = None,
         solver: Values | None = None,
@@ -76,8 +77,8 @@ class Study:
         sections = {
             "name": name, "description": description, "mode": mode, "catalog": catalog, "module": module, "vary": vary,
             "require": require, "accept": accept, "minimize": minimize, "front": front,
-            "operating_points": operating_points, "profile": profile, "tolerances": tolerances, "robust": robust,
-            "solver": solver, "sweep": sweep, "write": write,
+            "operating_points": operating_points, "profile": profile, "currents": currents, "tolerances": tolerances,
+            "robust": robust, "solver": solver, "sweep": sweep, "write": write,
         }  # fmt: skip
         given = {key: value for key, value in sections.items() if value is not None}
         self._tree = tree_of_values(given, "Study(...)", Path(folder))

@@ -16,7 +16,7 @@ from tvimdesign.simulation.working_cycle.curves import Curves, impedance_sweep, 
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import intervals
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, given_profiles
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.cooling import Cooling, cooling
@@ -158,11 +158,11 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
     else:
         model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
         inputs = model.start
-        cycle = Simulator(model).run_to_show(inputs)
+        status, current_profiles = "evaluated", given_profiles(study)
+        cycle = Simulator(model).run_to_show(inputs, current_profiles)
         values = model.values(inputs, cycle.values)
-        status, current_profiles = "evaluated", {}
     numbers = {name: float(inputs[i]) for name, i in model.index.items()}
-    resolved = ResolvedModule(study, {**given(study), **model.words, **numbers})
+    resolved = ResolvedModule(study, {**given(study), **model.words, **numbers}, current_profiles)
     open_values = intervals(resolved, model, inputs, cycle.values, current_profiles)
     seen = _seen(resolved, exists=solution is None or status in {OPTIMAL, BELOW_YIELD})
     open_values |= {name: (low, high) for name, (_, low, high) in seen.items() if low < high}

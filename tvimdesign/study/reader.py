@@ -15,6 +15,7 @@ from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Table, table_for
 from tvimdesign.study.sections.accept import read_accept
+from tvimdesign.study.sections.currents import read_currents
 from tvimdesign.study.sections.goals import read_front, read_minimize, read_require
 from tvimdesign.study.sections.settings import read_module, read_points
 from tvimdesign.study.sections.sweep_block import SweepBlock
@@ -118,6 +119,7 @@ class _Reader:
         front = read_front(reading, get("front"), points)
         self._both_or_neither()
         self._profile_has_a_range(reading.table, vary)
+        currents = read_currents(reading, get("currents"), searched=_says_something(get("vary")))
         tolerances = read_tolerances(reading, get("tolerances"), points)
         self.sweep = read_sweep(reading, get("sweep"), points)
         return {
@@ -129,6 +131,7 @@ class _Reader:
             "minimize": minimize,
             "front": front,
             "operating_points": points,
+            "currents": currents,
             "tolerances": tolerances,
             "robust": read_robust(reading, get("robust"), tolerances, searched=_says_something(get("vary"))),
         }

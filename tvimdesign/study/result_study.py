@@ -6,20 +6,16 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.device import Choice, Input, table_for
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.study.design import Design
-from tvimdesign.study.study import ProfileOptions, Range, Study
+from tvimdesign.study.study import GivenCurrent, ProfileOptions, Range, Study
 from tvimdesign.study.tree import tree_of_values, tree_yaml
 from tvimdesign.study.written_study import written
 
 
 def result_text(design: Design, source: str, folder: Path) -> str:
-    """The text of a study that `run` answers as the design; `folder` is where its file will stand.
-
-    Raises InputError for a design whose current follows a profile, which no study states.
-    """
+    """The text of a study that `run` answers as the design; `folder` is where its file will stand."""
     return study_text(evaluating(design), f"The module of {source}", folder)
 
 
@@ -48,12 +44,6 @@ def evaluating(design: Design) -> Study:
 
     Inputs and choices that have no effect in this module, such as those of a part it does not have, are left out.
     """
-    if design.current_profiles:
-        phases = " and ".join(design.current_profiles)
-        raise InputError(
-            f"{design.name}: its current follows a profile ({phases}), which a study cannot state; "
-            "`tvimdesign simulate` takes the design itself"
-        )
     study, table = Study.model_validate(design.study), table_for(design.mode)
     chosen = {name: design.choices.get(name, design.values.get(name)) for name in study.vary}
     module = {**study.module, **{name: value for name, value in chosen.items() if value is not None}}
@@ -61,5 +51,7 @@ def evaluating(design: Design) -> Study:
     rows: list[Choice | Input] = [*table.choices, *table.inputs]
     idle = {row.name for row in rows if lacking & set(row.requires)}
     kept = {name: value for name, value in module.items() if name not in idle}
-    update = {"module": kept, "vary": {}, "minimize": {}, "front": None, "robust": None, "profile": ProfileOptions()}
+    currents = {phase: GivenCurrent.model_validate(plain) for phase, plain in design.current_profiles.items()}
+    update = {"module": kept, "vary": {}, "minimize": {}, "front": None, "robust": None, "profile": ProfileOptions(),
+              "currents": currents}  # fmt: skip
     return study.model_copy(update=update)

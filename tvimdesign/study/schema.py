@@ -54,6 +54,7 @@ def json_schema(tables: Mapping[str, Table]) -> _Schema:
             "catalog": _text("folder of your own records, relative to this file"),
             **{section: {"description": about} for section, about in _SECTIONS.items()},
             "profile": _options(ProfileOptions),
+            "currents": _currents(),
             "robust": _robust(),
             "solver": _options(SolverOptions),
             "write": _options(WriteOptions),
@@ -167,6 +168,14 @@ def _accept(table: Table) -> _Schema:
     name = {"enum": rating_names(table)}
     names = {"type": "array", "uniqueItems": True, "items": name}
     return {"description": _SECTIONS["accept"], "anyOf": [names, name, {"type": "null"}]}
+
+
+def _currents() -> _Schema:
+    """Currents that are given over time, by phase."""
+    quantities = {"type": "array", "minItems": 2, "items": {"$ref": "#/definitions/quantity"}}
+    given = _shape({"moments": quantities, "currents": quantities}, ["moments", "currents"])
+    about = "currents of an evaluated module over time, by phase: moments from its start, and a current at each"
+    return _section(about, dict.fromkeys(ProfileOptions.model_fields, given))
 
 
 def _minimize(table: Table) -> _Schema:

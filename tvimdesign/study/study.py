@@ -119,6 +119,14 @@ class ProfileOptions(_Part):
         return {phase: count for phase, count in self.model_dump().items() if count}
 
 
+class GivenCurrent(_Part):
+    """A phase's current [A] at some moments [s] from its start, straight between them; the last one lasts."""
+
+    moments: tuple[float, ...]
+    """Rising from zero."""
+    currents: tuple[float, ...]
+
+
 class FrontOptions(_Part):
     """Two or three outputs to be traded against one another."""
 
@@ -150,6 +158,8 @@ class Study(_Part):
     front: FrontOptions | None = None
     operating_points: dict[str, dict[str, float]]
     profile: ProfileOptions = ProfileOptions()
+    currents: dict[str, GivenCurrent] = {}
+    """Currents over time by phase, of a study that evaluates its module; constant ones are inputs of it."""
     tolerances: dict[str, Tolerance] = {}
     robust: Robust | None = None
     solver: SolverOptions = SolverOptions()

@@ -32,6 +32,7 @@ SECTIONS = (
     "front",
     "operating_points",
     "profile",
+    "currents",
     "tolerances",
     "robust",
     "solver",

@@ -13,7 +13,7 @@ from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import from_si, parse_quantity, si_unit
 from tvimdesign.device import Input, Table
 from tvimdesign.study.sections.tolerances import STANDARD, difference_unit, standard_tolerances
-from tvimdesign.study.study import Options, Robust, Study, Tolerance, Vary, unit_of
+from tvimdesign.study.study import GivenCurrent, Options, Robust, Study, Tolerance, Vary, unit_of
 
 
 def written(study: Study) -> dict[str, Any]:
@@ -35,6 +35,7 @@ def written(study: Study) -> dict[str, Any]:
             for point, values in study.operating_points.items()
         },
         "profile": _changed(study.profile),
+        "currents": {phase: _current(given) for phase, given in study.currents.items()},
         "tolerances": _tolerances(table, study.tolerances),
         "robust": study.robust and _robust(study.robust),
         "solver": _changed(study.solver),
@@ -56,6 +57,13 @@ def exactly(value: float, unit: str) -> str:
 
 def _value(table: Table, name: str, value: float | str) -> str:
     return value if isinstance(value, str) else exactly(value, table.unit(name))
+
+
+def _current(given: GivenCurrent) -> dict[str, list[str]]:
+    return {
+        "moments": [exactly(moment, "s") for moment in given.moments],
+        "currents": [exactly(current, "A") for current in given.currents],
+    }
 
 
 def _vary(table: Table, name: str, allowed: Vary) -> Any:

@@ -12,6 +12,7 @@ from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.device import Choice
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import given_profiles
 from tvimdesign.solve.anchored_search import AnchoredSearch
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_impossible
 from tvimdesign.solve.optimizer.ratings import exceeded, kept, sorted_by_acceptance
@@ -65,7 +66,7 @@ class CellAnswers:
         simulator = self._simulator(study, numbers)
         model = simulator.model
         inputs = np.array([float(numbers[name]) for name in model.names])
-        values = model.values(inputs, simulator.run_to_show(inputs).values)
+        values = model.values(inputs, simulator.run_to_show(inputs, given_profiles(study)).values)
         stated = {name: float(inputs[i]) for name, i in model.index.items()}
         return self._told("evaluated", study, {**stated, **values}, {**numbers, **model.words})
 

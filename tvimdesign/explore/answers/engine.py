@@ -78,6 +78,8 @@ class Engine:
         free = self._freed(state)
         if state.way == "evaluate":
             study = self._read(tree_of(self._base, state))
+            if study.currents:
+                return Answer({"status": WAITS})
             known = given(study)
             values = self._evaluated(study, known, {})
             shown = {**shown_design(study, free, known, values.values), "curves": finite_data(values.curves)}
@@ -171,7 +173,8 @@ class Engine:
         with suppress(TvimError):
             at = {name: design.values[name] for name in free.vary if name in design.values}
             evaluated = self._evaluated(answered.study, known, at)
-            shown["curves"] = finite_data(evaluated.curves)
+            if not design.current_profiles:  # these curves are of constant currents
+                shown["curves"] = finite_data(evaluated.curves)
         shown["at"] = {
             name: text_of(free, name, design.choices.get(name, design.values.get(name, 0.0))) for name in free.vary
         }

@@ -99,16 +99,21 @@ def current_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]
     """(phase, moment [s], current [A], what that is of the range) of the currents that follow a profile."""
     rows = []
     for name, plain in design.current_profiles.items():
-        vary = design.study["vary"][table.phase(name).current_input]
+        vary = design.study["vary"].get(table.phase(name).current_input)
         currents = plain["currents"]
+        largest = vary["upper"] if vary else max(map(abs, currents))
         for i, (seconds, exact) in enumerate(zip(plain["moments"], currents, strict=True)):
-            size = abs(exact)
-            end = "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
-            inside = 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]
-            current = exact if size > 1e-4 * vary["upper"] else 0.0
-            moment = number(seconds, 3)
-            rows.append((name if i == 0 else "", moment, number(current, 3), "" if inside else end))
+            current = exact if abs(exact) > 1e-4 * largest else 0.0
+            end = _end_of_range(abs(exact), vary) if vary else ""
+            rows.append((name if i == 0 else "", number(seconds, 3), number(current, 3), end))
     return rows
+
+
+def _end_of_range(size: float, vary: Mapping[str, float]) -> str:
+    """At which end of its range a current lies; empty within it."""
+    if 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]:
+        return ""
+    return "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
 
 
 def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[float, str]:

@@ -31,14 +31,24 @@ class ResolvedModule:
         """Names of the operating points."""
         return tuple(self.study.operating_points)
 
+    @property
+    def replaced(self) -> set[str]:
+        """Inputs in whose place a current follows a profile: nothing depends on them."""
+        return {self.table.phase(phase).current_input for phase in self.current_profiles}
+
     def quantity(self, name: str) -> Any:
         """Value of one quantity by full name; hidden quantities too."""
         return self.table.evaluate(self.values, [name])[name]
 
 
+def given_profiles(study: Study) -> dict[str, CurrentProfile]:
+    """The currents that a study gives over time, by phase."""
+    return {phase: CurrentProfile(given.moments, given.currents) for phase, given in study.currents.items()}
+
+
 def resolve_study(study: Study) -> ResolvedModule:
     """Resolve a study for testing; what it varies stands at its start. Raises InputError for what has no value."""
-    return ResolvedModule(study, given(study))
+    return ResolvedModule(study, given(study), given_profiles(study))
 
 
 def resolve_design(design: Design) -> ResolvedModule:

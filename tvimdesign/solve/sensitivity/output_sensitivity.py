@@ -77,12 +77,11 @@ def output_sensitivities(
     simulator = Simulator(model)
     cycle = simulator.run(model.start, resolved.current_profiles)
     names = [n for n in wanted if not isinstance(resolved.table.quantity(n), FirstOscillation)]
-    driven = {model.phases[phase].phase.current_input for phase in resolved.current_profiles}
     supplied = {name: _supplied_behind(model, name) for name in names}
     lost = _lost(model, cycle, set(resolved.current_profiles))
     kept = [name for name in names if not supplied[name] & lost]
     variables = by or [row.name for row in resolved.table.inputs if _is_variable(resolved, model, row.name)]
-    variables = [name for name in variables if name not in driven]
+    variables = [name for name in variables if name not in resolved.replaced]
     needed = sorted({one for name in kept for one in supplied[name]})
     place = [model.index[name] for name in variables]
     of_cycle = np.zeros((len(model.switch_names), len(place)))

@@ -12,9 +12,14 @@ FREE_ANGLE = "preload_angle"
 
 
 def contributors_of(resolved: ResolvedModule, adjusted: bool | None = None) -> list[spread.Contributor]:
-    """The study's tolerances at this design; `adjusted` says of all that can be adjusted whether they are."""
+    """The study's tolerances at this design; `adjusted` says of all that can be adjusted whether they are.
+
+    A constant current in whose place one follows a profile spreads nothing.
+    """
     found = []
     for name, tolerance in resolved.study.tolerances.items():
+        if name in resolved.replaced:
+            continue
         row = resolved.table.quantity(name)
         assert isinstance(row, Input)  # the reader sees to that
         value = float(resolved.values[name])
