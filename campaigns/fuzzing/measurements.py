@@ -119,4 +119,4 @@ def _use_fit(path: Path) -> None:
 
 DATA_FILES = Kind(_data_file, _use_data)
 COLUMN_MAPS = Kind(_map, _use_map)
-FITS = Kind(_fit, _use_fit, writes=True, share=0.01)
+FITS = Kind(_fit, _use_fit, writes=True)
