@@ -188,19 +188,12 @@ class Table:
 
     def ancestors(self, name: str) -> frozenset[str]:
         """Every quantity, by base name, that the named one depends on; the input that is a phase's current included."""
-        if name in self._ancestors:
-            return self._ancestors[name]
-        seen: set[str] = set()
-        todo = [name.partition("@")[0]]
-        while todo:
-            quantity = self.by_name[todo.pop()]
-            for need in (*quantity.needs, *self._currents(quantity)) if isinstance(quantity, Output) else ():
-                base = need.partition("@")[0]
-                if base not in seen and base not in NOT_QUANTITIES:
-                    seen.add(base)
-                    todo.append(base)
-        found = self._ancestors[name] = frozenset(seen)
-        return found
+        if name not in self._ancestors:
+            quantity = self.by_name[name.partition("@")[0]]
+            needs = (*quantity.needs, *self._currents(quantity)) if isinstance(quantity, Output) else ()
+            parents = {need.partition("@")[0] for need in needs} - NOT_QUANTITIES
+            self._ancestors[name] = frozenset(parents).union(*map(self.ancestors, parents))
+        return self._ancestors[name]
 
     def _currents(self, quantity: Output) -> Iterator[str]:
         """The inputs that are the current of a supplied quantity's phase, and of those before it."""
