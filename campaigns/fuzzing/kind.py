@@ -36,5 +36,7 @@ class Kind:
     """Does with the file what the commands do first. Raises the package's errors."""
     writes: bool = False
     """Whether files may be written in the folder of the input."""
+    most_seconds: float = 2.0
+    """Of the processor, as the machine may have other work; an input that takes longer is a failure."""
     share: float = 1.0
     """Of the inputs asked for of each kind; those that cost more get less."""

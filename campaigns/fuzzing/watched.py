@@ -15,9 +15,8 @@ from typing import Any
 from fuzzing.kind import Kind
 from tvimdesign.base.errors import TvimError
 
-SLOW = 2.0
-"""Seconds of the processor: the machine may have other work."""
-HANG = 6.0
+HANG = 3.0
+"""Times the seconds a kind may take, after which an input is ended."""
 _WRITES = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
 _CHANGES = {"os.mkdir": 1, "os.rmdir": 1, "os.remove": 1, "os.rename": 2, "os.link": 2, "os.symlink": 2,
             "os.truncate": 1, "os.chmod": 1, "os.chown": 1, "os.utime": 1}  # fmt: skip
@@ -94,7 +93,7 @@ def ending(kind: Kind, path: Path) -> tuple[str, bool]:
     """What is wrong with how an input is taken, empty where nothing is; and whether it was refused."""
     began, fault, refused = time.process_time(), "", False
     signal.signal(signal.SIGPROF, _too_long)
-    signal.setitimer(signal.ITIMER_PROF, HANG)
+    signal.setitimer(signal.ITIMER_PROF, HANG * kind.most_seconds)
     with watch().within(path.parent.absolute() if kind.writes else None) as changed:
         try:
             kind.use(path)
@@ -109,6 +108,6 @@ def ending(kind: Kind, path: Path) -> tuple[str, bool]:
             fault = f"{type(error).__name__} in {Path(last.filename).name}:{last.name}: {str(error)[:120]!r}"
         finally:
             signal.setitimer(signal.ITIMER_PROF, 0.0)
-    if not fault and (seconds := time.process_time() - began) > SLOW:
+    if not fault and (seconds := time.process_time() - began) > kind.most_seconds:
         fault = f"takes {seconds:.1f} s"
     return fault or (f"touches {changed[0]}" if changed else ""), refused
