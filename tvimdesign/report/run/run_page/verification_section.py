@@ -1,0 +1,80 @@
+"""What finite elements found of a design, as a section of its run's page, read off the folder of the verification."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.page.blocks import Block, Picture, Section, Words
+from tvimdesign.page.page_file import FILE, MOST
+from tvimdesign.page.page_insert import with_section
+from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.results_folder import hash_of, made_from, rewrite
+from tvimdesign.report.output.tables import number
+
+NAME, DATA, DESIGN = "verification", "verify.json", "design.json"
+_BEFORE = "study"
+"""The section of a run's page that it stands before."""
+_HEADS = ("", "model", "FE", "unit", "model / FE", "mesh", "what")
+_SHOWN = {
+    "joint": "Stress in the frozen joint", "spring": "Stress in one spring",
+    "screws": "Stress in link and core under the link screws", "link": "Stress in the link", "heat": "Temperature",
+}  # fmt: skip
+_ROOM = 100_000
+
+
+def folder_of_verification(run: Path) -> Path:
+    """Where the verification of a run stands, unless told."""
+    return run.with_name(f"{run.resolve().name}-verified")
+
+
+def verification_sections(run: Path) -> list[Section]:
+    """The section of a run's page where there is a verification of this very design; none otherwise."""
+    folder = folder_of_verification(run)
+    if not _is_of(folder, run):
+        return []
+    return [verification_section(folder, run)]
+
+
+def verification_section(folder: Path, run: Path, *, pictures: bool = True) -> Section:
+    """Rows worst first, what to make of them, and the fields."""
+    found: dict[str, Any] = json.loads((folder / DATA).read_text("utf-8"))
+    cells = [
+        (row["name"], number(row["model"]), number(row["fe"]), row["unit"], f"{row['ratio']:.3f}",
+         f"{100.0 * row['mesh_change']:+.1f} %", row["meaning"])
+        for row in found["rows"]
+    ]  # fmt: skip
+    told = [found["summary"], f"Solvers and versions: {os.path.relpath(folder, run)}/{FILE}."]
+    table = grid("The model against finite elements on the drawn parts", _HEADS, cells, right=(1, 2, 4, 5))
+    blocks: list[Block] = [Words(told), table]
+    shown = [name for name in _SHOWN if pictures and (folder / f"{name}.png").exists()]
+    blocks += [Picture((folder / f"{name}.png").read_bytes(), _SHOWN[name], _SHOWN[name]) for name in shown]
+    return Section(NAME, "Finite elements", blocks)
+
+
+def put_on_page(folder: Path, run: Path) -> bool:
+    """Put a finished verification on the page of the run it is of; whether there is such a page.
+
+    Without pictures where the page would be too large for a mail.
+    """
+    page = run / FILE
+    if not _is_of(folder, run) or not page.exists():
+        return False
+    text = page.read_text("utf-8")
+    for pictures in (True, False):
+        whole = with_section(text, verification_section(folder, run, pictures=pictures), _BEFORE)
+        if whole is None:
+            return False
+        data = whole.encode()
+        if len(data) <= MOST + _ROOM:
+            break
+    rewrite(run, FILE, data)
+    return True
+
+
+def _is_of(folder: Path, run: Path) -> bool:
+    """Whether a folder has the verification of a run's design, as it is now."""
+    design = run / DESIGN
+    return (folder / DATA).exists() and design.exists() and made_from(folder, "design") == hash_of(design)
