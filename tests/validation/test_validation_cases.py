@@ -115,6 +115,7 @@ def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path)
         ("    value: 32\n", "    value: .nan\n", "not a finite number"),
         ("    known_within: 0.25\n", "", "needs `known`, its reason"),
         ("source:", "sauce:", "sauce: unknown"),
+        ("; page read 2026-11", "", "source: give its DOI, edition or year"),
         ("compare: peltier_modules:largest_heat\n", "", "`open` says what is missing"),
     ],
 )
