@@ -7,10 +7,11 @@ import pytest
 
 from tvimdesign.physics.solids import screw_stress
 
-# Bossard and others print the tables of VDI 2230 (here Mastik, catalogue, page 685: fine threads, edition 2001): greatest
+# Makers of screws print the tables of VDI 2230 (Mastik, catalogue, page 685: fine threads, edition of 2001): most
 # force of a screw of class 8.8 that uses 90 % of its yield strength, 640 MPa up to M16, and the torque for it.
 TABLE = [
-    # diameter, pitch [mm], friction, force [kN], torque [N*m], mean of a hexagon head's face and its hole (ISO 4014, ISO 273) [mm]
+    # diameter, pitch [mm], friction, force [kN], torque [N*m], mean diameter of a hexagon head's face and its hole [mm]
+    # (ISO 4014, ISO 273)
     (8.0, 1.0, 0.10, 20.7, 22.8, 10.3), (8.0, 1.0, 0.12, 20.2, 26.1, 10.3), (8.0, 1.0, 0.14, 19.7, 29.2, 10.3),
     (10.0, 1.25, 0.12, 31.6, 51.0, 12.8), (12.0, 1.25, 0.12, 48.0, 90.0, 15.05), (16.0, 1.5, 0.12, 87.6, 218.0, 20.0),
 ]  # fmt: skip
