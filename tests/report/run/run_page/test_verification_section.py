@@ -6,12 +6,13 @@ import json
 from pathlib import Path
 
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.page.blocks import Page, Points, Section, Words
+from tvimdesign.page.blocks import Page, Picture, Points, Section, Words
 from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder, hash_of
 from tvimdesign.report.run.run_page.verification_section import (
     folder_of_verification,
     put_on_page,
+    verification_section,
     verification_sections,
 )
 from tvimdesign.report.verify.comparison import Compared
@@ -48,6 +49,17 @@ def test_a_verification_goes_onto_the_page_of_its_run(tmp_path: Path) -> None:
     assert json.loads((run / MANIFEST).read_text())["files"]["report.html"] == hash_of(run / "report.html")
     (section,) = verification_sections(run)
     assert section.name == "verification"
+
+
+def test_the_page_takes_the_fields_it_has_room_for(tmp_path: Path) -> None:
+    run = run_folder(tmp_path / "wrist")
+    folder = verification(run)
+    for name, size in (("joint", 1000), ("spring", 3_000_000), ("link", 2000)):
+        (folder / f"{name}.png").write_bytes(b"x" * size)
+    words = [block.says for block in verification_section(folder, run, 1e5).blocks if isinstance(block, Picture)]
+    assert words == ["Stress in the frozen joint", "Stress in the link"]
+    assert put_on_page(folder, run)
+    assert (run / "report.html").read_text().count("data:image/png") == 3
 
 
 def test_that_of_another_design_does_not(tmp_path: Path) -> None:

@@ -22,7 +22,10 @@ _SHOWN = {
     "joint": "Stress in the frozen joint", "spring": "Stress in one spring",
     "screws": "Stress in link and core under the link screws", "link": "Stress in the link", "heat": "Temperature",
 }  # fmt: skip
-_ROOM = 100_000
+_BASE64 = 4.0 / 3.0
+"""Bytes that a byte of a picture takes in a page."""
+_AROUND = 1000
+"""Bytes at most of what stands around a picture."""
 
 
 def folder_of_verification(run: Path) -> Path:
@@ -38,8 +41,8 @@ def verification_sections(run: Path) -> list[Section]:
     return [verification_section(folder, run)]
 
 
-def verification_section(folder: Path, run: Path, *, pictures: bool = True) -> Section:
-    """Rows worst first, what to make of them, and the fields."""
+def verification_section(folder: Path, run: Path, room: float = MOST) -> Section:
+    """Rows worst first, what to make of them, and those fields for which there is `room` in the page [bytes]."""
     found: dict[str, Any] = json.loads((folder / DATA).read_text("utf-8"))
     cells = [
         (row["name"], number(row["model"]), number(row["fe"]), row["unit"], f"{row['ratio']:.3f}",
@@ -49,27 +52,29 @@ def verification_section(folder: Path, run: Path, *, pictures: bool = True) -> S
     told = [found["summary"], f"Solvers and versions: {os.path.relpath(folder, run)}/{FILE}."]
     table = grid("The model against finite elements on the drawn parts", _HEADS, cells, right=(1, 2, 4, 5))
     blocks: list[Block] = [Words(told), table]
-    shown = [name for name in _SHOWN if pictures and (folder / f"{name}.png").exists()]
-    blocks += [Picture((folder / f"{name}.png").read_bytes(), _SHOWN[name], _SHOWN[name]) for name in shown]
+    for name, words in _SHOWN.items():
+        picture = folder / f"{name}.png"
+        taken = _AROUND + _BASE64 * picture.stat().st_size if picture.exists() else float("inf")
+        if taken < room:
+            blocks.append(Picture(picture.read_bytes(), words, words))
+            room -= taken
     return Section(NAME, "Finite elements", blocks)
 
 
 def put_on_page(folder: Path, run: Path) -> bool:
     """Put a finished verification on the page of the run it is of; whether there is such a page.
 
-    Without pictures where the page would be too large for a mail.
+    Of the fields it takes as many as the page has room for: it is to go into a mail.
     """
     page = run / FILE
     if not _is_of(folder, run) or not page.exists():
         return False
     text = page.read_text("utf-8")
-    for pictures in (True, False):
-        whole = with_section(text, verification_section(folder, run, pictures=pictures), _BEFORE)
-        if whole is None:
-            return False
-        data = whole.encode()
-        if len(data) <= MOST + _ROOM:
-            break
+    alone = with_section(text, verification_section(folder, run, 0.0), _BEFORE)
+    if alone is None:
+        return False
+    room = MOST - len(alone.encode())
+    data = (with_section(text, verification_section(folder, run, room), _BEFORE) or alone).encode()
     rewrite(run, FILE, data)
     return True
 
