@@ -21,7 +21,9 @@ STUDY = "elbow_printed"
 FE_STUDY = "paper_shear"
 """Of the reference parts, whose finite elements the documents show."""
 SWEEP = "\nsweep:\n  task: evaluate\n  over:\n    current: {from: 1.5 A, to: 2 A, count: 4}\n"
-LIGHT = "none"
+LIGHT, VALIDATION = "none", "validation"
+"""Environments without an extra: what a newcomer does first, and the cases of the validation."""
+ROOT = Path(__file__).resolve().parents[1]
 
 
 class Environment:
@@ -32,7 +34,7 @@ class Environment:
         self.folder, self.bin = place / "work", place / "venv" / ("Scripts" if os.name == "nt" else "bin")
         self.folder.mkdir(parents=True)
         subprocess.run([python, "-m", "venv", str(place / "venv")], check=True)
-        asked = str(wheel.resolve()) + ("" if extra == LIGHT else f"[{extra}]")
+        asked = str(wheel.resolve()) + ("" if extra in (LIGHT, VALIDATION) else f"[{extra}]")
         pip = [str(self.bin / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
         held = ["-c", str(constraints.resolve())] if constraints else []
         subprocess.run([*pip, *held, asked], check=True)
@@ -119,6 +121,15 @@ def fe(env: Environment) -> None:
     env.has(f"results/{FE_STUDY}-verified/report.html")
 
 
+def validation(env: Environment) -> None:
+    """Every case of the validation, as the repository has them, by the wheel's package without an extra."""
+    for name in ("validation", "studies"):
+        shutil.copytree(ROOT / name, env.folder / name)
+    told = env.run("python", "validation/run.py", "--docs", "compared", "--known", str(ROOT / "docs/validation.md"))
+    env.tell(told, " inside")
+    env.has("compared/validation.md")
+
+
 def _write_sweep(env: Environment) -> None:
     env.run("tvimdesign", "new", "--example", STUDY)
     study = env.folder / f"{STUDY}.yaml"
@@ -127,7 +138,7 @@ def _write_sweep(env: Environment) -> None:
 
 
 CHECKS: dict[str, Callable[[Environment], None]] = {
-    LIGHT: light, "cad": cad, "cluster": cluster, "parquet": parquet, "robot": robot, "fe": fe,
+    LIGHT: light, VALIDATION: validation, "cad": cad, "cluster": cluster, "parquet": parquet, "robot": robot, "fe": fe,
 }  # fmt: skip
 
 

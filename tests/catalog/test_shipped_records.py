@@ -27,7 +27,8 @@ def test_nothing_lacks_unit_source_or_status() -> None:
 
 
 def test_every_category_has_records() -> None:
-    assert [category for category in CATEGORIES if not CATALOG.names(category)] == []
+    # What a joint's own swings tell is nobody's until somebody has measured it.
+    assert [category for category in CATEGORIES if not CATALOG.names(category)] == ["joints"]
 
 
 def test_a_record_has_what_its_shelf_requires() -> None:

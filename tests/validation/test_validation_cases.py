@@ -79,6 +79,17 @@ def test_a_wrong_number_fails_the_run(
     assert f"{OUTSIDE:<17}{name}" in capsys.readouterr().out
 
 
+def test_what_a_page_tells_to_be_outside_may_be_so(tmp_path: Path) -> None:
+    name = "part_fits_iso_286"
+    copied(name, tmp_path / "cases", ("values: [10, 15,", "values: [10, 16,"))
+    known = tmp_path / "known.md"
+    command = ["--folder", str(tmp_path / "cases"), name, "--known", str(known)]
+    known.write_text(page([outcome(read_case(CASES / name / "case.yaml"))]))
+    assert run.main(command) == 1
+    known.write_text(page([outcome(read_case(tmp_path / "cases" / name / "case.yaml"))]))
+    assert run.main(command) == 0
+
+
 def test_a_product_that_is_off_fails_the_run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     copied("spring_rate_smi_example", tmp_path)
     right = spring.rate
@@ -115,6 +126,7 @@ def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path)
         ("    value: 32\n", "    value: .nan\n", "not a finite number"),
         ("    known_within: 0.25\n", "", "needs `known`, its reason"),
         ("source:", "sauce:", "sauce: unknown"),
+        ("; page read 2026-11", "", "source: give its DOI, edition or year"),
         ("compare: peltier_modules:largest_heat\n", "", "`open` says what is missing"),
     ],
 )

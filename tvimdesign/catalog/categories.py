@@ -198,6 +198,9 @@ CATEGORIES: Mapping[str, Category] = {
             "pad_edge_contact": "W/m^2/K",
         }
     ),
+    "joints": Category(
+        may_have={"moving_inertia": "kg*mm^2", "pin_friction": "1", "clamped_loss_factor": "1"},
+    ),
     "peltiers": Category(
         values={
             "seebeck": "mV/K",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,9 +12,12 @@ from tvimdesign.base.errors import InputError, RenamedWarning
 from tvimdesign.cli import completions
 from tvimdesign.cli.explore_command import explore
 from tvimdesign.cli.folders import default_folder, name_of
-from tvimdesign.cli.options import AsJson, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
+from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
 from tvimdesign.cli.sweep_command import sweep
 from tvimdesign.report.virtual_tests import TESTS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -61,17 +64,38 @@ def run(
         str,
         typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min."),
     ] = "",
+    verified: Annotated[
+        bool, typer.Option("--verify", help="Hold the design against finite elements after it, as `verify` does.")
+    ] = False,
+    fe_python: FePython = "",
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
     from tvimdesign.report.run.run_study import run_study
 
+    folder = out or default_folder(study)
+    after = _verification(folder, fe_python, overwrite=overwrite, told=not json) if verified else None
     run_study(
-        study, out or default_folder(study), overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
+        study, folder, overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
         prove=prove, resume=resume, full=full, as_json=json,
         settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
     )  # fmt: skip
+    if after:
+        after()
+
+
+def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> Callable[[], None]:
+    """What verifies a run once it is done. Raises InputError now where finite elements cannot be had."""
+    import sys
+
+    from tvimdesign.cad.fe.run_solvers import hold_ready
+    from tvimdesign.report.run.run_page.verification_section import folder_of_verification
+    from tvimdesign.report.verify.verify_design import verify_design
+
+    hold_ready(fe_python or sys.executable)
+    out = folder_of_verification(run)
+    return lambda: verify_design(run, out, fe_python, overwrite=overwrite, pictures=True, as_json=False, told=told)
 
 
 @app.command()
@@ -205,12 +229,7 @@ def tolerate(
 @app.command()
 def verify(
     result: ResultOfRun,
-    fe_python: Annotated[
-        str,
-        typer.Option(
-            "--fe-python", metavar="PATH", help="A Python that has netgen and ngsolve; this one unless given."
-        ),
-    ] = "",
+    fe_python: FePython = "",
     pictures: Annotated[bool, typer.Option("--pictures/--no-pictures", help="Draw the stress on the parts.")] = True,
     out: Out = None,
     overwrite: Overwrite = False,

@@ -41,3 +41,7 @@ Out = Annotated[
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the results of an earlier run in that folder.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print results as JSON.")]
+FePython = Annotated[
+    str,
+    typer.Option("--fe-python", metavar="PATH", help="A Python that has netgen and ngsolve; this one unless given."),
+]

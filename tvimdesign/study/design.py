@@ -14,7 +14,7 @@ from tvimdesign.base.whole_files import write_whole
 from tvimdesign.catalog import Catalog
 from tvimdesign.study.text.mistakes import At, Mistakes
 from tvimdesign.study.text.named_file import ordinary_bytes, printable
-from tvimdesign.study.text.renamed import renamed_plain
+from tvimdesign.study.text.renamed import renamed_plain, with_later_choices
 
 MAX_BYTES = 10_000_000
 
@@ -53,7 +53,7 @@ class Design(BaseModel):
     def _with_new_names(cls, data: Any) -> Any:
         """What an earlier release wrote, by the names of today."""
         kept = {"name": data["name"]} if isinstance(data, dict) and "name" in data else {}
-        return {**renamed_plain(data), **kept} if isinstance(data, dict) else data
+        return {**with_later_choices(renamed_plain(data)), **kept} if isinstance(data, dict) else data
 
     @property
     def rating_notes(self) -> list[str]:

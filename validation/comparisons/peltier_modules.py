@@ -114,3 +114,23 @@ def wired_modules(inputs: Found) -> Found:
         "voltage": peltier.voltage(together, current, hot, cold),
         "figure_of_merit": np.prod([together.seebeck**2, 1.0 / together.resistance, 1.0 / together.conductance]),
     }
+
+
+def currents_at_a_voltage(inputs: Found) -> Found:
+    """Current [A] at a constant voltage over the faces' temperatures, of modules of which only such curves are known.
+
+    Each curve gives the Seebeck coefficient and the resistance that suit V = S (T_h - T_c) + I R best; the currents
+    follow from them. The coefficients are told over that of the first curve of the same module.
+    """
+    currents, seebecks = [], []
+    for curve in inputs["curves"]:
+        hot, cold, measured = (np.array(curve[name]) for name in ("hot", "cold", "current"))
+        one = peltier.PeltierModule(1.0, 0.0, 0.0), peltier.PeltierModule(0.0, 1.0, 0.0)
+        table = np.column_stack([peltier.voltage(module, measured, hot, cold) for module in one])
+        seebeck, resistance = np.linalg.lstsq(table, np.full(len(hot), curve["voltage"]), rcond=None)[0]
+        open_voltage = peltier.voltage(peltier.PeltierModule(seebeck, resistance, 0.0), 0.0, hot, cold)
+        currents += [float(one) for one in (curve["voltage"] - open_voltage) / resistance]
+        seebecks.append(float(seebeck))
+    first = {module: seebecks[inputs["modules"].index(module)] for module in inputs["modules"]}
+    over = [seebeck / first[module] for seebeck, module in zip(seebecks, inputs["modules"], strict=True)]
+    return {"current": currents, "seebeck_over_the_first": over}

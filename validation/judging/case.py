@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,6 +27,16 @@ KINDS = {
 """Kinds of case, in the order of the page, with their headings."""
 _CASE = {"title", "kind", "source", "compare", "inputs", "expected", "reference", "open", "note"}
 _QUANTITY = {"unit", "value", "values", "low", "high", "relative", "absolute", "at", "labels", "known", "known_within"}
+
+
+DATED = re.compile(
+    r"10\.\d{4,9}/\S"  # a DOI
+    r"|\((?:[^()]*\D)?(?:18|19|20)\d\d\b|\w[:-](?:19|20)\d\d\b|, (?:19|20)\d\d\b"  # (1959), ISO 273:1979, ASME ...-1994
+    r"|\d(?:st|nd|rd|th) ed\.|its edition\)"
+    r"|own calculation of 20\d\d-\d\d|read (?:on )?20\d\d-\d\d|commit [0-9a-f]{7}"
+    r"|without year or DOI|neither DOI nor edition"
+)
+"""What says which edition of a source is meant, by DOI, year, edition or day; or that there is none of them."""
 
 
 class CaseError(Exception):
@@ -90,6 +101,8 @@ def read_case(path: Path) -> Case:
     for name in ("title", "kind", "source"):
         if not told.get(name):
             raise CaseError(f"{path}: {name}: missing")
+    if not DATED.search(" ".join(str(told["source"]).split())):
+        raise CaseError(f"{path}: source: give its DOI, edition or year, or the day a page was read: {told['source']}")
     if told["kind"] not in KINDS:
         raise CaseError(f"{path}: kind: {told['kind']!r} is none of {', '.join(KINDS)}")
     if bool(told.get("open")) == bool(told.get("compare")):

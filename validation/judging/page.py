@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from judging.case import KINDS
@@ -19,6 +20,11 @@ _HEAD = (
     "",
     "*Of the band* is the distance from the expected value over half the band: 1 is the edge.",
 )
+
+
+def outside_of(text: str) -> set[str]:
+    """Names of the cases that a page tells to be outside their bands."""
+    return set(re.findall(rf"^\| \[.*\]\(#(\w+)\) \|.*\| {OUTSIDE} \|$", text, re.MULTILINE))
 
 
 def page(outcomes: Sequence[Outcome]) -> str:

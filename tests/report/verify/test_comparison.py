@@ -29,7 +29,7 @@ TIMES = {"softening_time": math.inf, "mean_time": 55.0, "far_face_time": 80.0}
 
 def solved(tmp_path: Any, factor: float = 1.0) -> dict[str, Solved]:
     spring = {"rate": float(KEPT["spring_rate"]["fe"]), "fibre_max": 1.0e3, "bend_mises": 1.0e3}
-    joint = {**JOINT, "frequency": 180.0, "foot_across": 5.0}
+    joint = {**JOINT, "frequency": 180.0, "foot_across": 5.0, "foot_along": 0.5, "plate_mises": 0.5}
     joint["hub"] *= factor
     told = {"unknowns": 1e5, "seconds": 40.0, "gigabytes": 0.7}
     found = {"joint": {**joint, **told}, "spring": {**spring, **told}, "link": {"link": LINK, **told}}
@@ -56,6 +56,38 @@ def test_what_screws_and_feet_hold_is_by_statics(tmp_path: Any) -> None:
     held = float(MODULE.quantity("holding_torque"))
     assert rows["foot_force"].model == pytest.approx(held / (4 * 0.057), rel=1e-6)
     assert rows["foot_force"].fe == pytest.approx(5.0 * held)
+
+
+def test_the_plate_beside_its_core_is_by_equilibrium(tmp_path: Any) -> None:
+    rows = {row.name: row for row in comparison.compared(MODULE, solved(tmp_path), TIMES)}
+    # All of the torque goes through each cylinder of the plate: tau = T/(2 pi r^2 h), by quadrature over a millimetre.
+    held, core, thick = (float(MODULE.quantity(name)) for name in ("holding_torque", "core_radius", "rotor_thickness"))
+    radii = [core + (i + 0.5) * 1e-5 for i in range(100)]
+    shear = sum(held / (2.0 * math.pi * r**2 * thick) for r in radii) / len(radii)
+    assert rows["plate_stress"].model == pytest.approx(math.sqrt(3.0) * shear * 1e-6, rel=1e-4)
+    assert rows["plate_stress"].fe == pytest.approx(0.5 * held)
+
+
+def test_screws_bear_what_friction_leaves(tmp_path: Any) -> None:
+    found = solved(tmp_path)
+    for one in (found["joint"].found, found["joint"].coarse):
+        one["foot_across"] = 9.0
+    rows = {row.name: row for row in comparison.compared(MODULE, found, TIMES)}
+    held = float(MODULE.quantity("holding_torque"))
+    # M3: 5.03 mm2 and 2.53 mm (ISO 898-1), tightened to 55 MPa over 7.07 mm2. Half of the thread's twist stays, by the
+    # friction of thread and head for which the nut factor is 0.2 (VDI 2230-1:2015).
+    force = 55.0 * 7.069
+    along, across = force + 0.5 * held, 9.0 * held - 0.2 * force
+    assert across > 0.0
+    head = 0.5 * (5.5 + 3.4)
+    friction = (0.2 * 3.0 - 0.16 * 0.5) / (0.58 * 2.675 + 0.5 * head)
+    twist = 16.0 * force * (0.16 * 0.5 + 0.58 * 2.675 * friction) / (math.pi * 2.531**3)
+    expected = math.sqrt((along / 5.03) ** 2 + 3.0 * (0.5 * twist + across / 5.03) ** 2)
+    assert rows["foot_screw_stress"].fe == pytest.approx(expected, rel=3e-3)
+    pins = float(MODULE.quantity("link_dowel_circle_radius")) * float(MODULE.values["link_dowel_count"])
+    left = held - 4 * 0.2 * 55e6 * math.pi / 4.0 * 0.003**2 * 6.0e-3
+    section = math.pi / 4.0 * float(MODULE.values["link_dowel_diameter"]) ** 2
+    assert rows["link_pin_shear"].fe == pytest.approx(left / pins / section * 1e-6, rel=1e-6)
 
 
 def test_a_time_that_one_of_the_two_has_not_is_left_out(tmp_path: Any) -> None:

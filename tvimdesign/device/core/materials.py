@@ -72,6 +72,11 @@ quantities.record(
     "How heat passes faces that touch and leaves the module: of handbooks, or its log",
 )
 
+quantities.record(
+    "joint", "joints", "none", "What swings or sines of the joint told of its inertia, friction and loss, or none",
+    others=("none",),
+)  # fmt: skip
+
 for name, unit, field, description in (
     ("spring_youngs_modulus", "GPa", "youngs_modulus", "Young's modulus of the spring wire"),
     ("spring_density", "kg/m^3", "density", "Density of the spring wire"),

@@ -22,6 +22,19 @@ def shear_yield(tensile_yield: Any) -> Any:
     return tensile_yield / np.sqrt(3.0)
 
 
+def mises(shear: Any) -> Any:
+    """Von Mises stress [Pa] of pure shear, 3^(1/2) tau."""
+    return np.sqrt(3.0) * shear
+
+
+def shear_beside_core(torque: Any, thickness: Any, radius: Any, over: Any) -> Any:
+    """Mean shear [Pa] of a flat plate turned by a core, from its `radius` on outwards `over` a length [m].
+
+    By equilibrium tau(r) = T/(2 pi r^2 h); its mean is T/(2 pi h r (r + l)).
+    """
+    return torque / (2.0 * np.pi * thickness * radius * (radius + over))
+
+
 def shaft_stiffness(modulus: Any, radius: Any, length: Any) -> Any:
     """Round bar, G pi r^4/(2 L) [N*m/rad]."""
     return modulus * np.pi * radius**4 / (2.0 * length)

@@ -21,7 +21,7 @@ from tvimdesign.report.output.tables import number
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
 from tvimdesign.simulation.measurement.reading.column_map import read_column_map
-from tvimdesign.simulation.measurement.record_file import write_record
+from tvimdesign.simulation.measurement.record_file import write_records
 
 _MOST_TABLES = 3
 """Tables that the screen shows; `fit.json` has all."""
@@ -42,8 +42,10 @@ def fit_files(
         measured = measure_files(paths, kind, given, column_map)
         if drawing:
             drawing.begin(folder.path, [Drawing("fit", "fit_figure.fit", figure_data(measured))], _named(paths))
-        written = write_record(measured, catalog, record, based_on, overwrite=overwrite) if record else None
-        data = fit_data(measured) | {"settings": dict(given), "record": str(written) if written else None}
+        written = write_records(measured, catalog, record, based_on, overwrite=overwrite) if record else {}
+        named = {choice: str(path) for choice, path in written.items()}
+        first = next(iter(named.values()), None)
+        data = fit_data(measured) | {"settings": dict(given), "record": first, "records": named}
         folder.write_json("fit.json", data)
         folder.write("residuals.csv", residuals_csv(measured.measurement.fit))
         if drawing:
@@ -87,7 +89,7 @@ def _named(paths: Sequence[Path]) -> str:
     return ", ".join(path.name for path in paths)
 
 
-def _print(measured: Measured, written: Path | None, out: Path, console: Console) -> None:
+def _print(measured: Measured, written: Mapping[str, Path], out: Path, console: Console) -> None:
     found = measured.measurement
     for line in measured.read_for_the_fit(_MOST_TABLES):
         console.print(escape(line), style="dim", soft_wrap=True)
@@ -100,17 +102,13 @@ def _print(measured: Measured, written: Path | None, out: Path, console: Console
     console.print(grid)
     for line in (*found.notes, *found.fit.words):
         console.print(escape(line), soft_wrap=True)
+    for i, path in enumerate(written.values()):
+        console.print(f"{'' if i else chr(10)}Record: [bold]{escape(str(path))}[/bold]", soft_wrap=True)
     if written:
-        console.print(f"\nRecord: [bold]{escape(str(written))}[/bold]", soft_wrap=True)
-        console.print(escape(_use(written, measured.kind.category)), soft_wrap=True)
+        console.print(escape(_use(written)), soft_wrap=True)
     console.print(f"Values, residuals and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
 
 
-_CHOICES = {
-    "spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module",
-    "heat_paths": "heat_paths",
-}  # fmt: skip
-
-
-def _use(written: Path, category: str) -> str:
-    return f"In a study: catalog: {written.parent.parent}, module: {{{_CHOICES[category]}: {written.stem}}}"
+def _use(written: Mapping[str, Path]) -> str:
+    named = ", ".join(f"{choice}: {path.stem}" for choice, path in written.items())
+    return f"In a study: catalog: {next(iter(written.values())).parent.parent}, module: {{{named}}}"

@@ -36,7 +36,7 @@ def provenance(name: str, design: Design, table: Table, find_record: FindRecord)
         return Provenance("study", "set by the study")
     if row.per_point:
         return Provenance("study", "an operating point of the study")
-    if record := _record_of(row, design, table):
+    if (record := _record_of(row, design, table)) and not _without(record[0], row, design, table):
         return _of_record(*record, row, design, table, find_record)
     status, _, source = row.source.partition(": ")
     return Provenance(status, source, *(_of_factor(row, design, table, find_record) or (row.low, row.high)))
@@ -50,6 +50,13 @@ def _record_of(row: Input, design: Design, table: Table) -> tuple[str, str] | No
     assert isinstance(chosen, Choice)
     is_whole = design.choices.get(chosen.name, "none") not in chosen.options
     return row.stock_record if is_whole else row.record
+
+
+def _without(choice: str, row: Input, design: Design, table: Table) -> bool:
+    """Whether an input with a default of its own comes from a choice that stands for no record."""
+    chosen = table.quantity(choice)
+    assert isinstance(chosen, Choice)
+    return row.falls_back and design.choices[choice] in chosen.options
 
 
 def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord) -> Ends | None:

@@ -162,10 +162,27 @@ class ResultsFolder:
                 "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
                 "timing": timing or {},
                 "seed": study.get("solver", {}).get("seed"),
-                "inputs": {name: _hash(path) for name, path in inputs.items()},
-                "files": {p.relative_to(self.path).as_posix(): _hash(p) for p in files},
+                "inputs": {name: hash_of(path) for name, path in inputs.items()},
+                "files": {p.relative_to(self.path).as_posix(): hash_of(p) for p in files},
             },
         )
+
+
+def rewrite(folder: Path, name: str, data: bytes) -> None:
+    """Write a file of a finished folder anew, and its hash in the manifest."""
+    write_whole(folder / name, data)
+    manifest = json.loads((folder / MANIFEST).read_bytes())
+    manifest["files"][name] = hash_of(folder / name)
+    write_whole(folder / MANIFEST, (json.dumps(manifest, indent=2, allow_nan=False) + "\n").encode())
+
+
+def made_from(folder: Path, name: str) -> str:
+    """Hash of what went into a finished folder under a name; empty where there is no such folder."""
+    try:
+        inputs = json.loads((folder / MANIFEST).read_bytes()).get("inputs", {})
+    except (OSError, ValueError, AttributeError):
+        return ""
+    return str(inputs.get(name, ""))
 
 
 def _alive(process: object) -> bool:
@@ -186,7 +203,8 @@ def _remove_if_empty(folder: Path) -> None:
         shutil.rmtree(folder)
 
 
-def _hash(path: Path) -> str:
+def hash_of(path: Path) -> str:
+    """The hash of a file, as manifests have it."""
     return "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.physics.solids import structure
+from tvimdesign.report.verify.screw_rows import Carried, screw_rows
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 DRAWN = {"leg_model": "bending", "transmission": "geometry"}
@@ -58,7 +59,7 @@ def at_loads(module: ResolvedModule, rows: Mapping[str, float]) -> dict[str, flo
     names = ("held_spring_rate", "spring_winding", "holding_torque")
     rate, winding, held = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
     torques = {"coil_stress": rate * winding, "tang_stress": rate * winding}
-    torques |= dict.fromkeys(("core_stress", "edge_traction", "foot_force"), held)
+    torques |= dict.fromkeys(("core_stress", "plate_stress", "edge_traction", "foot_force"), held)
     return {name: value * torques.get(name, 1.0) for name, value in rows.items()}
 
 
@@ -84,6 +85,22 @@ WORDS = {
     "rotor_vanes_and_plate": ("N*m/rad", "vanes of the rotor with the plate they hang from"),
     "housing_vanes_and_floor": ("N*m/rad", "vanes of the housing with the floor on its feet"),
     "core_stress": ("MPa", "von Mises in the core at the holding torque, a mean over a millimetre above its foot"),
+    "plate_stress": (
+        "MPa",
+        "von Mises in the rotor plate at the holding torque, a mean over its thickness and a "
+        "millimetre beside the core's foot",
+    ),
+    "link_screw_stress": (
+        "MPa",
+        "a link screw, tightened, with what neither friction nor pins hold at the holding "
+        "torque: equivalent stress by VDI 2230",
+    ),
+    "link_pin_shear": ("MPa", "a dowel pin of the link, sheared by what friction does not hold of the holding torque"),
+    "foot_screw_stress": (
+        "MPa",
+        "the screw of the foot that takes most, tightened, with what friction does not hold "
+        "of the force across it: equivalent stress by VDI 2230",
+    ),
     "edge_traction": ("MPa", "shear along the arcs' edges at the holding torque, a mean over one thickness"),
 }
 """Unit and meaning of each row."""
@@ -96,7 +113,7 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         "spring_rate", "held_spring_rate", "coil_stress_per_angle", "tang_stress_per_angle", "structure_stiffness",
         "pcl_stiffness@cold", "core_stiffness", "plate_stiffness", "floor_stiffness", "link_stiffness",
         "core_holding_torque", "cold_layer_strength", "holding_torque", "spring_stiffness", "link_friction_torque",
-        "spring_count", "placement_radius",
+        "spring_count", "placement_radius", "rotor_thickness", "core_radius",
         *(("layer_edge_traction",) if shear else ("rotor_vane_stiffness", "housing_vane_stiffness")),
     ]  # fmt: skip
     inputs = _drawn(module)
@@ -112,7 +129,10 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         "core_stress": found["cold_layer_strength"] / yields * 1e-6,
         "link_friction_torque": found["link_friction_torque"],
         "foot_force": 1.0 / (found["spring_count"] * found["placement_radius"]),
+        "plate_stress": structure.mises(structure.shear_beside_core(
+            1.0, found["rotor_thickness"], found["core_radius"], structure.FOOT_MEAN)) * 1e-6,
     }  # fmt: skip
+    rows |= screw_rows(module, Carried(rows["foot_force"] * found["holding_torque"], 0.0, rows["link_friction_torque"]))
     plate, floor = found["plate_stiffness"], found["floor_stiffness"]
     if shear:
         traction = found["layer_edge_traction"] / found["holding_torque"] * 1e-6
@@ -125,10 +145,14 @@ def fe_values(module: ResolvedModule, found: Mapping[str, Mapping[str, float]]) 
     names = ("link_friction_torque", "link_bolt_circle_radius")
     friction, circle = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
     joint, heat = found["joint"], found.get(HEAT, {})
+    held = float(module.table.evaluate(_drawn(module), ("holding_torque",))["holding_torque"])
+    slip = friction * found["screws"]["friction_radius"] * 1e-3 / circle
+    across = joint["foot_across"] * held if "foot_across" in joint else None
     return {
+        **screw_rows(module, Carried(across, joint.get("foot_along", 0.0) * held, slip)),
         **joint_rows(joint), **spring_rows(found["spring"]), "natural_frequency": joint["frequency"],
         "link": found["link"]["link"], **({"foot_force": joint["foot_across"]} if "foot_across" in joint else {}),
-        "link_friction_torque": friction * found["screws"]["friction_radius"] * 1e-3 / circle,
+        "link_friction_torque": slip,
         **{name: heat[name] for name in TIMES if name in heat},
     }  # fmt: skip
 
@@ -141,6 +165,7 @@ def spring_rows(spring: Mapping[str, float]) -> dict[str, float]:
 def joint_rows(joint: Mapping[str, float]) -> dict[str, float]:
     """Rows of what FE finds of the frozen joint: vanes with what they stand on, the core where it is stressed most."""
     rows = {"hub": joint["hub"], "core": joint["core"], "core_stress": max(joint["core_mises"], joint["foot_highest"])}
+    rows |= {"plate_stress": joint["plate_mises"]} if "plate_mises" in joint else {}
     plate, floor = joint["plate"], joint["housing"]
     if "rotor_vanes" in joint:
         return {**rows, **_vanes(joint["rotor_vanes"], plate, joint["housing_vanes"], floor)}

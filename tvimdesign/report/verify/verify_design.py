@@ -16,9 +16,11 @@ from rich.markup import escape
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.cad.fe.run_solvers import Solved, hold_ready, run_solvers
+from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.run.run_page.verification_section import put_on_page
 from tvimdesign.report.verify.comparison import HEAT, SOLVERS, TIMES, Compared, compared
 from tvimdesign.report.verify.verify_page import verify_page
 from tvimdesign.report.verify.verify_tables import page, print_rows, table_csv, verified
@@ -34,8 +36,13 @@ TITLES = {
 }  # fmt: skip
 
 
-def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, pictures: bool, as_json: bool) -> None:
-    """Solve the parts of a design and write the folder. Raises InputError, SimulationError, OutputError."""
+def verify_design(
+    path: Path, out: Path, fe_python: str, *, overwrite: bool, pictures: bool, as_json: bool, told: bool = True
+) -> None:
+    """Solve the parts of a design and write the folder, and the section of its run's page where it has one.
+
+    Nothing is printed unless `told`. Raises InputError, SimulationError, OutputError.
+    """
     source = path / "design.json" if path.is_dir() else path
     design = read_design(source)
     python = fe_python or sys.executable
@@ -49,13 +56,16 @@ def verify_design(path: Path, out: Path, fe_python: str, *, overwrite: bool, pic
             rows, data = _verified(design, module, folder, Path(work).resolve(), python, progress, pictures=pictures)
         progress("")
         folder.finish("verified", {"design": source}, design.study)
+    on_page = put_on_page(out, source.parent)
+    if not told:
+        return
     if as_json:
-        print(json.dumps({**data, "folder": str(out)}, indent=2, allow_nan=False))
+        print(json.dumps({**data, "folder": str(out), "on_page_of_run": on_page}, indent=2, allow_nan=False))
     else:
         print_rows(rows, wide_console())
-        wide_console().print(
-            f"\nreport.html with table and pictures is in [bold]{escape(str(out))}[/bold]", soft_wrap=True
-        )
+        where = f"\nreport.html with table and pictures is in [bold]{escape(str(out))}[/bold]"
+        also = f"; {escape(str(source.parent))}/{FILE} has them, too" if on_page else ""
+        wide_console().print(where + also, soft_wrap=True)
 
 
 def solvers_of(design: Design) -> tuple[str, ...]:

@@ -28,6 +28,7 @@ def verified(rows: Sequence[Compared], solved: dict[str, Solved]) -> dict[str, A
     """What `verify.json` has."""
     return {
         **head(),
+        "summary": summary(rows),
         "rows": [
             {"name": row.name, "unit": pretty(row.unit), "model": row.model, "fe": row.fe, "ratio": row.ratio,
              "mesh_change": row.mesh_change, "meaning": row.meaning}

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.base.units import from_si
 from tvimdesign.base.whole_files import write_whole
+from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.measure_files import Measured
 from tvimdesign.study import Catalog
 
@@ -18,22 +19,24 @@ BASED_ON = {
     "peltiers": "flexible_1600",
     "heat_paths": "handbook",
 }
-"""What a record is based on unless told: all that was not measured is that one's."""
+"""What a record is based on unless told: all that was not measured is that one's. A joint's is based on none."""
+CHOICES = {
+    "spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module",
+    "heat_paths": "heat_paths", "joints": "joint",
+}  # fmt: skip
+"""What a study names a record of each category by."""
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
 _DIGITS = 6
 
 
 def record_text(measured: Measured, name: str, based_on: str) -> str:
-    """The record as YAML. Raises InputError where nothing follows for one."""
+    """The kind's own record as YAML. Raises InputError where nothing follows for one."""
     found = measured.measurement
-    lines = list(_value_lines(measured))
+    lines = list(_value_lines(measured, found.record_values))
     if not measured.kind.category or not (lines or found.record_tables):
-        raise InputError(
-            f"{measured.kind.name}: nothing in it is a value of a record"
-            + (f"; {' '.join(found.notes)}" if found.notes else "")
-        )
-    text = [f'title: "{name}: {based_on}, with what was measured"', f"based_on: {based_on}"]
-    text += ["values:", *lines] if lines else []
+        raise InputError(_nothing(measured))
+    lines += _condition_lines(measured)
+    text = [*_head(name, based_on), *(["values:", *lines] if lines else [])]
     for table, sheet in found.record_tables.items():
         columns = ", ".join(f'{column}: "{unit}"' for column, unit in sheet.columns.items())
         text += ["tables:", f"  {table}:", f"    columns: {{{columns}}}", "    rows:"]
@@ -46,43 +49,88 @@ def record_text(measured: Measured, name: str, based_on: str) -> str:
     return "\n".join(text) + "\n"
 
 
-def write_record(measured: Measured, folder: Path, name: str, based_on: str = "", *, overwrite: bool = False) -> Path:
-    """Write the record into a folder of the user's records, `<folder>/<category>/<name>.yaml`; returns its path.
+def write_records(
+    measured: Measured, folder: Path, name: str, based_on: str = "", *, overwrite: bool = False
+) -> dict[str, Path]:
+    """Write what was measured into a folder of the user's records, `<folder>/<category>/<name>.yaml`.
 
-    Raises InputError where there is one already or the name will not do, and CatalogError where what was measured
-    contradicts what the record is based on.
+    Returns the files by what a study names each by. One for the kind's own category, and one of the same name for each
+    other category of which the data tell a value; `based_on` is of the first. Raises InputError where there is one
+    already or the name will not do, and CatalogError where what was measured contradicts what a record is based on:
+    then none of them stays.
     """
-    category = measured.kind.category
     if not _NAME.fullmatch(name):
         raise InputError(f"--record {name[:60]}: a record's name is small letters, digits and underscores")
-    text = record_text(measured, name, based_on or BASED_ON.get(category, ""))
-    path = folder / category / f"{name}.yaml"
-    if path.exists() and not overwrite:
-        raise InputError(f"{path}: there is such a record already; --overwrite replaces it")
-    earlier = path.read_bytes() if path.exists() else None
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(path, text.encode())
-    try:
-        Catalog(folder).record(category, name)
-    except CatalogError as error:
-        if earlier is None:
-            path.unlink()
+    written: dict[str, Path] = {}
+    earlier: dict[Path, bytes | None] = {}
+    for category, choice, base, text in _records(measured, name, based_on):
+        path = folder / category / f"{name}.yaml"
+        if path.exists() and not overwrite:
+            _put_back(earlier)
+            raise InputError(f"{path}: there is such a record already; --overwrite replaces it")
+        earlier[path] = path.read_bytes() if path.exists() else None
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, text.encode())
+        try:
+            Catalog(folder).record(category, name)
+        except CatalogError as error:
+            _put_back(earlier)
+            raise CatalogError(f"what was measured does not go with {base}:\n{error}") from None
+        written[choice] = path
+    return written
+
+
+def write_record(measured: Measured, folder: Path, name: str, based_on: str = "", *, overwrite: bool = False) -> Path:
+    """The same; returns the first of the files."""
+    return next(iter(write_records(measured, folder, name, based_on, overwrite=overwrite).values()))
+
+
+def _records(measured: Measured, name: str, based_on: str) -> list[tuple[str, str, str, str]]:
+    """Category, choice, base and text of every record that follows. Raises InputError where none does."""
+    category, found = measured.kind.category, []
+    base = based_on or BASED_ON.get(category, "")
+    others = [one for one in measured.measurement.more_records if any(_value_lines(measured, one.values))]
+    if not others or any(_value_lines(measured, measured.measurement.record_values)):
+        found.append((category, CHOICES.get(category, ""), base, record_text(measured, name, base)))
+    for one in others:
+        text = "\n".join([*_head(name, one.based_on), "values:", *_value_lines(measured, one.values)]) + "\n"
+        found.append((one.category, one.choice, one.based_on, text))
+    return found
+
+
+def _put_back(earlier: Mapping[Path, bytes | None]) -> None:
+    """Leave the files as they were before any was written."""
+    for path, text in earlier.items():
+        if text is None:
+            path.unlink(missing_ok=True)
         else:
-            write_whole(path, earlier)
-        raise CatalogError(f"what was measured does not go with {based_on or BASED_ON[category]}:\n{error}") from None
-    return path
+            write_whole(path, text)
 
 
-def _value_lines(measured: Measured) -> Iterator[str]:
-    found = measured.measurement
+def _nothing(measured: Measured) -> str:
+    notes = " ".join(measured.measurement.notes)
+    return f"{measured.kind.name}: nothing in it is a value of a record" + (f"; {notes}" if notes else "")
+
+
+def _head(name: str, based_on: str) -> list[str]:
+    if not based_on:
+        return [f'title: "{name}: what was measured"']
+    return [f'title: "{name}: {based_on}, with what was measured"', f"based_on: {based_on}"]
+
+
+def _value_lines(measured: Measured, values: Mapping[str, Estimate]) -> Iterator[str]:
     source = _quoted(measured.source)
-    for name, one in found.record_values.items():
+    for name, one in values.items():
         if one.low is None or one.high is None:
             continue
         low, value, high = (_number(from_si(end, one.unit)) for end in (one.low, one.value, one.high))
         yield f'  {name}: {{value: {value}, unit: "{one.unit}", low: {low}, high: {high}, status: measured,'
         yield f'    source: "{source}, interval of 95 %"}}'
-    for name, (chosen, unit) in found.record_conditions.items():
+
+
+def _condition_lines(measured: Measured) -> Iterator[str]:
+    source = _quoted(measured.source)
+    for name, (chosen, unit) in measured.measurement.record_conditions.items():
         yield f'  {name}: {{value: {_number(from_si(chosen, unit))}, unit: "{unit}", status: calibrated,'
         yield f'    source: "chosen, and goes with the values {source}"}}'
 

@@ -73,7 +73,7 @@ def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
     if entry.low is None or entry.high is None:
         return None
     known = _within(row, resolved, entry.value, (entry.low, entry.high), entry.status)
-    before = _before(resolved.values[row.record[0]], row.record[1])
+    before = _before(row, resolved.values[row.record[0]], row.record[1])
     if known is None or before is None:
         return known
     return replace(known, before=(max(before[0], row.lower), min(before[1], row.upper)))
@@ -89,11 +89,16 @@ def before_measuring(inputs: Sequence[UnmeasuredInput]) -> list[UnmeasuredInput]
     ]
 
 
-def _before(record: Any, field: str) -> tuple[float, float] | None:
-    """The range of a measured value in the record its own is based on, where nobody had measured it there."""
+def _before(row: Input, record: Any, field: str) -> tuple[float, float] | None:
+    """The range of a measured value in the record its own is based on, where nobody had measured it there.
+
+    Of a record that is based on none, the range the input has without a record.
+    """
     entry = _entry(record, field)
-    if entry is None or entry.status != "measured" or record.based_on is None:
+    if entry is None or entry.status != "measured":
         return None
+    if record.based_on is None:
+        return None if row.low is None or row.high is None else (row.low, row.high)
     earlier = record.based_on.entries.get(field)
     if earlier is None or earlier.status == "measured" or earlier.low is None or earlier.high is None:
         return None

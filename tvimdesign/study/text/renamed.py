@@ -17,6 +17,8 @@ _SECTIONS = ("module", "vary", "require", "accept", "minimize", "front", "tolera
 """The sections in which quantities are named."""
 _PLAIN = {"drives": "current_profiles"}
 """Fields of a design that are called otherwise now."""
+_LATER_CHOICES = {"joint": "none"}
+"""Choices that there were not when an earlier release wrote a design, and what all its designs had."""
 
 
 @lru_cache(maxsize=10_000)
@@ -81,3 +83,9 @@ def renamed_plain(data: Any) -> Any:
     if isinstance(data, list):
         return [renamed_plain(item) for item in data]
     return new_name(data) if isinstance(data, str) and data.isidentifier() else data
+
+
+def with_later_choices(design: Any) -> Any:
+    """A design's plain data with the choices that came after it was written."""
+    choices = design.get("choices") if isinstance(design, dict) else None
+    return {**design, "choices": {**_LATER_CHOICES, **choices}} if isinstance(choices, dict) else design

@@ -244,5 +244,5 @@ def test_every_value_of_a_record_is_one_the_category_knows() -> None:
     }
     for category, values in names.items():
         assert set(values) <= set(CATEGORIES[category].units)
-    assert kind_sheet("release").category == ""
+    assert kind_sheet("release").category == kind_sheet("sine").category == "joints"
     assert Estimate("a", "1", "", 1.0, None, None).low is None

@@ -74,6 +74,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     result = {"elements": mesh.ne, "unknowns": found.space.ndof, "hub": torque * 1e-3, "frequency": frequency, **feet}
     result |= {name: torque**2 / share * 1e-3 for name, share in shares.items()}
     result |= joint_samples.in_bodies(mesh, tensor, mm, torque) | joint_samples.at_foot(mesh, tensor, mm, torque)
+    result |= joint_samples.at_plate(mesh, tensor, mm, torque)
     if not mm.get("vane_count"):
         result |= joint_samples.at_edges(mesh, tensor, mm, torque)
     if field:

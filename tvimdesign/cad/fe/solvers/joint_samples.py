@@ -24,6 +24,9 @@ from ngsolve import (
     z,
 )
 
+STRETCH = 2.0
+"""Length along an edge over which its highest stress is a mean [mm]."""
+
 
 def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     """Core's von Mises stress [MPa] at one newton metre beside its foot, a mean over the first millimetre above it."""
@@ -34,6 +37,22 @@ def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     mean = np.nanmean(along, axis=0)
     return {"foot_highest": np.nanmax(mean), "foot_mean": np.nanmean(mean),
             "foot_lower_half": np.nanmax(np.nanmean(along[:5], axis=0))}  # fmt: skip
+
+
+def at_plate(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+    """Rotor plate's von Mises stress [MPa] at one newton metre beside the core's foot, a mean over thickness and the
+    first millimetre: the highest of all stretches of two millimetres around the core, and the mean around it."""
+    low, high = mm["rotor_bottom_level"], mm["rotor_top_level"]
+    outward, angles, levels = np.meshgrid(
+        (np.arange(4) + 0.5) / 4, np.linspace(0, 2 * np.pi, 73)[:-1], low + (np.arange(8) + 0.5) / 8 * (high - low),
+        indexing="ij",
+    )  # fmt: skip
+    radius = mm["core_radius"] + outward
+    along = elastic.sampled(mesh, elastic.mises(tensor), radius * np.cos(angles), radius * np.sin(angles), levels)
+    around = np.nanmean(along, axis=(0, 2)) * 1e3 / torque
+    stretch = max(round(STRETCH / (2 * np.pi * mm["core_radius"]) * len(around)), 1)
+    running = np.convolve(np.concatenate([around, around[: stretch - 1]]), np.ones(stretch) / stretch, "valid")
+    return {"plate_mises": running.max(), "plate_mises_mean": around.mean()}
 
 
 def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
@@ -66,7 +85,7 @@ def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
                 turn = turn + 2 * np.pi * arc / round(mm["arc_count"]) + np.pi / mm["spring_count"]
                 values = elastic.sampled(mesh, sliding, radius * np.cos(turn), radius * np.sin(turn), up)
                 means.append(np.nanmean(values, axis=(1, 2)) * 1e3 / torque)
-        stretch = max(round(2.0 * count / length), 1)
+        stretch = max(round(STRETCH * count / length), 1)
         running = [np.convolve(one, np.ones(stretch) / stretch, "valid").max() for one in means]
         found[f"edge_{name}"] = float(np.nanmean(means))
         highest = max(highest, *running)

@@ -31,6 +31,7 @@ from tvimdesign.report.run.run_page.parts_sections import (
     steps_section,
 )
 from tvimdesign.report.run.run_page.reasons import assumptions_section, reasons_section
+from tvimdesign.report.run.run_page.verification_section import verification_sections
 from tvimdesign.study import Study
 from tvimdesign.study.tree import StudyTree, study_file
 
@@ -73,6 +74,7 @@ def _of_a_design(cad: Path, answered: AnsweredStudy, told: Told) -> list[Section
         *materials_section(cad),
         *steps_section(cad),
         *spring_section(cad),
+        *verification_sections(cad.parent),
     ]
 
 

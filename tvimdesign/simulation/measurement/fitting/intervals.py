@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from scipy.special import stdtrit
@@ -34,6 +34,8 @@ _SMALLEST = 1e-7
 """Singular value over the largest, of derivatives by numbers scaled alike, below which a direction changes nothing."""
 _PART = 0.2
 """Part of such a direction from which on a parameter is among those it moves."""
+_MOST_ALIKE, _TURNS = 0.99, 60
+"""Largest autocorrelation, and steps to the one that explains the residuals'."""
 _TRIES = 12
 _NEAR = 0.03
 """Share to which the loss at an interval's end is what it shall be: 1.5 % of the interval."""
@@ -89,9 +91,9 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
     weights = weights_of(residuals, fit.noise)
     z = residuals.at(fit.inner) * weights
     jacobian = residuals.jacobian(fit.inner) * weights[:, None]
-    follows = np.array([_autocorrelation(z[part]) for part in residuals.parts])
-    wider = (1.0 + follows) / (1.0 - follows)
     taken = parameters_of(residuals, fit.inner, fit.noise)
+    follows = np.array([_autocorrelation(z[part], one) for part, one in zip(residuals.parts, taken, strict=True)])
+    wider = _worth(follows)
     groups = [
         _group([(z[residuals.parts[i]], jacobian[residuals.parts[i]]) for i in alike], wider[alike], taken[alike])
         for alike in residuals.groups
@@ -126,11 +128,12 @@ def _group(channels: Sequence[tuple[Array, Array]], wider: Array, taken: Array) 
     z = np.concatenate([one for one, _ in channels])
     squares = [slopes.T @ slopes for _, slopes in channels]
     pull, slope = influence(z)
-    left = max(1.0 - float(np.sum(taken)) / len(z), 0.05)
+    sizes = np.array([len(one) for one, _ in channels])
+    left = max(1.0 - float(np.sum(_lost(taken, wider, sizes))) / len(z), 0.05)
     mean = float(np.mean(slope))
     few = 1.0 + (1.0 - left) * float(np.var(slope)) / mean**2  # [H], correction for few data
     following = np.sum([one * square for one, square in zip(wider, squares, strict=True)], axis=0)
-    worth = float(np.sum(np.array([len(one) for one, _ in channels]) / wider))
+    worth = float(np.sum(sizes / wider))
     return _Group(
         mean * np.sum(squares, axis=0), few**2 * float(np.mean(pull**2)) / left * following,
         max(worth - float(np.sum(taken)), 1.0),
@@ -151,12 +154,33 @@ def _of_weights(groups: Sequence[_Group], given: Sequence[Array], inverse: Array
     return added
 
 
-def _autocorrelation(z: Array) -> float:
-    """From one residual to the next; 0 where that may be by chance."""
+def _autocorrelation(z: Array, taken: float) -> float:
+    """Of the noise, from one value to the next; 0 where that of the residuals may be by chance.
+
+    Residuals tell too little of it: each of the `taken` parameters follows the noise where it is slow. It takes as much
+    from the sum of squares as from that of neighbours' products, w = (1 + rho)/(1 - rho) of the noise's variance
+    [Bay]. So r = (n rho - p w)/(n - p w), solved for rho.
+    """
     if len(z) < 10:
         return 0.0
-    rho = float(np.sum(z[1:] * z[:-1]) / np.sum(z**2)) if np.any(z) else 0.0
-    return min(rho, 0.99) if rho > 3.0 / np.sqrt(len(z)) else 0.0
+    seen = float(np.sum(z[1:] * z[:-1]) / np.sum(z**2)) if np.any(z) else 0.0
+    if seen <= 3.0 / np.sqrt(len(z)):
+        return 0.0
+    rho = seen = min(seen, _MOST_ALIKE)
+    for _ in range(_TURNS):
+        share = float(_lost(taken, _worth(rho), len(z))) / len(z)
+        rho = min(seen + (1.0 - seen) * share, _MOST_ALIKE)
+    return rho
+
+
+def _worth(rho: Any) -> Any:
+    """How many values of a series in which neighbours are correlated are worth one that stands alone [Bay]."""
+    return (1.0 + rho) / (1.0 - rho)
+
+
+def _lost(taken: Any, wider: Any, size: Any) -> Any:
+    """Squares that parameters take from the residuals of a series, in variances of its noise; half of them at most."""
+    return np.minimum(taken * wider, np.maximum(taken, 0.5 * size))
 
 
 def _inverse(matrix: Array) -> tuple[Array, tuple[Array, ...]]:

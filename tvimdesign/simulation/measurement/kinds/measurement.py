@@ -24,6 +24,17 @@ class RecordTableFound:
 
 
 @dataclass(frozen=True)
+class RecordFound:
+    """Values of a record of another category than the kind's, which the same data tell."""
+
+    category: str
+    based_on: str
+    choice: str
+    """What a study names it by."""
+    values: Mapping[str, Estimate]
+
+
+@dataclass(frozen=True)
 class Measurement:
     """What data of a kind come to."""
 
@@ -35,6 +46,7 @@ class Measurement:
     record_tables: Mapping[str, RecordTableFound] = field(default_factory=dict)
     record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     """Values of a record that were chosen, not measured, and go with the others: in SI, with the unit to write."""
+    more_records: Sequence[RecordFound] = ()
 
     def with_note(self, note: str) -> Measurement:
         """The same with one more note, first."""

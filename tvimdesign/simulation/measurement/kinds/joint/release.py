@@ -17,6 +17,7 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     Values,
     from_zero,
 )
+from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import joint_of_module, with_records
 from tvimdesign.simulation.measurement.kinds.joint.swing import CORNER, period_and_decay, swing
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
@@ -88,14 +89,17 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     if not known:
         parameters.insert(0, Parameter("inertia", "kg*m^2", "Inertia of all that turns", inertia))
     parameters += [one for record in records for one in record.own()]
-    found = fitted(Problem(parameters, [one.channel(known) for one in records], _derived(known)), profiles=profiles)
+    module = joint_of_module(settings, 2.0 * np.pi / first.period, first.size)
+    following = [*_derived(known), *(module.derived() if module and known else [])]
+    found = fitted(Problem(parameters, [one.channel(known) for one in records], following), profiles=profiles)
     notes = [note for record, block in zip(records, blocks, strict=True) for note in _thinned_note(record, block)]
     if not known:
         notes.append(
             "Without --set inertia=... a free swing gives ratios only: natural frequency and damping ratio are sure, "
-            "stiffness, damping and friction are not."
+            "stiffness, damping and friction are not: no record follows."
         )
-    return Measurement(found, tuple(notes))
+        return Measurement(found, tuple(notes))
+    return with_records(found, notes, module, inertia=False)
 
 
 def _record(block: Block, end: str) -> Record:

@@ -23,6 +23,7 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     Values,
     from_zero,
 )
+from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import joint_of_module, with_records
 from tvimdesign.simulation.measurement.kinds.joint.swing import CORNER
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
@@ -98,16 +99,21 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     records = [_record(block, f"_{i}") for i, block in enumerate(blocks, start=1)]
     known = {"inertia": settings["inertia"]} if "inertia" in settings else {}
     together = not known and _at_one_frequency(records)
+    with_inertia = not known and not together
     known = {"inertia": 0.0} if together else known
+    module = joint_of_module(settings, records[0].omega, records[0].size)
     problem = Problem(
         [*_joint(records, known, together=together), *(one for record in records for one in record.parameters())],
         [channel for record in records for channel in record.channels(known)],
         [
             Derived("loss", "N*m/rad", "Part of the stiffness in quadrature at the first record's frequency",
                     lambda values: _quadrature(records[0], values)),
+            *(module.derived() if module and not together else []),
         ],
     )  # fmt: skip
-    return Measurement(fitted(problem, profiles=profiles), tuple(_notes(records, together=together)))
+    return with_records(
+        fitted(problem, profiles=profiles), _notes(records, together=together), module, inertia=with_inertia
+    )
 
 
 def _at_one_frequency(records: Sequence[Sine]) -> bool:

@@ -1,0 +1,136 @@
+"""What sines of a module's joint tell of it, against closed forms: springs of E, a thin melt, friction on pins."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from measured_files import csv, found, measured
+from support import ROOT
+
+from tvimdesign.base.errors import CatalogError, InputError
+from tvimdesign.catalog import Catalog
+from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import JointOfModule
+from tvimdesign.simulation.measurement.record_file import write_records
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+from tvimdesign.solve.uncertainty.unmeasured import unmeasured_inputs
+from tvimdesign.study import read_study
+
+STUDY = ROOT / "studies" / "paper_as_published.yaml"
+INERTIA = 4.3e-4
+SIZE = 0.05
+
+
+def turned(folder: Path, stiffness: float, damping: float, friction: float, hertz: tuple[float, ...]) -> list[Path]:
+    """Records of I theta'' + b theta' + K theta + T_f sgn theta' = T, a little noise in both."""
+    paths = []
+    for seed, one in enumerate(hertz):
+        omega, noise = 2.0 * np.pi * one, np.random.default_rng(seed)
+        time = np.linspace(0.0, 4.0 / one, 200)
+        angle, quarter = SIZE * np.cos(omega * time), -np.sin(omega * time)
+        torque = (stiffness - INERTIA * omega**2) * angle + damping * omega * SIZE * quarter
+        torque = torque + friction * np.sign(quarter)
+        noisy: Any = noise.normal(0.0, 1e-4 * np.ptp(torque), 200)
+        paths.append(csv(folder / f"{one}.csv", time__s=time, torque__Nm=torque + noisy,
+                         angle__rad=angle + noise.normal(0.0, 1e-5, 200)))  # fmt: skip
+    return paths
+
+
+@pytest.fixture(scope="module")
+def module() -> ResolvedModule:
+    return resolve_study(read_study(STUDY))
+
+
+def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path: Path, module: ResolvedModule) -> None:
+    # So slow that the melt only flows: T = eta J/t theta', and the springs' stiffness is as their modulus.
+    springs, moment = float(module.quantity("spring_stiffness")), float(module.quantity("layer_polar_moment"))
+    viscosity, modulus, coefficient = 5000.0, 195e9, 0.31
+    damping = viscosity * moment / float(module.values["pcl_thickness"])
+    stiffness = springs * modulus / float(module.values["spring_youngs_modulus"])
+    friction = coefficient / 0.25 * float(module.quantity("pin_friction_torque"))
+    paths = turned(tmp_path, stiffness, damping, friction, (0.01, 0.03))
+    result = found(paths, "sine", study=str(STUDY), state="molten", inertia="4.3e-4 kg.m^2")
+    assert module.values["pin_friction"] == 0.25
+    assert result.fit.value("spring_youngs_modulus") == pytest.approx(modulus, rel=5e-3)
+    assert result.fit.value("pcl_zero_shear_viscosity") == pytest.approx(viscosity, rel=0.01)
+    assert result.record_values["pin_friction"].value == pytest.approx(coefficient, rel=0.01)
+    assert {one.choice: list(one.values) for one in result.more_records} == {
+        "spring_material": ["youngs_modulus"], "pcl_grade": ["zero_shear_viscosity"],
+    }  # fmt: skip
+
+
+def test_a_melt_that_thins_over_a_wide_motion_is_told_by_its_amplitude(module: ResolvedModule) -> None:
+    # At one hertz the same stiffness and damping over a wider motion are a longer melt's: strained more, it thins.
+    of = {size: JointOfModule(module, STUDY, "molten", 2.0 * np.pi, size) for size in (0.01, 0.1)}
+    seen = dict(zip(("stiffness", "damping"), of[0.1]._impedance({}), strict=True))
+    viscosity = {size: float(one.derived()[1].formula(seen)) for size, one in of.items()}
+    assert viscosity[0.1] == pytest.approx(float(module.values["pcl_zero_shear_viscosity"]), rel=1e-6)
+    assert viscosity[0.01] < 0.9 * viscosity[0.1]
+
+
+def test_a_frozen_joint_tells_its_pads_and_a_run_counts_them_as_measured(
+    tmp_path: Path, module: ResolvedModule
+) -> None:
+    names = ["joint_stiffness@cold", "joint_damping@cold"]
+    softer = {**module.values, "peltier_shear_modulus": 3e6, "clamped_loss_factor": 0.04, "frequency@cold": 1.0}
+    stiffness, damping = map(float, module.table.evaluate(softer, names).values())
+    paths = turned(tmp_path, stiffness, damping, 0.0, (1.0, 8.0))
+    result = measured(paths, "sine", study=str(STUDY), state="frozen")
+    written = write_records(result, tmp_path / "mine", "bench")
+    assert list(written) == ["joint", "peltier_module"]
+    study = STUDY.read_text().replace(
+        "\nmodule:", "\ncatalog: mine\nmodule:\n  joint: bench\n  peltier_module: bench", 1
+    )
+    (tmp_path / "study.yaml").write_text(study)
+    inputs = {one.name: one for one in unmeasured_inputs(resolve_study(read_study(tmp_path / "study.yaml")))}
+    pads, loss = inputs["peltier_shear_modulus"], inputs["clamped_loss_factor"]
+    assert (pads.status, loss.status) == ("measured", "measured")
+    assert pads.low < 3e6 < pads.high
+    assert loss.low < 0.04 < loss.high
+    assert loss.before == (0.002, 0.06)
+    earlier = Catalog().record("peltiers", "flexible_1600").entry("shear_modulus")
+    assert pads.before == (earlier.low, earlier.high)
+
+
+def test_what_no_value_of_the_module_explains_goes_to_no_record(tmp_path: Path) -> None:
+    # Stiffer than the structure is behind rigid pads.
+    paths = turned(tmp_path, 2e4, 3.0, 0.0, (1.0, 8.0))
+    result = measured(paths, "sine", study=str(STUDY), state="frozen", inertia="4.3e-4 kg.m^2")
+    assert not result.measurement.more_records
+    with pytest.raises(InputError, match="neither is written to a record"):
+        write_records(result, tmp_path / "mine", "bench")
+
+
+def test_a_release_with_a_known_inertia_writes_records_too(tmp_path: Path, module: ResolvedModule) -> None:
+    names = ["joint_stiffness@cold", "joint_damping@cold"]
+    stiffness = float(module.quantity(names[0]))
+    omega = float(np.sqrt(stiffness / INERTIA))
+    values = {**module.values, "frequency@cold": omega / (2.0 * np.pi)}
+    stiffness, damping = map(float, module.table.evaluate(values, names).values())
+    decay = damping / (2.0 * INERTIA)
+    ringing = np.sqrt(stiffness / INERTIA - decay**2) if decay < omega else 0.0
+    time = np.linspace(0.0, 6.0 / omega * 2.0 * np.pi, 200)
+    angle = 0.002 * np.exp(-decay * time) * (np.cos(ringing * time) + decay / ringing * np.sin(ringing * time))
+    path = csv(tmp_path / "r.csv", time__s=time, angle__rad=angle + np.random.default_rng(1).normal(0.0, 2e-6, 200))
+    result = found(path, "release", inertia="4.3e-4 kg.m^2", study=str(STUDY), state="frozen")
+    assert result.fit.value("peltier_shear_modulus") == pytest.approx(module.values["peltier_shear_modulus"], rel=0.05)
+    assert [one.choice for one in result.more_records] == ["peltier_module"]
+
+
+def test_no_record_of_several_stays_where_one_cannot(tmp_path: Path, module: ResolvedModule) -> None:
+    names = ["joint_stiffness@cold", "joint_damping@cold"]
+    stiffness, damping = (float(module.quantity(name)) for name in names)
+    result = measured(turned(tmp_path, stiffness, damping, 0.0, (1.0, 8.0)), "sine", study=str(STUDY), state="frozen")
+    folder = tmp_path / "mine"
+    (folder / "peltiers").mkdir(parents=True)
+    (folder / "peltiers" / "flexible_1600.yaml").write_text("title: broken\n")
+    with pytest.raises(CatalogError):
+        write_records(result, folder, "bench")
+    assert not (folder / "joints" / "bench.yaml").exists()
+
+
+def test_the_state_is_asked_for(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="--set state"):
+        found(turned(tmp_path, 5.0, 0.1, 0.0, (1.0, 8.0)), "sine", study=str(STUDY))

@@ -1,0 +1,56 @@
+"""Stress of a screw that is tightened and loaded along and across: VDI 2230-1:2015, by its stress section.
+
+A screw's pitch follows from its tapping drill, P = d - d_t (ISO 2306).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+PITCH_DIAMETER, STRESS_DIAMETER = 0.6495, 0.9382
+"""By how many pitches pitch and stress diameter are below the nominal one (ISO 724; ISO 898-1)."""
+LEFT_TWIST = 0.5
+"""Share of the tightening's twist that counts in service, k_tau (VDI 2230-1:2015, section 5.5.2)."""
+
+
+def stress_diameter(diameter: Any, pitch: Any) -> Any:
+    """Diameter d_s [m] of the section that counts, d - 0.9382 P (ISO 898-1)."""
+    return diameter - STRESS_DIAMETER * pitch
+
+
+def stress_area(diameter: Any, pitch: Any) -> Any:
+    """Its area [m^2], pi d_s^2/4."""
+    return 0.25 * np.pi * stress_diameter(diameter, pitch) ** 2
+
+
+def thread_friction(nut_factor: Any, diameter: Any, pitch: Any, head_diameter: Any) -> Any:
+    """Friction of thread and head alike [1] for which tightening takes K F d.
+
+    M = F (0.16 P + 0.58 d_2 mu + D_h mu/2), VDI 2230-1:2015, eq. R13; `head_diameter` D_h [m] is the mean one of the
+    face under the head.
+    """
+    flank = 0.58 * (diameter - PITCH_DIAMETER * pitch) + 0.5 * head_diameter
+    return np.fmax(nut_factor * diameter - 0.16 * pitch, 0.0) / flank
+
+
+def thread_torque(force: Any, diameter: Any, pitch: Any, friction: Any) -> Any:
+    """Part of the tightening torque [N*m] that twists the screw, F (0.16 P + 0.58 d_2 mu)."""
+    return force * (0.16 * pitch + 0.58 * (diameter - PITCH_DIAMETER * pitch) * friction)
+
+
+def twist_stress(torque: Any, diameter: Any, pitch: Any) -> Any:
+    """Largest shear [Pa] of a screw that is twisted, elastic, 16 M/(pi d_s^3)."""
+    return 16.0 * torque / (np.pi * stress_diameter(diameter, pitch) ** 3)
+
+
+def combined_stress(force: Any, across: Any, twist: Any, diameter: Any, pitch: Any) -> Any:
+    """Equivalent stress [Pa] in service, (sigma^2 + 3 (k_tau tau + tau_q)^2)^(1/2).
+
+    `force` [N] along the screw, tightening included; `across` [N] what friction leaves to its section, evenly over it;
+    `twist` [Pa] of the tightening.
+    """
+    area = stress_area(diameter, pitch)
+    shear = LEFT_TWIST * twist + across / area
+    return np.sqrt((force / area) ** 2 + 3.0 * shear**2)

@@ -1,0 +1,197 @@
+"""What a joint's stiffness, damping and friction say of its module: values of records, by the module's equations.
+
+A molten joint is turned over its stroke: K = K_s(E) + Re k(eta, omega, theta), b = Im k/omega, where k is the melt's
+branch over the measured amplitude (device/core/impedance/large_motion.py); the springs' modulus E and the melt's
+viscosity eta are those for which both hold. In a frozen one the pads' shear modulus and the loss of faces that are
+fastened are those for which `joint_stiffness@cold` and `joint_damping@cold` hold. Friction that no speed changes is
+that of the springs' pins. What sizes and other materials are off by counts as these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.record import Record
+from tvimdesign.device import Input
+from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
+from tvimdesign.simulation.measurement.fitting.problem import Derived
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, RecordFound, Settings
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
+from tvimdesign.study import read_study
+from tvimdesign.study.design import read_design
+
+MOLTEN, FROZEN = "molten", "frozen"
+_POINTS = {MOLTEN: "hot", FROZEN: "cold"}
+_EXPLAINS = {
+    MOLTEN: ("spring_youngs_modulus", "pcl_zero_shear_viscosity"),
+    FROZEN: ("peltier_shear_modulus", "clamped_loss_factor"),
+}
+"""The inputs that stiffness and damping tell of, in this order: those whose ranges move them most."""
+_JOINT = "joint"
+"""The choice of the records that this kind itself writes."""
+_FRICTION, _INERTIA = "pin_friction", "moving_inertia"
+_HELD = 0.01
+"""Share of stiffness and of damping to which the values found must give them again."""
+_NEWTON: dict[str, Any] = {"abstol": 1e-10, "max_iter": 60, "error_on_fail": False}
+
+
+_FARTHEST = 8.0
+"""Logarithm of the factor beyond which no value is looked for: three thousand times the study's."""
+
+
+def _factor(share: Any) -> Any:
+    """Of a value, from what the solver sees: its logarithm near one."""
+    return np.exp(_FARTHEST * np.tanh(share / _FARTHEST))
+
+
+@dataclass(frozen=True)
+class JointOfModule:
+    """A module whose joint was turned, in one state, at a frequency and an amplitude."""
+
+    resolved: ResolvedModule
+    source: Path
+    state: str
+    omega: float
+    """[rad/s]"""
+    amplitude: float
+    """[rad]"""
+
+    @property
+    def _explained(self) -> tuple[Input, Input]:
+        rows = {row.name: row for row in self.resolved.table.inputs}
+        first, second = _EXPLAINS[self.state]
+        return rows[first], rows[second]
+
+    def _impedance(self, given: Mapping[str, Any]) -> tuple[Any, Any]:
+        """Stiffness [N*m/rad] and damping [N*m*s/rad] of the module with some inputs replaced."""
+        point, table = _POINTS[self.state], self.resolved.table
+        as_built = {**self.resolved.values, **given, f"frequency@{point}": self.omega / (2.0 * np.pi)}
+        if self.state == FROZEN:
+            names = [f"joint_stiffness@{point}", f"joint_damping@{point}"]
+            found = table.evaluate(as_built, names)
+            return found[names[0]], found[names[1]]
+        springs = table.evaluate(as_built, ["spring_stiffness"])["spring_stiffness"]
+        branch = table.evaluate({**as_built, "stroke": self.amplitude}, ["stroke_branch"])["stroke_branch"]
+        return springs + branch[0], branch[1] / self.omega
+
+    def derived(self) -> list[Derived]:
+        """The two inputs that follow from `stiffness` and `damping`, with the derivatives of the implicit function."""
+        rows = self._explained
+        starts = [float(self.resolved.values[row.name]) for row in rows]
+        share, seen = ca.SX.sym("share", 2), ca.SX.sym("seen", 2)
+        inputs = {row.name: start * _factor(share[i]) for i, (row, start) in enumerate(zip(rows, starts, strict=True))}
+        stiffness, damping = self._impedance(inputs)
+        usual = [float(one) for one in self._impedance({})]
+        left = ca.vertcat((stiffness - seen[0]) / usual[0], (damping - seen[1]) / usual[1])
+        solve = ca.rootfinder("solve", "newton", ca.Function("left", [share, seen], [left]), _NEWTON)
+
+        def value(i: int) -> Any:
+            return lambda values: starts[i] * _factor(solve(0.0, ca.vertcat(values["stiffness"], values["damping"]))[i])
+
+        return [
+            Derived(row.name, row.unit, f"{row.description}, for which the module has this stiffness and damping",
+                    value(i))
+            for i, row in enumerate(rows)
+        ]  # fmt: skip
+
+    def kept(self, fit: Fit) -> tuple[Fit, list[str]]:
+        """The fit without what is no value of this module, and what has to be said of it."""
+        names = [row.name for row in self._explained]
+        if not {*names} <= {one.name for one in fit.derived} or self._given_again(fit, names):
+            return fit, []
+        left = tuple(one for one in fit.derived if one.name not in names)
+        return replace(fit, derived=left), [
+            f"No {names[0]} and {names[1]} give {self.source.name} this stiffness and damping when {self.state}: "
+            "neither is written to a record. Another value of the module is not as the study has it."
+        ]
+
+    def _given_again(self, fit: Fit, names: Sequence[str]) -> bool:
+        """Whether the module with the values found has the stiffness and damping that were measured."""
+        if not all(self._may_be(fit[name]) for name in names):
+            return False
+        there = np.array(self._impedance({name: fit.value(name) for name in names}), dtype=float)
+        misses = np.abs(there / np.array([fit.value("stiffness"), fit.value("damping")]) - 1.0)
+        return bool(np.max(misses) < _HELD)
+
+    def _may_be(self, one: Estimate) -> bool:
+        row = next(row for row in self.resolved.table.inputs if row.name == one.name)
+        return bool(np.isfinite(one.value) and row.lower <= one.value <= row.upper)
+
+    def records(self, fit: Fit, *, inertia: bool) -> tuple[dict[str, Estimate], list[RecordFound], list[str]]:
+        """Values of the joint's own record, records of other categories, and what has to be said of them."""
+        own, others, notes = {}, [], []
+        if inertia:
+            own[_INERTIA] = fit["inertia"]
+        if self.state == MOLTEN:
+            friction, note = self._pin_friction(fit["friction"])
+            own |= {_FRICTION: friction} if friction else {}
+            notes += note
+        names = {one.name for one in fit.derived}
+        for row in (row for row in self._explained if row.name in names):
+            if row.record is None:
+                continue
+            choice, value = row.record
+            record = self.resolved.values[choice]
+            if choice == _JOINT:
+                own[value] = fit[row.name]
+            elif isinstance(record, Record):
+                others.append(RecordFound(record.category, record.name, choice, {value: fit[row.name]}))
+        return own, others, notes
+
+    def _pin_friction(self, torque: Estimate) -> tuple[Estimate | None, list[str]]:
+        """The coefficient at the pins: what the axial preload's wave spring rubs is taken off."""
+        table, values = self.resolved.table, self.resolved.values
+        names = ["pin_friction_torque", "preload_friction_torque"]
+        of_one = table.evaluate({**values, _FRICTION: 1.0}, names)
+        unit, rest = float(of_one[names[0]]), float(of_one[names[1]])
+        if unit <= 0.0 or torque.value <= rest:
+            return None, [f"The friction is no more than the wave spring's {rest:.3g} N.m: none is left for the pins."]
+        low, high = (None if end is None else max(end - rest, 0.0) / unit for end in (torque.low, torque.high))
+        return Estimate(_FRICTION, "1", "Friction of legs on pins", (torque.value - rest) / unit, low, high), []
+
+    def notes(self) -> list[str]:
+        """What was taken for what."""
+        said = [
+            f"The module is that of {self.source.name}, {self.state}, at {self.omega / (2.0 * np.pi):.3g} Hz: what its "
+            "sizes and other materials are off by counts as the values found."
+        ]
+        if self.state == MOLTEN:
+            turned = float(np.degrees(self.amplitude))
+            said.append(f"The melt's stiffness and damping are those of a motion of {turned:.3g} degrees to each side.")
+        return said
+
+
+def joint_of_module(settings: Settings, omega: float, amplitude: float) -> JointOfModule | None:
+    """The module that was measured, where the settings name one. Raises InputError for what lacks."""
+    if "study" not in settings:
+        return None
+    state = settings.get("state", "")
+    if state not in _POINTS:
+        raise InputError(f"--set state=...: needed with a study, {MOLTEN} or {FROZEN}")
+    source = Path(settings["study"])
+    resolved = resolve_design(read_design(source)) if source.suffix == ".json" else resolve_study(read_study(source))
+    point = _POINTS[state]
+    if point not in resolved.points:
+        raise InputError(f"{source}: has no operating point {point}, which says how warm a {state} joint is")
+    if "temperature" in settings:
+        values = {**resolved.values, f"temperature@{point}": settings["temperature"]}
+        resolved = ResolvedModule(resolved.study, values, resolved.current_profiles)
+    return JointOfModule(resolved, source, state, omega, amplitude)
+
+
+def with_records(fit: Fit, notes: Sequence[str], module: JointOfModule | None, *, inertia: bool) -> Measurement:
+    """A measurement of a joint with what follows for records; `inertia` says whether it was fitted."""
+    if module is None:
+        said = "Without --set study=... and --set state=... nothing but the inertia goes to a record."
+        own = {_INERTIA: fit["inertia"]} if inertia else {}
+        return Measurement(fit, (*notes, said), own)
+    kept, missed = module.kept(fit)
+    own, others, left = module.records(kept, inertia=inertia)
+    return Measurement(kept, (*notes, *module.notes(), *missed, *left), own, more_records=others)
