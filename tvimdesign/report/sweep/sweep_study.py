@@ -117,6 +117,8 @@ def _gathered(
         "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
         "columns": [column._asdict() for column in columns(plan)],
     }  # fmt: skip
+    if plan.study.catalog_folder:  # the explorer reads study.yaml, whose own word for it is as seen from elsewhere
+        found["catalog"] = str(Path(plan.study.catalog_folder).resolve())
     folder.write("study.yaml", study_file(plan.written))
     if figure:
         found[DRAWN_FROM] = figure.draw(plan, seen, folder)
