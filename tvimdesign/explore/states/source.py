@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.explore.states.messages import Way
 from tvimdesign.explore.states.state import State, beginning, refuse_other_folders
-from tvimdesign.explore.states.swept_cells import SweptCells, is_sweep, open_cells
 from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.report.sweep.swept_cells import SweptCells, is_sweep, open_cells
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml
@@ -41,9 +42,8 @@ class Source:
     @property
     def first(self) -> State:
         """Where an explorer begins."""
-        best = self.cells.best if self.cells else None
-        if self.cells and best is not None:
-            return self.cells.state(best)
+        if self.cells and self.cells.best:
+            return _state_of(self.cells, self.cells.best[0])
         way = "optimize" if self.study.vary else "evaluate"
         return State(way=way, at=beginning(self.study, self.chosen))
 
@@ -64,7 +64,7 @@ class Source:
     def at_point(self, number: int, state: State) -> State:
         """The state that shows a point of the front, or a cell of the sweep. Raises InputError where there is none."""
         if self.cells:
-            return self.cells.state(number)
+            return _state_of(self.cells, number)
         found = next((one for one in (self.front or {"points": []})["points"] if one["number"] == number), None)
         if found is None or self.folder is None:
             raise InputError(f"point {number}: the front has none of this number")
@@ -102,6 +102,13 @@ def _sweep(folder: Path, settings: Sequence[str]) -> Source:
     cells = open_cells(folder)
     refuse_other_folders(cells.plan.tree, cells.plan.study)
     return Source(cells.plan.tree, cells.plan.study, cells=cells)
+
+
+def _state_of(cells: SweptCells, number: int) -> State:
+    """The state that shows a cell: evaluated as it was found; one without an answer is asked for once more."""
+    found = cells.found(number)
+    way: Way = "evaluate" if found.answered or not found.study.vary else "optimize"
+    return State(way=way, changes=found.changes, at={**beginning(found.study), **found.at})
 
 
 def _of_design(design: Design) -> dict[str, Any]:

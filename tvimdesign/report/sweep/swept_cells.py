@@ -1,4 +1,4 @@
-"""The cells of a finished sweep: those that a page draws, and the state of the explorer that shows one of them."""
+"""The cells of a finished sweep: those that a page draws, and the study of one of them with what was found."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.states.state import State, beginning, set_values
 from tvimdesign.report.sweep.cell_table import MOST_LISTED
 from tvimdesign.report.sweep.sweep_page_figures import CELL_WORDS, cell_points
 from tvimdesign.study import Study, read_tree
-from tvimdesign.study.tree import tree_of_file
+from tvimdesign.study.tree import StudyTree, tree_of_file, without_section
 from tvimdesign.sweep.gather import Value
-from tvimdesign.sweep.plan import SweepPlan, plan_of
+from tvimdesign.sweep.plan import SweepPlan, plan_of, set_in
 from tvimdesign.sweep.shards import SHARDS
 
+_OF_SEARCHES = ("robust", "profile")
 _DIGITS = 12
 """Of a number in a sweep's table."""
 _TOLD, _TABLE = "sweep.json", "cells.sqlite"
@@ -31,13 +31,35 @@ def is_sweep(path: Path) -> bool:
 
 
 @dataclass(frozen=True)
+class CellFound:
+    """One cell: what it is set to and what its variables came to, as texts by the path in the study."""
+
+    number: int
+    changes: dict[str, str]
+    tree: StudyTree
+    """With the changes; what varies is free."""
+    study: Study
+    answered: bool
+    at: dict[str, str]
+    """Empty where there is no answer."""
+
+    @property
+    def fixed(self) -> StudyTree:
+        """The study of the module that was found: nothing varies, so that it is evaluated."""
+        tree = self.tree
+        for name in _OF_SEARCHES:
+            tree = without_section(tree, name)
+        return set_in(tree, list(self.at), list(self.at.values()))
+
+
+@dataclass(frozen=True)
 class SweptCells:
     """The cells in the folder of a sweep."""
 
     folder: Path
     plan: SweepPlan
-    best: int | None
-    """The cell where the page begins: the least of what is minimised first, else the first with an answer."""
+    best: tuple[int, ...]
+    """The cells with the least of each minimised output that keep every limit; else the first with an answer."""
 
     def shown(self) -> dict[str, Any]:
         """The cells as the page draws them, no more than a browser draws; no points where no cell has an answer."""
@@ -46,26 +68,18 @@ class SweptCells:
         drawn = cell_points(self.plan, [{**row, "cell": _number(row)} for row in listed])
         return drawn or {"of": [], "names": [], "labels": [], "points": [], "words": CELL_WORDS}
 
-    def state(self, number: int) -> State:
-        """The state that shows a cell: evaluated as it was found; one without an answer is asked for once more.
-
-        Raises InputError for a number there is not, and StudyError for a cell that is no study.
-        """
+    def found(self, number: int) -> CellFound:
+        """A cell by its number. Raises InputError for one there is not, and StudyError for a cell that is no study."""
         if not 1 <= number <= self.plan.count:
             raise InputError(f"cell {number}: the sweep has the cells 1 to {self.plan.count}")
         row = next(iter(self._rows("WHERE cell = ?", [number])), None)
         if row is None:
             raise InputError(f"cell {number}: {self.folder / _TABLE} has no such cell; sweep again with --resume")
-        changes = self._changes(number)
-        study = read_tree(set_values(self.plan.tree, changes))
-        there = row["broken"] is not None
-        at = {**beginning(study), **(_found(row, study, self.plan) if there else {})}
-        return State(way="evaluate" if there or not study.vary else "optimize", changes=changes, at=at)
-
-    def _changes(self, number: int) -> dict[str, Any]:
-        """What a cell is set to, by the path in the study."""
         texts = self.plan.points.texts(number - 1)
-        return {axis.name: text for axis, text in zip(self.plan.axes, texts, strict=True)}
+        changes = {axis.name: text for axis, text in zip(self.plan.axes, texts, strict=True)}
+        tree = self.plan.cell_tree(texts)
+        study, answered = read_tree(tree), row["broken"] is not None
+        return CellFound(number, changes, tree, study, answered, _at(row, study, self.plan) if answered else {})
 
     def _rows(self, which: str, values: Sequence[Any]) -> list[dict[str, Value]]:
         return _rows(self.folder, which, values)
@@ -81,12 +95,11 @@ def open_cells(folder: Path) -> SweptCells:
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{folder / _TOLD}: not written by `tvimdesign sweep`: {error!r}") from error
     tree = replace(tree_of_file(folder / "study.yaml"), folder=Path())
-    plan = plan_of(set_values(tree, {"catalog": records}) if records else tree)
+    plan = plan_of(set_in(tree, ["catalog"], [records]) if records else tree)
     if plan.count != count:
         raise InputError(f"{folder}: study.yaml asks for {plan.count} cells and the table has {count}; sweep it again")
     answered = _rows(folder, "WHERE broken IS NOT NULL ORDER BY cell LIMIT 1", [])
-    first = [_number(one) for one in [*least, *answered]]
-    return SweptCells(folder, plan, first[0] if first else None)
+    return SweptCells(folder, plan, tuple(dict.fromkeys(_number(one) for one in least or answered)))
 
 
 def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Value]]:
@@ -101,7 +114,7 @@ def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Val
         raise InputError(f"{path}: cannot be read: {error}; `tvimdesign sweep ... --resume` writes it anew") from error
 
 
-def _found(row: dict[str, Value], study: Study, plan: SweepPlan) -> dict[str, str]:
+def _at(row: dict[str, Value], study: Study, plan: SweepPlan) -> dict[str, str]:
     """The variables of a cell's answer as texts with their units, as far as the table has them."""
     return {name: _text(row[name], plan.unit(name)) for name in study.vary if row.get(name) is not None}
 
