@@ -10,7 +10,8 @@ from small_sweeps import plan
 import tvimdesign as tvim
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.chunks import CellQueue
-from tvimdesign.sweep.job import Cell, CellAnswer, Job
+from tvimdesign.sweep.job import Job
+from tvimdesign.sweep.work import Cell, CellAnswer
 
 
 def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswer]:

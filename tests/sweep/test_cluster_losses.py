@@ -10,9 +10,10 @@ from small_sweeps import plan
 
 from tvimdesign.sweep.chunks import CellQueue
 from tvimdesign.sweep.cluster import Cluster
-from tvimdesign.sweep.job import Cell, Job
+from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.run_sweep import Spent
 from tvimdesign.sweep.shards import ShardWriter
+from tvimdesign.sweep.work import Cell
 
 
 class _Lost:

@@ -22,10 +22,11 @@ from support import ROOT, Command, environment
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
 from tvimdesign.sweep.gather import write_parquet
-from tvimdesign.sweep.job import Cell, Job
+from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.pool import Pool
 from tvimdesign.sweep.run_sweep import Where, run_sweep
 from tvimdesign.sweep.shards import Shards
+from tvimdesign.sweep.work import Cell
 
 
 def rows(out: Path) -> list[dict[str, str]]:

@@ -20,12 +20,13 @@ from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.gather import Value, columns, told
-from tvimdesign.sweep.job import Cell as AskedCell
-from tvimdesign.sweep.job import CellAnswer, Job
+from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.keys import CellKeys
 from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import Where
 from tvimdesign.sweep.shards import Kept, Shards
+from tvimdesign.sweep.work import Cell as AskedCell
+from tvimdesign.sweep.work import CellAnswer
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -10,10 +10,13 @@ import typer
 
 from tvimdesign.base.errors import InputError, RenamedWarning
 from tvimdesign.cli import completions
+from tvimdesign.cli.compare_command import compare
 from tvimdesign.cli.explore_command import explore
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
+from tvimdesign.cli.parts_command import cad
 from tvimdesign.cli.sweep_command import sweep
+from tvimdesign.cli.tolerate_command import tolerate
 from tvimdesign.report.virtual_tests import TESTS
 
 if TYPE_CHECKING:
@@ -150,24 +153,7 @@ def schema() -> None:
     print_schema()
 
 
-@app.command()
-def cad(
-    design: Annotated[
-        Path,
-        typer.Argument(
-            metavar="DESIGN|STUDY",
-            help="design.json of a run, or a study file.",
-            autocompletion=completions.designs_and_studies,
-        ),
-    ],
-    out: Out = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
-) -> None:
-    """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
-    from tvimdesign.report.run.run_study import make_parts
-
-    make_parts(design, out or default_folder(design), overwrite=overwrite, as_json=json)
+app.command()(cad)
 
 
 @app.command()
@@ -210,20 +196,7 @@ def simulate(
     simulate_study(study, test, folder, overwrite=overwrite, as_json=json, settings=settings or ())
 
 
-@app.command()
-def tolerate(
-    study: StudyOrDesign,
-    samples: Annotated[int, typer.Option("--samples", help="Modules drawn; the next power of two.")] = 65536,
-    workers: Annotated[int, typer.Option("--workers", min=0, help="Threads; as many as processors unless given.")] = 0,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
-) -> None:
-    """Say what tolerances do: worst case, root-sum-square and Monte Carlo, yield, into results/<study>-tolerances."""
-    from tvimdesign.report.tolerate.tolerate_study import tolerate_study
-
-    folder = out or Path("results") / f"{name_of(study)}-tolerances"
-    tolerate_study(study, folder, samples, workers, overwrite=overwrite, as_json=json)
+app.command()(tolerate)
 
 
 @app.command()
@@ -288,33 +261,7 @@ def fit(
     )  # fmt: skip
 
 
-@app.command()
-def compare(
-    studies: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="STUDY STUDY...", help="Study files, of any modes.", autocompletion=completions.study_files
-        ),
-    ],
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
-    ] = None,
-    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 6,
-    overwrite: Overwrite = False,
-    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
-    settings: Settings = None,
-    json: AsJson = False,
-) -> None:
-    """Hold studies with the same requirements against each other: as drawn, and each optimised for itself."""
-    from tvimdesign.report.compare.compare_studies import compare_studies
-
-    folder = out or Path("results") / "-vs-".join(study.stem for study in studies)
-    compare_studies(
-        studies, folder, points=points, overwrite=overwrite, plots=plots, as_json=json, settings=settings or ()
-    )
-
-
+app.command()(compare)
 app.command()(sweep)
 app.command()(explore)
 

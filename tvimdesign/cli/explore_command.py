@@ -16,8 +16,8 @@ def explore(
     source: Annotated[
         Path,
         typer.Argument(
-            metavar="STUDY|RESULT",
-            help="Study file, or folder or design.json of a run.",
+            metavar="STUDY|RESULT|SWEEP",
+            help="Study file, folder or design.json of a run, or folder of a sweep.",
             autocompletion=completions.designs_and_studies,
         ),
     ],

@@ -9,28 +9,17 @@ import typer
 
 from tvimdesign.cli.folders import name_of
 from tvimdesign.cli.options import AsJson, Out, Overwrite, Settings, StudyFile
+from tvimdesign.cli.shared_options import Resume, Scheduler, Shard, Workers
 
 
 def sweep(
     study: StudyFile,
     out: Out = None,
     overwrite: Overwrite = False,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Go on in that folder: cells that are there are not computed again.")
-    ] = False,
-    workers: Annotated[
-        int, typer.Option("--workers", min=0, help="Processes here; as many as processors unless given.")
-    ] = 0,
-    shard: Annotated[
-        str,
-        typer.Option(
-            "--shard", metavar="I/N", help="Compute part I of N: a job of a batch system's array; all share the folder."
-        ),
-    ] = "",
-    scheduler: Annotated[
-        str,
-        typer.Option("--scheduler", metavar="ADDRESS", help="Compute on a dask cluster, such as tcp://host:8786."),
-    ] = "",
+    resume: Resume = False,
+    workers: Workers = 0,
+    shard: Shard = "",
+    scheduler: Scheduler = "",
     parquet: Annotated[bool, typer.Option("--parquet", help="Write cells.parquet too.")] = False,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure.")] = True,
     time_limit: Annotated[

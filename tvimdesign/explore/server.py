@@ -110,7 +110,7 @@ class Server:
         queue: asyncio.Queue[str] = asyncio.Queue()
         answers = sorted(session.answers.values(), key=lambda one: int(one["number"]))
         drafts = [session.draft] if session.draft else []
-        for told in (session.state_shown(), *answers, *drafts):
+        for told in (session.state_shown(), session.points_shown(), *answers, *drafts):
             queue.put_nowait(json.dumps(told, allow_nan=False))
         self._pages.add(queue)
         self._sockets.add(socket)

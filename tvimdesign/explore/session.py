@@ -88,8 +88,7 @@ class Session:
         elif isinstance(message, messages.OfPin):
             self._of_pin(message)
         elif isinstance(message, messages.Point):
-            at = self.source.at_point(message.number)
-            self._become(self.kept.state.model_copy(update={"way": "evaluate", "at": at}))
+            self._become(self.source.at_point(message.number, self.kept.state))
         elif isinstance(message, messages.Save):
             return [self._save(message.file)]
         elif isinstance(message, messages.Confirm):
@@ -174,8 +173,12 @@ class Session:
             "pins": [{"name": one.name, "way": one.state.way, "values": one.values} for one in self.kept.pins],
             "quantities": [_quantity(free, name) for name in value_names(free)],
             "asked": list(dict.fromkeys([*free.minimize, *(limit.output for limit in free.require)])),
-            "front": self.source.front_shown(), "folder": str(self.folder), "parts": self.parts.shown,
+            "folder": str(self.folder), "parts": self.parts.shown,
         }  # fmt: skip
+
+    def points_shown(self) -> Told:
+        """What a page draws once: the points of the front, or the cells of the sweep; null where there are none."""
+        return {"kind": "points", "points": self.source.points_shown()}
 
     def _ask(self, stage: Stage) -> None:
         self._number += 1

@@ -18,9 +18,9 @@ from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_im
 from tvimdesign.solve.optimizer.ratings import exceeded, kept, sorted_by_acceptance
 from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, BELOW_YIELD, OPTIMAL
 from tvimdesign.study import Study, drawn, given, read_tree
-from tvimdesign.sweep.job import Cell, CellAnswer, Job
 from tvimdesign.sweep.plan import set_in
 from tvimdesign.sweep.points import Texts
+from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 
 MOST_KEPT = 8
 """Compiled modules, and problems, that are kept: cells of one kind mostly follow one another."""
@@ -29,9 +29,9 @@ _SAID = 300
 
 
 class CellAnswers:
-    """Answers the cells of a job."""
+    """Answers the cells of a sweep."""
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: SweptStudy) -> None:
         """Nothing is compiled yet."""
         self._job = job
         self._simulators: OrderedDict[Any, Simulator] = OrderedDict()

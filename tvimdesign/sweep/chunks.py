@@ -6,8 +6,7 @@ import time
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
 
-from tvimdesign.sweep.answers import CellAnswers
-from tvimdesign.sweep.job import Cell, CellAnswer, Job
+from tvimdesign.sweep.work import Cell, CellAnswer, Work
 
 CHUNK = 0.5
 """Seconds that a chunk is to take."""
@@ -16,11 +15,11 @@ MOST = 1000
 
 
 class ChunkAnswers:
-    """Answers chunks of a job, and says what each cell took."""
+    """Answers chunks of some work, and says what each cell took."""
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: Work) -> None:
         """Nothing is compiled yet."""
-        self._answers = CellAnswers(job)
+        self._answers = job.answers()
 
     def answer(self, chunk: Sequence[tuple[str, Sequence[str]]]) -> list[tuple[str, CellAnswer, float]]:
         """Each cell's key, answer, and seconds of the processor; a cell comes as a pair, as JSON has it."""
@@ -35,7 +34,7 @@ class ChunkAnswers:
 class CellQueue:
     """The cells that are left, by kind: a worker stays with the kind it has compiled a module or a problem for."""
 
-    def __init__(self, cells: Iterable[Cell], job: Job, workers: int) -> None:
+    def __init__(self, cells: Iterable[Cell], job: Work, workers: int) -> None:
         """Sort the cells by the words they are set to."""
         self._groups: dict[Hashable, deque[Cell]] = {}
         self._numbers, self._workers = job.numbers, max(workers, 1)

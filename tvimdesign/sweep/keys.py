@@ -41,8 +41,7 @@ class CellKeys:
 
     def key(self, texts: Texts) -> str:
         """The key of the cell that these values make."""
-        said = {"study": _plain(self.leaves(texts)), "records": self._records_of(texts), **self._from}
-        return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:_LENGTH]
+        return key_of({"study": _plain(self.leaves(texts)), "records": self._records_of(texts), **self._from})
 
     def leaves(self, texts: Texts) -> Leaves:
         """The resolved study of a cell as its single values, without reading it."""
@@ -94,6 +93,16 @@ class CellKeys:
 _NOTHING = object()
 
 
+def key_of(said: Any) -> str:
+    """The key of what is said: plain data."""
+    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:_LENGTH]
+
+
+def said_of(study: Study) -> dict[str, Any]:
+    """What makes one study another: its values, and what the records say that it chooses from."""
+    return {"study": _plain(leaves_of(study)), "records": records_hash(study), "tvimdesign": __version__}
+
+
 def leaves_of(study: Study) -> Leaves:
     """A resolved study as its single values by where they stand."""
     return dict(_walk(study.model_dump(mode="json", exclude=_NOT_OF_THE_DESIGN), ()))
@@ -119,8 +128,7 @@ def records_hash(study: Study) -> str:
     found: dict[tuple[str, str], Record] = {}
     for one in _one_by_one(study):
         found |= {(r.category, r.name): r for r in given(one).values() if isinstance(r, Record)}
-    said = json.dumps([_said(found[key]) for key in sorted(found)], sort_keys=True)
-    return hashlib.sha256(said.encode()).hexdigest()[:_LENGTH]
+    return key_of([_said(found[key]) for key in sorted(found)])
 
 
 def _one_by_one(study: Study) -> Iterator[Study]:

@@ -1,18 +1,20 @@
-"""A sweep from its plan to all cells in the store: what is there is not computed again."""
+"""Cells from their keys to the store, by processes here, a batch job or a cluster: what is there is not done again."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.sweep.job import Cell, Job
+from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.keys import CellKeys
 from tvimdesign.sweep.plan import SweepPlan
+from tvimdesign.sweep.points import Texts
 from tvimdesign.sweep.pool import Pool, Spent
 from tvimdesign.sweep.shards import Shards
+from tvimdesign.sweep.work import Cell, Work
 
 Say = Callable[[str], None]
 
@@ -28,6 +30,16 @@ class Where:
     part: tuple[int, int] = (1, 1)
     """Which part of how many this is, both from 1."""
 
+    @property
+    def alone(self) -> bool:
+        """Whether no other job has a part of it."""
+        return self.part == (1, 1)
+
+    @property
+    def said(self) -> bool:
+        """Whether anything else was said than to compute here."""
+        return bool(self.scheduler) or not self.alone
+
     @classmethod
     def of(cls, workers: int, scheduler: str, shard: str) -> Where:
         """From the words of the command line; raises InputError for a shard that is none."""
@@ -41,10 +53,10 @@ class Where:
 
 @dataclass(frozen=True)
 class SweepDone:
-    """What of a sweep is done."""
+    """What of a sweep, or of other work, is done."""
 
     cells: int
-    """Of the whole sweep."""
+    """Of the whole."""
     reused: int
     """Of this part: cells that were there."""
     computed: int
@@ -62,28 +74,40 @@ class SweepDone:
 
 def run_sweep(plan: SweepPlan, folder: Path, where: Where, say: Say) -> SweepDone:
     """Compute every cell of this part that the store in the folder does not have. Raises OutputError, TvimError."""
-    first, parts = where.part
     say("looking for cells that are there")
-    keys, known = CellKeys(plan), Shards(folder, plan.columns)
-    own = {number: keys.key(plan.points.texts(number)) for number in range(first - 1, plan.count, parts)}
-    waiting = {key: Cell(key, plan.points.texts(number)) for number, key in own.items() if key not in known}
-    reused = len(own) - sum(key in waiting for key in own.values())
-    spent = Spent()
+    keys, points = CellKeys(plan), plan.points
+    return run_cells(
+        Job.of(plan), [keys.key(points.texts(number)) for number in range(plan.count)], points.texts, folder, where, say
+    )  # fmt: skip
+
+
+def run_cells(
+    work: Work, keys: Sequence[str], texts: Callable[[int], Texts], folder: Path, where: Where, say: Say,
+    called: str = "cell",
+) -> SweepDone:  # fmt: skip
+    """Do every cell of this part that the store in the folder does not have; `texts` says what a cell is set to.
+
+    Cells are `called` so where they are counted. Raises OutputError, TvimError.
+    """
+    first, parts = where.part
+    known, own = Shards(folder, work.columns), range(first - 1, len(keys), parts)
+    waiting = {keys[number]: Cell(keys[number], texts(number)) for number in own if keys[number] not in known}
+    reused = len(own) - sum(keys[number] in waiting for number in own)
+    spent, there = Spent(), known
     if waiting:
-        spent = _answered(Job.of(plan), list(waiting.values()), folder, where, say)
-    every = [own[number] if number in own else keys.key(plan.points.texts(number)) for number in range(plan.count)]
-    there = Shards(folder, plan.columns)
-    missing = sum(key not in there for key in every)
-    return SweepDone(plan.count, reused, len(own) - reused, missing, spent, () if missing else tuple(every))
+        spent = _answered(work, list(waiting.values()), folder, where, say, called)
+        there = Shards(folder, work.columns)
+    missing = sum(key not in there for key in keys)
+    return SweepDone(len(keys), reused, len(own) - reused, missing, spent, () if missing else tuple(keys))
 
 
-def _answered(job: Job, cells: list[Cell], folder: Path, where: Where, say: Say) -> Spent:
+def _answered(work: Work, cells: list[Cell], folder: Path, where: Where, say: Say, called: str) -> Spent:
     def heard(spent: Spent) -> None:
-        say(f"cell {min(spent.cells + 1, len(cells))} of {len(cells)}")
+        say(f"{called} {min(spent.cells + 1, len(cells))} of {len(cells)}")
 
     heard(Spent())
     if where.scheduler:
         from tvimdesign.sweep.cluster import Cluster
 
-        return Cluster(where.scheduler, job, folder).answer(cells, heard)
-    return Pool(job, folder, where.workers or os.cpu_count() or 1).answer(cells, heard)
+        return Cluster(where.scheduler, work, folder).answer(cells, heard)
+    return Pool(work, folder, where.workers or os.cpu_count() or 1).answer(cells, heard)

@@ -15,11 +15,12 @@ from typing import Any, NamedTuple
 
 from tvimdesign import __version__
 from tvimdesign.base.errors import OutputError
-from tvimdesign.base.whole_files import make_folder
-from tvimdesign.sweep.job import CellAnswer
+from tvimdesign.base.whole_files import make_folder, write_whole
+from tvimdesign.sweep.work import CellAnswer
 
 SHARDS = "shards"
 """Folder of the shards in the folder of a sweep."""
+_GOES_ON = "the cells before are kept: make room, then the same command with --resume goes on"
 _KEY = slice(2, 34)
 """Where the key stands in a line: `["0123...", ...`."""
 
@@ -29,7 +30,7 @@ class ShardWriter:
 
     def __init__(self, folder: Path, columns: Sequence[str]) -> None:
         """Nothing is written yet."""
-        self._folder, self._columns = folder / SHARDS, list(columns)
+        self._out, self._folder, self._columns = folder, folder / SHARDS, list(columns)
         self._path: Path | None = None
         self._file = -1
 
@@ -44,20 +45,30 @@ class ShardWriter:
             self._file = -1
 
     def append(self, cells: Sequence[tuple[str, CellAnswer, float]]) -> None:
-        """Write cells, each with its key and what it took [s], and flush them to the disk.
+        """Write cells, each with its key and what it took [s], and flush them to the disk; their files before them.
 
         Raises OutputError where there is no room; what was there before stays whole.
         """
-        lines = [json.dumps([key, *answer[:-1], int(answer.warm), round(seconds, 4)]) for key, answer, seconds in cells]
         try:
+            for _, answer, _ in cells:
+                self._write_files(answer)
+            lines = [_line(*cell) for cell in cells]
             if self._file < 0:
                 self._begin()
             self._write("".join(f"{line}\n" for line in lines).encode())
         except OSError as error:
             raise OutputError(
-                f"{self._path or self._folder}: cannot be written: {error.strerror or error}; the cells before are "
-                "kept: make room, then the same command with --resume goes on"
+                f"{self._path or self._folder}: cannot be written: {error.strerror or error}; {_GOES_ON}"
             ) from error
+
+    def _write_files(self, answer: CellAnswer) -> None:
+        for name, data in answer.files:
+            path = self._out / name
+            try:
+                make_folder(path.parent)
+                write_whole(path, data)
+            except OutputError as error:
+                raise OutputError(f"{str(error).partition(';')[0]}; {_GOES_ON}") from error
 
     def _begin(self) -> None:
         make_folder(self._folder)
@@ -133,6 +144,11 @@ class Shards:
                 if line.startswith(b'["') and line.endswith(b"]\n"):
                     self._places.setdefault(line[_KEY].decode("ascii", "replace"), (len(self._files) - 1, place))
                 place += len(line)
+
+
+def _line(key: str, answer: CellAnswer, seconds: float) -> str:
+    status, reason, broken, margin, values, warm, _ = answer
+    return json.dumps([key, status, reason, broken, margin, values, int(warm), round(seconds, 4)])
 
 
 def _columns_of(head: bytes) -> list[str] | None:

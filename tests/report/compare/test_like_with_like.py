@@ -11,6 +11,7 @@ from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.compare.comparison_job import ComparisonJob
 from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import summary_text
+from tvimdesign.study.tree import tree_of_file
 
 FIXED = COMPRESSION[: COMPRESSION.index("vary:")] + COMPRESSION[COMPRESSION.index("operating_points:") :]
 REQUIRED = 'require: {spring_stiffness: ">= 5 N.m/rad", holding_torque: ">= 5 N.m"}\n'
@@ -22,7 +23,10 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     folder = tmp_path_factory.mktemp("unlike")
     first, second = COARSE, FIXED + REQUIRED
     paths = written(folder, shear=first, compression=second)
-    jobs = {name: ComparisonJob(path, 0, [], [], lambda _: None) for name, path in zip(("s", "c"), paths, strict=True)}
+    jobs = {
+        name: ComparisonJob(tree_of_file(path), 0, list, lambda _: None)
+        for name, path in zip(("s", "c"), paths, strict=True)
+    }
     return Outcome(
         dict(zip(("s", "c"), entrants(folder, first, second), strict=True)),
         {name: job.run() for name, job in jobs.items()},

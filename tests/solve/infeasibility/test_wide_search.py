@@ -13,12 +13,22 @@ from support import ROOT
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility import wide_search
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.infeasibility.wide_search import _DRAWN, _broken, designs_all_over
+from tvimdesign.solve.infeasibility.wide_search import _DRAWN, _broken, _one_design, designs_all_over
 from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize
-from tvimdesign.study import read_study
+from tvimdesign.study import read_study, read_tree
+from tvimdesign.study.tree import tree_of_text
+
+ONLY_THE_CYCLE = """
+mode: shear
+vary: {current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}}
+require: {peak_power: "<= 1 W"}
+minimize: {response_time: 1}
+solver: {cells: 8, starts: 1}
+"""
+"""Its one free number changes nothing but the working cycle."""
 
 
 def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
@@ -36,6 +46,14 @@ def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
     ])  # fmt: skip
     together = screen.worst(unknowns)
     assert np.allclose(together, [screen.broken(inputs) for inputs in designs])
+
+
+def test_where_no_limit_is_of_arithmetic_every_design_keeps_them() -> None:
+    study = read_tree(tree_of_text(ONLY_THE_CYCLE, "one.yaml", "one", ROOT))
+    optimizer = Optimizer(study)
+    screen = FeasibilityScreen(optimizer)
+    assert screen.worst(np.zeros((1, 4))).tolist() == [-1.0] * 4
+    assert _one_design(optimizer, screen, 1) is not None
 
 
 @pytest.mark.slow

@@ -85,10 +85,10 @@ class OfPin(_Message):
 
 
 class Point(_Message):
-    """See a point of the result's front."""
+    """See a point of the result's front, or a cell of the sweep."""
 
     kind: Literal["point"]
-    number: Annotated[int, Field(ge=0, le=1000)]
+    number: Annotated[int, Field(ge=0, le=1_000_000_000)]
 
 
 class Save(_Message):

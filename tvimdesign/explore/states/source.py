@@ -1,4 +1,4 @@
-"""What an explorer is opened with: a study file, or a result with the design and the front that were found."""
+"""What an explorer is opened with: a study file, a result with its design and front, or a sweep with its cells."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.explore.states.messages import Way
 from tvimdesign.explore.states.state import State, beginning, refuse_other_folders
 from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.report.sweep.swept_cells import SweptCells, is_sweep, open_cells
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml
@@ -19,7 +21,7 @@ from tvimdesign.study.written_study import written
 
 @dataclass(frozen=True)
 class Source:
-    """A study, where to begin in it, and the front of the result it is from."""
+    """A study, where to begin in it, and the front of the result or the cells of the sweep it is from."""
 
     tree: StudyTree
     study: Study
@@ -29,6 +31,8 @@ class Source:
     """Of the result."""
     front: Mapping[str, Any] | None = None
     """As in its results.json."""
+    cells: SweptCells | None = None
+    """Of the sweep."""
 
     @property
     def text(self) -> bytes:
@@ -38,11 +42,15 @@ class Source:
     @property
     def first(self) -> State:
         """Where an explorer begins."""
+        if self.cells and self.cells.best:
+            return _state_of(self.cells, self.cells.best[0])
         way = "optimize" if self.study.vary else "evaluate"
         return State(way=way, at=beginning(self.study, self.chosen))
 
-    def front_shown(self) -> dict[str, Any] | None:
-        """The front's points in the units people read; none of a study."""
+    def points_shown(self) -> dict[str, Any] | None:
+        """The points of the front, or the cells of the sweep, in the units people read; none of a study."""
+        if self.cells:
+            return self.cells.shown()
         if self.front is None or not self.front["points"]:
             return None
         names, table = list(self.front["units_of_values"]), self.study.table
@@ -53,19 +61,24 @@ class Source:
         labels = [axis_label(name, table.unit(name)) for name in names]
         return {"of": list(self.front["of"]), "names": names, "labels": labels, "points": points}
 
-    def at_point(self, number: int) -> dict[str, str]:
-        """The variables of a point of the front. Raises InputError for one that there is not."""
+    def at_point(self, number: int, state: State) -> State:
+        """The state that shows a point of the front, or a cell of the sweep. Raises InputError where there is none."""
+        if self.cells:
+            return _state_of(self.cells, number)
         found = next((one for one in (self.front or {"points": []})["points"] if one["number"] == number), None)
         if found is None or self.folder is None:
             raise InputError(f"point {number}: the front has none of this number")
         path = (self.folder / found["design"]).resolve()
         if not path.is_relative_to(self.folder.resolve()):
             raise InputError(f"point {number}: its design lies outside {self.folder}")
-        return beginning(self.study, _of_design(read_design(path)))
+        at = beginning(self.study, _of_design(read_design(path)))
+        return state.model_copy(update={"way": "evaluate", "at": at})
 
 
 def open_source(path: Path, settings: Sequence[str] = ()) -> Source:
-    """Open a study file, or the folder or design.json of a result. Raises InputError."""
+    """Open a study file, the folder or design.json of a result, or the folder of a sweep. Raises InputError."""
+    if is_sweep(path):
+        return _sweep(path, settings)
     design = path / "design.json" if path.is_dir() else path
     if design.suffix == ".json":
         return _result(read_design(design), design)
@@ -81,6 +94,21 @@ def _result(design: Design, path: Path) -> Source:
     study = read_tree(tree)
     refuse_other_folders(tree, study)
     return Source(tree, study, _of_design(design), path.parent, _front_of(path.parent))
+
+
+def _sweep(folder: Path, settings: Sequence[str]) -> Source:
+    if settings:
+        raise InputError(f"--set: the cells of {folder} are of its study as it was swept; open the study file instead")
+    cells = open_cells(folder)
+    refuse_other_folders(cells.plan.tree, cells.plan.study)
+    return Source(cells.plan.tree, cells.plan.study, cells=cells)
+
+
+def _state_of(cells: SweptCells, number: int) -> State:
+    """The state that shows a cell: evaluated as it was found; one without an answer is asked for once more."""
+    found = cells.found(number)
+    way: Way = "evaluate" if found.answered or not found.study.vary else "optimize"
+    return State(way=way, changes=found.changes, at={**beginning(found.study), **found.at})
 
 
 def _of_design(design: Design) -> dict[str, Any]:

@@ -1,29 +1,46 @@
-// The front of the result: a click on a point shows its module.
-import { axis, chart, frame, short } from "page/charts.js";
+// The front of a result, or the cells of a sweep: a click on a point shows its module.
+import { short } from "page/charts.js";
 import { button, make } from "page/dom.js";
+import { draw, FRONT } from "page/front.js";
 
-/** Draw the front once; a point is chosen by a click, or by its button. */
+const MOST_BUTTONS = 100; // points that have a button each; of more a number is typed
+
+/** Draw the points once; one is chosen by a click, by its button, or by its number. */
 export function frontOf(place, section, send) {
   let drawn = false;
   return {
-    show({ front }) {
-      section.hidden = !front;
-      if (!front || drawn) return;
+    show(points) {
+      if (!points || drawn) return;
       drawn = true;
-      const [y, x] = front.of.map((name) => front.names.indexOf(name));
+      section.hidden = false;
+      const words = points.words ?? FRONT;
+      section.querySelector("h2").textContent = words.title;
       const see = (number) => send({ kind: "point", number });
-      const one = chart(place, { says: `Front: ${front.labels[y]} against ${front.labels[x]}`, height: 300 }, (look) => ({
-        ...frame(look), legend: { show: false }, xAxis: axis(front.labels[x], look), yAxis: axis(front.labels[y], look, { nameGap: 46 }),
-        tooltip: { ...frame(look).tooltip, trigger: "item", formatter: ({ data }) => `point ${data.number}` },
-        series: [{ type: "scatter", symbolSize: 12, color: look.colours[0],
-          data: front.points.map(({ number, values }) => ({ value: [values[x], values[y]], number })) }],
-      }));
-      one.made.on("click", (/** @type {any} */ { data }) => see(data.number));
-      place.append(make("details", {}, make("summary", {}, "Points, as buttons"), ...front.points.map(({ number, values }) => {
-        const made = button(`Point ${number}: ${front.of.map((name, i) => `${front.labels[[y, x][i] ?? front.names.indexOf(name)]} ${short(values[front.names.indexOf(name)])}`).join(", ")}`, () => see(number));
-        made.className = "plain";
-        return made;
-      })));
+      if (points.names.length) draw(place, points, { choose: see });
+      place.append(points.points.length > MOST_BUTTONS ? "" : asButtons(points, words, see), byNumber(words, see));
     },
   };
+}
+
+/** A button for each point, with what it is drawn by. */
+function asButtons({ of, names, labels, points }, words, see) {
+  const drawn = [...of].reverse().map((name) => names.indexOf(name));
+  const buttons = points.map(({ number, values }) => {
+    const made = button(`${capital(words.one)} ${number}: ${drawn.map((i) => `${labels[i]} ${short(values[i])}`).join(", ")}`, () => see(number));
+    made.className = "plain";
+    return made;
+  });
+  return make("details", {}, make("summary", {}, `${capital(words.one)}s, as buttons`), ...buttons);
+}
+
+/** A field for a point's number: those that are not drawn have one too. */
+function byNumber(words, see) {
+  const field = make("input", { type: "number", min: "1", step: "1", "aria-label": `Number of a ${words.one}` });
+  const show = () => { if (field.value !== "") see(Number(field.value)); };
+  field.addEventListener("keydown", (/** @type {KeyboardEvent} */ { key }) => { if (key === "Enter") show(); });
+  return make("p", { className: "by-number" }, field, button(`Show this ${words.one}`, show));
+}
+
+function capital(word) {
+  return word[0].toUpperCase() + word.slice(1);
 }

@@ -59,7 +59,6 @@ const HEARD = {
     redo.disabled = !state.redo;
     controls.show(state);
     pins.show(state, last);
-    front.show(state);
     HEARD.parts(state.parts);
     shows ||= setTimeout(() => { shows = 0; if (last) show(last); }, SOON);
   },
@@ -73,6 +72,7 @@ const HEARD = {
     if (state) show(message.shown);
     if (message.report) report.show(message.report);
   },
+  points({ points }) { front.show(points); },
   draft(message) { draft.show(message); },
   refused({ name, words }) {
     if (!controls.refuse(name, words)) told.textContent = words;

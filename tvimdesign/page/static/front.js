@@ -3,10 +3,16 @@ import { axis, chart, frame, short } from "page/charts.js";
 import { button, choice, make } from "page/dom.js";
 
 /** What a front's points are called; a sweep calls them by its own words. */
-const FRONT = { title: "Front", one: "point", many: "designs" };
+export const FRONT = { title: "Front", one: "point", many: "designs" };
 
-/** Draw the points; a brush, or the ends typed in below, keep only those within, in the table too. A value that is null never happens. */
-export function draw(place, data) {
+/**
+ * Draw the points; a brush, or the ends typed in below, keep only those within, in the table too. A value that is null never happens.
+ * `choose`, where there is one, is called with the number of a point that is clicked.
+ * @param {any} place
+ * @param {any} data
+ * @param {{ choose?: (number: number) => void }} [hooks]
+ */
+export function draw(place, data, { choose } = {}) {
   const words = data.words ?? FRONT;
   const varying = data.names.map((_, i) => i).filter((i) => varies(data.points.map(({ values }) => values[i])));
   const ends = data.names.map(() => [null, null]);
@@ -41,6 +47,8 @@ export function draw(place, data) {
       labelLayout: { hideOverlap: true },
     }],
   }));
+
+  if (choose) scatter.made.on("click", (/** @type {any} */ { data: one }) => choose(one.number));
 
   const parallel = chart(place, { says: `Parallel coordinates of ${data.labels.join(", ")}`, height: 360 }, (look) => ({
     parallel: { left: 60, right: 60, top: 76, bottom: 24 },

@@ -81,6 +81,12 @@ def answers(
     return {one.label: found[one.label] for one in asked}
 
 
+def crashed(error: str) -> dict[str, Any]:
+    """What is told of a study whose process has died."""
+    troubles = [{"step": "all", "error": error, "exit_code": _CRASHED}]
+    return {"fronts": [], "seconds": {}, "release": {}, "heat": {}, "troubles": troubles}
+
+
 def _start(
     one: Asked,
     others: Sequence[Path],
@@ -107,12 +113,6 @@ def _finish(child: _Child) -> dict[str, Any]:
     else:
         last = " ".join(child.errors.read_text(errors="replace").strip().splitlines()[-1:])
         error = f"its process ended with code {code}: {last or 'nothing was said'}"
-        found = {
-            "fronts": [],
-            "seconds": {},
-            "release": {},
-            "heat": {},
-            "troubles": [{"step": "all", "error": error, "exit_code": _CRASHED}],
-        }
+        found = crashed(error)
     found["seconds"]["whole process"] = time.perf_counter() - child.began
     return found

@@ -39,7 +39,7 @@ from tvimdesign.solve.pareto.front import Front, completed, trace_front, undomin
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_tree
-from tvimdesign.study.tree import tree_of_file
+from tvimdesign.study.tree import StudyTree, tree_of_file
 
 Say = Callable[[str], None]
 HELD_TOLD = 3
@@ -56,10 +56,10 @@ def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
 class ComparisonJob:
     """One study on its way: what was found, what failed, how long each step took."""
 
-    def __init__(self, path: Path, points: int, settings: Sequence[str], others: Sequence[Path], say: Say) -> None:
-        """Read the study; the parent has seen that it can be read."""
-        self.study = read_tree(tree_of_file(path, settings))
-        self._others = [(other, settings) for other in others]
+    def __init__(self, tree: StudyTree, points: int, others: Callable[[], Sequence[StudyTree]], say: Say) -> None:
+        """Read the study; who asks has seen that it can be read. `others` are those it is compared with."""
+        self.study = read_tree(tree)
+        self._others = others
         self.table = self.study.table
         self.points, self.say = points, say
         self._built: list[tuple[Optimizer, list[Run]]] = []
@@ -68,7 +68,7 @@ class ComparisonJob:
     @cached_property
     def others(self) -> list[Study]:
         """The studies it is compared with; one that is gone since costs this one its optimum alone."""
-        return [read_tree(tree_of_file(path, settings)) for path, settings in self._others]
+        return [read_tree(tree) for tree in self._others()]
 
     def run(self) -> dict[str, Any]:
         """Do every step that can be done."""
@@ -195,8 +195,11 @@ def main(arguments: list[str]) -> int:
         sys.stdout.flush()
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
-    path, out, points, settings, *others = arguments
-    found = ComparisonJob(Path(path), int(points), json.loads(settings), [Path(other) for other in others], say).run()
+    path, out, points, said, *others = arguments
+    settings = json.loads(said)
+    found = ComparisonJob(
+        tree_of_file(path, settings), int(points), lambda: [tree_of_file(other, settings) for other in others], say
+    ).run()
     write_whole(Path(out), json.dumps(found).encode())
     return 0
 

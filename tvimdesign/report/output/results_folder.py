@@ -8,6 +8,7 @@ import os
 import platform
 import shutil
 import subprocess
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from functools import cached_property
 from importlib import metadata
@@ -34,14 +35,18 @@ class ResultsFolder:
     As a context manager it always leaves a manifest: of a run that ended early, too.
     """
 
-    def __init__(self, path: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS) -> None:
+    def __init__(
+        self, path: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS,
+        kept: Sequence[str] = (),
+    ) -> None:  # fmt: skip
         """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError.
 
-        With `resume` what an unfinished run can go on from stays: the files of the folder `progress` in it.
+        With `resume` what an unfinished run can go on from stays: the files of the folder `progress` in it, and all
+        within the folders that are `kept`.
         """
         if overwrite and resume:
             raise InputError("--overwrite and --resume: choose one")
-        self.path, self._progress = path, progress
+        self.path, self._progress, self._kept = path, progress, tuple(path / name for name in kept)
         self._started = datetime.now(UTC)
         self._finished = False
         try:
@@ -97,7 +102,7 @@ class ResultsFolder:
                 "--resume goes on with a front or a sweep that was stopped"
             )
         for target in self._earlier():
-            if resume and target.parent == self.path / self._progress:
+            if resume and (target.parent == self.path / self._progress or set(self._kept) & set(target.parents)):
                 continue
             if target.resolve().is_relative_to(self.path.resolve()):
                 target.unlink(missing_ok=True)

@@ -3,27 +3,50 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 from tvimdesign.page.blocks import Drawn
 from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.report.sweep.sweep_plot_data import axis_words
-from tvimdesign.sweep.gather import Column, Value, columns
+from tvimdesign.sweep.gather import Value, columns
 from tvimdesign.sweep.plan import SweepPlan
 
 _HOLLOW = "Hollow: a limit is broken."
 _MOST_OUTPUTS = 6
 """Outputs that are axes of the figure to brush."""
-_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}
+CELL_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}
+"""What `front.js` calls the points of a sweep."""
 
 
 def figures(plan: SweepPlan, seen: CellTable, data: dict[str, Any]) -> tuple[Drawn | None, Drawn | None]:
     """Lines over what is swept, and the cells of a sweep over two or more numbers to be brushed."""
+    axes = [column for column in columns(plan) if column.kind == "axis" and column.unit]
+    return _lines(data), _brushed(plan, seen) if len(axes) > 1 else None
+
+
+def cell_points(plan: SweepPlan, listed: Iterable[dict[str, Value]]) -> dict[str, Any] | None:
+    """What `front.js` draws: every cell with an answer by its axes and its first outputs that have numbers.
+
+    Where words alone are swept the cells lie by their numbers. None where no output has a number.
+    """
     numbers = [column for column in columns(plan) if column.unit]
-    axes = [column for column in numbers if column.kind == "axis"]
+    axes = [column for column in numbers if column.kind == "axis"] or numbers[:1]
     outputs = [column for column in numbers if column.kind == "output"]
-    return _lines(data), _brushed(seen, axes, outputs) if len(axes) > 1 else None
+    rows = [row for row in listed if row["broken"] is not None]
+    told = [column for column in outputs if any(_finite(row[column.name]) is not None for row in rows)][:_MOST_OUTPUTS]
+    if not told:
+        return None
+    names = [column.name for column in (*axes, *told)]
+    labels = [*map(axis_words, axes), *(axis_label(column.name, column.unit) for column in told)]
+    points = [
+        {"number": row["cell"], "status": "between" if row["broken"] == 0 else "breaks a limit",
+         "hollow": row["broken"] != 0, "values": [_finite(row[name]) for name in names]}
+        for row in rows
+    ]  # fmt: skip
+    across = {"of": [told[0].name, axes[0].name], "names": names, "labels": labels}
+    return {**across, "points": points, "words": CELL_WORDS}
 
 
 def _lines(data: dict[str, Any]) -> Drawn | None:
@@ -53,25 +76,16 @@ def _panel(panel: dict[str, Any], data: dict[str, Any], there: set[str]) -> dict
     }  # fmt: skip
 
 
-def _brushed(seen: CellTable, axes: list[Column], outputs: list[Column]) -> Drawn | None:
-    """Every cell with an answer: the axes, and the first outputs that have numbers."""
-    rows = [row for row in seen.listed if row["broken"] is not None]
-    told = [column for column in outputs if any(_finite(row[column.name]) is not None for row in rows)][:_MOST_OUTPUTS]
-    if not told:
+def _brushed(plan: SweepPlan, seen: CellTable) -> Drawn | None:
+    """The cells, to be brushed."""
+    data = cell_points(plan, seen.listed)
+    if data is None:
         return None
-    names = [column.name for column in (*axes, *told)]
-    labels = [*map(axis_words, axes), *(axis_label(column.name, column.unit) for column in told)]
     says = (
         "Each point, and each line, is a cell. Drag along an axis of the lower figure, or set its ends below, to keep "
-        f"only the cells within, in the table too.{f' {_HOLLOW}' if any(row['broken'] for row in rows) else ''}"
+        f"only the cells within, in the table too.{f' {_HOLLOW}' if any(p['hollow'] for p in data['points']) else ''}"
     )
-    points = [
-        {"number": row["cell"], "status": "between" if row["broken"] == 0 else "breaks a limit",
-         "hollow": row["broken"] != 0, "values": [_finite(row[name]) for name in names]}
-        for row in rows
-    ]  # fmt: skip
-    across = {"of": [told[0].name, axes[0].name], "names": names, "labels": labels}
-    return Drawn("brushed", "front.js", says, {**across, "points": points, "words": _WORDS}, libraries=["echarts"])
+    return Drawn("brushed", "front.js", says, data, libraries=["echarts"])
 
 
 def _finite(value: Value) -> float | None:

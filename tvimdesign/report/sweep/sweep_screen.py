@@ -30,17 +30,6 @@ def print_sweep(told: dict[str, Any], plan: SweepPlan, out: Path, console: Conso
     console.print(f"\nLook first: [bold]{escape(str(out / FILE))}[/bold]; the tables are beside it", soft_wrap=True)
 
 
-def print_part(told: dict[str, Any], part: tuple[int, int], out: Path, console: Console) -> None:
-    """Print what one job of an array has done."""
-    others = f"{told['missing']} of {told['cells']} cells are still with other parts"
-    console.print(
-        f"Part {part[0]} of {part[1]}: {told['reused']} cells reused, {told['computed']} computed; "
-        f"{others if told['missing'] else 'all cells are there'}. The part that ends last gathers them in "
-        f"[bold]{escape(str(out))}[/bold]",
-        soft_wrap=True,
-    )
-
-
 def _work(run: dict[str, Any]) -> str:
     if not run["computed"]:
         return ""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -11,23 +10,19 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.errors import InputError
-from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
-from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.shared_folder import gatherer, join, say_part
 from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.report.sweep.sweep_drawing import DRAWN_FROM, KeptFigure, SweepDrawing, kept_figure
 from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
-from tvimdesign.report.sweep.sweep_screen import print_part, print_sweep
+from tvimdesign.report.sweep.sweep_screen import print_sweep
 from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
 from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import SweepDone, Where, run_sweep
 from tvimdesign.sweep.shards import SHARDS, Shards
-
-_IN_PARTS = "in parts"
-"""Status of a folder in which the jobs of an array write their shards."""
 
 
 def sweep_study(
@@ -38,7 +33,7 @@ def sweep_study(
     if parquet:
         parquet_library()
     plan = plan_of(tree_of_file(path, settings))
-    if where.part != (1, 1):
+    if not where.alone:
         _part(plan, out, where, overwrite=overwrite, parquet=parquet, plots=plots, as_json=as_json)
         return
     with progress_output() as progress:
@@ -69,36 +64,18 @@ def _part(
     plan: SweepPlan, out: Path, where: Where, *, overwrite: bool, parquet: bool, plots: bool, as_json: bool
 ) -> None:
     """One job of an array: its cells alone; the job after which every cell is there gathers them."""
-    if overwrite:
-        raise InputError("--overwrite and --shard: the parts of a sweep share a folder; name another one with --out")
-    _join(out)
+    join(out, overwrite=overwrite)
     with ExitStack() as stack:
         progress = stack.enter_context(progress_output())
         began = time.perf_counter()
         done = run_sweep(plan, out, where, progress)
-        if not done.whole:
-            _say_part(done, where, out, as_json=as_json)
-            return
-        try:
-            folder = stack.enter_context(ResultsFolder(out, resume=True, progress=SHARDS))
-        except InputError:  # another part, which ended at the same time, gathers them
-            _say_part(done, where, out, as_json=as_json)
+        folder = gatherer(stack, out) if done.whole else None
+        if folder is None:
+            say_part(done, where, out, wide_console(), as_json=as_json)
             return
         figure = SweepDrawing(stack, KeptFigure()) if plots and plan.study.write.plots else None
         told = _gathered(plan, folder, done, progress, figure, parquet=parquet, began=began)
     _say(told, plan, out, as_json=as_json)
-
-
-def _join(out: Path) -> None:
-    """Use a folder together with other jobs: one that is empty, or that a sweep has begun. Raises InputError."""
-    make_folder(out)
-    own = {MANIFEST, SHARDS}
-    others = [path for path in out.iterdir() if path.name not in own and not path.name.startswith(".")]
-    if (out / MANIFEST).exists():
-        return
-    if others:
-        raise InputError(f"{out}: not a folder of results (no {MANIFEST}); name another one with --out")
-    write_whole(out / MANIFEST, (json.dumps({"status": _IN_PARTS, "files": {}}, indent=2) + "\n").encode())
 
 
 def _gathered(
@@ -117,6 +94,8 @@ def _gathered(
         "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
         "columns": [column._asdict() for column in columns(plan)],
     }  # fmt: skip
+    if plan.study.catalog_folder:  # the explorer reads study.yaml, whose own word for it is as seen from elsewhere
+        found["catalog"] = str(Path(plan.study.catalog_folder).resolve())
     folder.write("study.yaml", study_file(plan.written))
     if figure:
         found[DRAWN_FROM] = figure.draw(plan, seen, folder)
@@ -137,11 +116,3 @@ def _say(told: dict[str, Any], plan: SweepPlan, out: Path, *, as_json: bool) -> 
         print(json.dumps(told, indent=2, allow_nan=False))
     else:
         print_sweep(told, plan, out, wide_console())
-
-
-def _say_part(done: SweepDone, where: Where, out: Path, *, as_json: bool) -> None:
-    told = {"cells": done.cells, "reused": done.reused, "computed": done.computed, "missing": done.missing}
-    if as_json:
-        print(json.dumps({**told, "shard": list(where.part), "process": os.getpid(), "folder": str(out)}, indent=2))
-    else:
-        print_part(told, where.part, out, wide_console())

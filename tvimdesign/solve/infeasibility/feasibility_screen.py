@@ -50,7 +50,7 @@ class FeasibilityScreen:
 
     def worst(self, unknowns: Array) -> Array:
         """The most by which designs break a limit, a column of the free numbers' unknowns each."""
-        residuals = np.asarray(self._at(unknowns)).reshape(self._count, -1)
+        residuals = np.asarray(self._at(unknowns)).reshape(self._count, np.shape(unknowns)[1])  # there may be no limit
         worst: Array = np.max(residuals, axis=0, initial=-1.0)
         return np.nan_to_num(worst, nan=_NO_MODULE, posinf=_NO_MODULE)
 

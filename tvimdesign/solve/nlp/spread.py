@@ -143,15 +143,28 @@ def shares(contributors: Sequence[Contributor], derivatives: Array) -> tuple[Arr
 
 
 def monte_carlo(function: Columns, contributors: Sequence[Contributor], samples: int, seed: int) -> MonteCarlo:
-    """Scrambled Sobol points, a power of two of them; the same for the same seed, however they are computed."""
+    """What modules come to that are drawn by scrambled Sobol points, a power of two of them."""
+    return moments_of(drawn_values(function, contributors, samples, seed))
+
+
+def drawn_values(
+    function: Columns, contributors: Sequence[Contributor], samples: int, seed: int, first: int = 0
+) -> Array:
+    """Outputs of `samples` modules from the `first` on, a column each; the same however they are parted."""
     from scipy.stats import qmc
 
     points = qmc.Sobol(len(contributors), rng=np.random.default_rng(seed))
+    if first:
+        points.fast_forward(first)
     found = []
-    for first in range(0, samples, CHUNK):
-        drawn = points.random(min(CHUNK, samples - first)).T
+    for done in range(0, samples, CHUNK):
+        drawn = points.random(min(CHUNK, samples - done)).T
         found.append(function(_inputs(contributors, drawn)))
-    values = np.concatenate(found, axis=1)
+    return np.concatenate(found, axis=1)
+
+
+def moments_of(values: Array) -> MonteCarlo:
+    """Mean, deviation and ends of every output over the modules in which it happens."""
     happens = np.isfinite(values)
     kept = np.where(happens, values, np.nan)
     count = np.sum(happens, axis=1)

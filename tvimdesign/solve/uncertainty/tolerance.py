@@ -76,6 +76,33 @@ class Preload:
     """The output that gives the tolerance; empty where the study states it."""
 
 
+@dataclass(frozen=True)
+class Draw:
+    """Modules that are drawn: what of them spreads, and what is looked at."""
+
+    contributors: tuple[spread.Contributor, ...]
+    outputs: tuple[str, ...]
+
+
+Drawn = Callable[[Draw], Array]
+"""Outputs of drawn modules, a column each; who computes them decides where."""
+
+
+def columns_of(
+    resolved: ResolvedModule, names: Sequence[str], compiled: BatchModel, draw: Draw, workers: int
+) -> spread.Columns:
+    """Outputs as a function of a draw's contributors, all others of the `names` as drawn."""
+    place = [names.index(contributor.name) for contributor in draw.contributors]
+    drawn = np.array([float(resolved.values[name]) for name in names])
+
+    def outputs(columns: Array) -> Array:
+        every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
+        every[place] = columns
+        return compiled(every, workers)
+
+    return outputs
+
+
 class Tolerancing:
     """One design with its study's tolerances: the compiled functions of what spreads, built once."""
 
@@ -139,35 +166,55 @@ class Tolerancing:
         """Whether a limit is on an output that changes with the free angle."""
         return bool(self.exact[self.outputs.index(limit.output), self.names.index(FREE_ANGLE)] != 0.0)
 
-    def _function(self, contributors: Sequence[spread.Contributor], many: BatchModel | None = None) -> spread.Columns:
-        """Outputs as a function of these contributors, all others as drawn."""
-        compiled = many or self.many
-        place = [self.names.index(contributor.name) for contributor in contributors]
-        drawn = np.array([float(self.resolved.values[name]) for name in self.names])
+    @property
+    def whole(self) -> Draw:
+        """Modules in which all that spreads does."""
+        return Draw(tuple(self.contributors), self.outputs)
 
-        def outputs(columns: Array) -> Array:
-            every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
-            every[place] = columns
-            return compiled(every, self.workers)
+    @property
+    def on_preload(self) -> tuple[Draw, Draw] | None:
+        """Modules with the free angle as bought, and adjusted; None where it has no tolerance, or nothing hangs on it.
 
-        return outputs
+        What is looked at is what is limited and changes with the free angle.
+        """
+        if self.resolved.study.tolerances.get(FREE_ANGLE) is None or FREE_ANGLE not in self.names:
+            return None
+        outputs = tuple(dict.fromkeys(limit.output for limit in self._limits_on_preload))
+        bought, adjusted = (tuple(contributors_of(self.resolved, adjusted)) for adjusted in (False, True))
+        return (Draw(bought, outputs), Draw(adjusted, outputs)) if outputs else None
 
-    def analyse(self, samples: int, seed: int) -> Spread:
-        """Worst case, root-sum-square and Monte Carlo, side by side."""
+    @property
+    def _limits_on_preload(self) -> list[Constraint]:
+        return [limit for limit in self.limits if self._on_preload(limit)]
+
+    def drawn_here(self, samples: int, seed: int) -> Drawn:
+        """Draws modules in this process."""
+        compiled = {self.outputs: self.many}
+
+        def drawn(draw: Draw) -> Array:
+            if draw.outputs not in compiled:
+                compiled[draw.outputs] = BatchModel(self.resolved, self.names, list(draw.outputs))
+            columns = columns_of(self.resolved, self.names, compiled[draw.outputs], draw, self.workers)
+            return spread.drawn_values(columns, draw.contributors, samples, seed)
+
+        return drawn
+
+    def analyse(self, samples: int, seed: int, drawn: Drawn | None = None) -> Spread:
+        """Worst case, root-sum-square and Monte Carlo, side by side; `drawn` draws the modules, else this process."""
         contributors = self.contributors
-        function = self._function(contributors)
+        function = columns_of(self.resolved, self.names, self.many, self.whole, self.workers)
         place = [self.names.index(contributor.name) for contributor in contributors]
         derivatives = self.exact[:, place]
         deviation, shares = spread.shares(contributors, derivatives)
         self.progress("looking at the corners of the tolerances")
         worst = spread.worst_case(function, contributors, derivatives)
         self.progress(f"drawing {samples} modules")
-        drawn = spread.monte_carlo(function, contributors, samples, seed)
+        found = spread.moments_of((drawn or self.drawn_here(samples, seed))(self.whole))
         self.progress("sharing the variance out")
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
-        kept, together = self._kept(drawn)
+        kept, together = self._kept(found)
         return Spread(
-            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, drawn,
+            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, found,
             first, total, kept, together, self.left_out,
         )  # fmt: skip
 
@@ -184,23 +231,19 @@ class Tolerancing:
             found.append(Kept(limit, spread.share_kept(keeps), able))
         return tuple(found), spread.share_kept(every)
 
-    def preload(self, samples: int, seed: int) -> Preload | None:
+    def preload(self, samples: int, seed: int, drawn: Drawn | None = None) -> Preload | None:
         """The free angle as bought and adjusted; None where the study gives it no tolerance, or nothing hangs on it."""
-        tolerance = self.resolved.study.tolerances.get(FREE_ANGLE)
-        if tolerance is None or FREE_ANGLE not in self.names:
+        draws = self.on_preload
+        if draws is None:
             return None
         self.progress("adjusting the preload")
-        limits = [limit for limit in self.limits if self._on_preload(limit)]
-        if not limits:
-            return None
-        outputs = list(dict.fromkeys(limit.output for limit in limits))
-        many = BatchModel(self.resolved, self.names, outputs)
+        values_of, limits, outputs = drawn or self.drawn_here(samples, seed), self._limits_on_preload, draws[0].outputs
         sizes, yields = [], []
-        for adjusted in (False, True):
-            contributors = contributors_of(self.resolved, adjusted)
-            drawn = spread.monte_carlo(self._function(contributors, many), contributors, samples, seed)
-            kept = [limit.keeps(drawn.values[outputs.index(limit.output)]) for limit in limits]
+        for draw in draws:
+            values = values_of(draw)
+            kept = [limit.keeps(values[outputs.index(limit.output)]) for limit in limits]
             yields.append(spread.share_kept(np.all(kept, axis=0)))
-            sizes.append(next((one.plus_minus for one in contributors if one.name == FREE_ANGLE), 0.0))
+            sizes.append(next((one.plus_minus for one in draw.contributors if one.name == FREE_ANGLE), 0.0))
         stroke = abs(float(self.resolved.values["stroke"]))
+        tolerance = self.resolved.study.tolerances[FREE_ANGLE]
         return Preload(sizes[0], sizes[1], sizes[0] / stroke, yields[0], yields[1], tolerance.row or "")

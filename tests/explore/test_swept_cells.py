@@ -1,0 +1,199 @@
+"""A sweep is opened: its cells are drawn, and the one that is chosen is what the explorer shows."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from explored import TOKEN, Talk, awaited, served, talking
+from playwright.sync_api import Browser
+from served_explorer import Served, exploring
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import from_si
+from tvimdesign.explore.states.source import open_source
+from tvimdesign.explore.states.state import tree_of
+from tvimdesign.report.sweep.sweep_study import sweep_folder
+from tvimdesign.study import read_tree
+from tvimdesign.study.tree import tree_of_text
+from tvimdesign.sweep.plan import plan_of
+from tvimdesign.sweep.run_sweep import Where
+
+STUDY = """
+name: swept
+mode: shear
+vary: {current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}}
+require: {peak_power: "<= 12 W"}
+minimize: {response_time: 1}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+solver: {cells: 8, starts: 1}
+sweep:
+  method: list
+  cells:
+  - {pcl_thickness: 0.6 mm, require.peak_power: <= 9 W}
+  - {pcl_thickness: 2 mm, require.peak_power: <= 9 W}
+  - {pcl_thickness: 2 mm, require.peak_power: <= 11 W}
+"""
+"""The first cell has no design: its layer is too thin for the strain, which nothing that varies changes."""
+OWN = """
+title: Own
+based_on: music_wire
+values:
+  stress_relief_temperature: {value: 250, unit: degC, status: datasheet, source: a sheet of one's own}
+"""
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the sweep."""
+    return _swept(tmp_path_factory.mktemp("swept"), STUDY)
+
+
+def _swept(folder: Path, text: str) -> Path:
+    path = folder / "swept.yaml"
+    path.write_text(text, encoding="utf-8")
+    plan = plan_of(tree_of_text(text, str(path), "swept", folder))
+    where = Where(workers=1)
+    sweep_folder(plan, folder / "out", where, lambda _: None, overwrite=False, resume=False, plots=False)
+    return folder / "out"
+
+
+def _table(folder: Path) -> list[dict[str, str]]:
+    with (folder / "cells.csv").open(encoding="utf-8-sig", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_the_page_begins_at_the_best_cell_and_draws_those_with_an_answer(swept: Path) -> None:
+    source = open_source(swept)
+    rows = _table(swept)
+    assert [row["status"] for row in rows] == ["infeasible", "optimal", "optimal"]
+    assert source.first.way == "evaluate"
+    assert source.first.changes == {"pcl_thickness": "2 mm", "require.peak_power": "<= 11 W"}  # the faster of the two
+    assert source.first.at == {"current": f"{rows[2]['current']} A"}
+    shown = source.points_shown()
+    assert shown is not None
+    assert [point["number"] for point in shown["points"]] == [2, 3]
+    place = shown["names"].index("response_time")
+    told = [point["values"][place] for point in shown["points"]]
+    assert told == [float(row["response_time"]) for row in rows[1:]]
+    assert shown["words"]["one"] == "cell"
+
+
+def test_a_cells_state_is_its_study_with_what_was_found(swept: Path) -> None:
+    source = open_source(swept)
+    state = source.at_point(2, source.first)
+    study = read_tree(tree_of(source.tree, state))
+    assert from_si(study.module["pcl_thickness"], "mm") == pytest.approx(2.0, rel=1e-12)
+    assert study.module["current"] == pytest.approx(float(_table(swept)[1]["current"]), rel=1e-11)
+    assert [limit.limit for limit in study.require] == [9.0]
+    free = read_tree(tree_of(source.tree, state, "optimize"))
+    assert list(free.vary) == ["current"]
+    nothing = source.at_point(1, state)
+    assert (nothing.way, nothing.at) == ("optimize", {"current": "1.5 A"})  # asked once more, from the study's start
+
+
+def test_what_is_no_cell_or_no_finished_sweep_is_refused_in_words(swept: Path, tmp_path: Path) -> None:
+    source = open_source(swept)
+    with pytest.raises(InputError, match="cell 4: the sweep has the cells 1 to 3"):
+        source.at_point(4, source.first)
+    with pytest.raises(InputError, match="--set: the cells of"):
+        open_source(swept, ["current=1 A"])
+    (tmp_path / "shards").mkdir()
+    with pytest.raises(InputError, match="its sweep has not ended"):
+        open_source(tmp_path)
+    for name in ("study.yaml", "sweep.json"):
+        (tmp_path / name).write_bytes((swept / name).read_bytes())
+    with pytest.raises(InputError, match=r"cells.sqlite: cannot be read"):
+        open_source(tmp_path)
+    told = json.loads((swept / "sweep.json").read_bytes())
+    (tmp_path / "sweep.json").write_text(json.dumps({**told, "cells": 4}))
+    with pytest.raises(InputError, match=r"study.yaml asks for 3 cells and the table has 4"):
+        open_source(tmp_path)
+    (tmp_path / "sweep.json").write_text("[]")
+    with pytest.raises(InputError, match="not written by `tvimdesign sweep`"):
+        open_source(tmp_path)
+
+
+def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = "mode: shear\ncatalog: records\nsolver: {cells: 6}\nsweep: {over: {spring_material: [music_wire, own]}}\n"
+    records = tmp_path / "records/spring_materials"
+    records.mkdir(parents=True)
+    (records / "own.yaml").write_text(OWN)
+    out = _swept(tmp_path, study)
+    with pytest.raises(InputError, match="lies outside the study's folder"):
+        open_source(out)
+    monkeypatch.chdir(tmp_path)
+    source = open_source(out)
+    shown = source.points_shown()
+    assert shown is not None
+    assert shown["names"][0] == "cell"
+    assert source.at_point(2, source.first).changes == {"spring_material": "own"}
+
+
+def test_a_page_is_told_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tmp_path: Path) -> None:
+    async def chosen() -> tuple[dict[str, Any], dict[str, Any], dict[str, Any], list[dict[str, Any]]]:
+        async with talking(swept, tmp_path / "out") as page:
+            points = await page.kind("points")
+            page.heard.clear()
+            await page.send(kind="point", number=2)
+            state = await page.kind("state")
+            answer = await page.until(lambda one: one["kind"] == "answer" and one["number"] == 2)
+            await page.send(kind="point", number=9)
+            await page.kind("refused")
+            return points, state, answer, page.heard
+
+    points, state, answer, heard = awaited(chosen())
+    assert len(points["points"]["points"]) == 2
+    assert not [one for one in heard if one["kind"] == "points"]
+    assert (state["way"], state["undo"]) == ("evaluate", True)
+    limit = next(one for one in state["controls"]["requirements"] if one["name"] == "peak_power")
+    assert limit["value"] == 9.0
+    names = [one["name"] for one in state["quantities"]]
+    found = answer["shown"]["values"][names.index("response_time")]
+    assert found == pytest.approx(float(_table(swept)[1]["response_time"]), rel=2e-3)  # as quick answers are
+    assert "cell 9: the sweep has the cells 1 to 3" in heard[-1]["words"]
+
+
+def test_what_was_chosen_is_there_when_the_page_is_opened_again(swept: Path, tmp_path: Path) -> None:
+    async def opened_twice() -> dict[str, Any]:
+        async with talking(swept, tmp_path / "out") as page:
+            await page.send(kind="point", number=2)
+            await page.kind("state")
+        async with (
+            served(swept, tmp_path / "out") as (_, client),
+            client.ws_connect(f"/{TOKEN}/socket") as socket,
+        ):
+            return await Talk(socket).kind("state")
+
+    state = awaited(opened_twice())
+    assert {one["name"]: one["value"] for one in state["controls"]["requirements"]} == {"peak_power": 9.0}
+
+
+@pytest.mark.slow
+def test_a_cell_is_clicked_and_one_is_asked_for_by_its_number(browser: Browser, swept: Path, tmp_path: Path) -> None:
+    found = Served(swept, tmp_path / "out")
+    found.begin()
+    try:
+        with exploring(browser, found.address) as explorer:
+            page = explorer.page
+            page.get_by_role("heading", name="Cells").wait_for()
+            points = page.locator("#front svg").first.locator("path[d^='M1 0A']")
+            points.first.wait_for(state="attached")
+            page.get_by_text("Cells, as buttons").click()
+            assert page.locator("#front details button.plain").count() == points.count() == 2
+            explorer.shows("peak_power <=", "11 W")
+            before = explorer.number
+            points.first.click(force=True)
+            explorer.answered(before, "exact")
+            explorer.shows("peak_power <=", "9 W")
+            before = explorer.number
+            page.get_by_label("Number of a cell").fill("1")
+            page.get_by_role("button", name="Show this cell").click()
+            explorer.answered(before, "exact")
+            page.locator("#status").get_by_text("layer_strain_safety").wait_for()
+            assert explorer.complaints == []
+    finally:
+        found.end()

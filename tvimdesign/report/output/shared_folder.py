@@ -1,0 +1,101 @@
+"""The folder of work that is done in cells: by processes here, by the jobs of an array that share it, or on a cluster.
+
+Cells are kept in its shards as they are done. The job after which every cell is there gathers them.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.whole_files import make_folder, write_whole
+from tvimdesign.report.output.progress import Progress
+from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
+from tvimdesign.sweep.points import Texts
+from tvimdesign.sweep.run_sweep import SweepDone, Where, run_cells
+from tvimdesign.sweep.shards import SHARDS, Kept, Shards
+from tvimdesign.sweep.work import Work
+
+IN_PARTS = "in parts"
+"""Status of a folder in which the jobs of an array write their shards."""
+
+
+@dataclass(frozen=True)
+class CellsAsked:
+    """Cells of some work: their keys, and what each is set to."""
+
+    work: Work
+    keys: Sequence[str]
+    texts: Callable[[int], Texts]
+    called: str = "cell"
+    """What one of them is called where they are counted."""
+    folders: Sequence[str] = ()
+    """Folders of files that belong to cells."""
+
+    def there(self, folder: Path) -> Iterator[Kept]:
+        """What the cells came to, in their order. Raises KeyError where one is not done."""
+        return Shards(folder, self.work.columns).kept(iter(self.keys))
+
+
+def answered_cells(
+    stack: ExitStack, out: Path, asked: CellsAsked, where: Where, progress: Progress, *, overwrite: bool, resume: bool
+) -> tuple[ResultsFolder | None, SweepDone]:
+    """Do the cells of this job; returns the folder to gather them in, none where that is another job's.
+
+    The folder goes with the stack. Raises InputError, OutputError, and TvimError for a cluster that is gone.
+    """
+    if where.alone:
+        folder = stack.enter_context(ResultsFolder(out, overwrite, resume, SHARDS, asked.folders))
+        return folder, _done(asked, out, where, progress)
+    join(out, overwrite=overwrite)
+    done = _done(asked, out, where, progress)
+    return (gatherer(stack, out, asked.folders) if done.whole else None), done
+
+
+def _done(asked: CellsAsked, out: Path, where: Where, progress: Progress) -> SweepDone:
+    return run_cells(asked.work, asked.keys, asked.texts, out, where, progress, asked.called)
+
+
+def join(out: Path, *, overwrite: bool) -> None:
+    """Use a folder together with other jobs: one that is empty, or that one of them has begun. Raises InputError."""
+    if overwrite:
+        raise InputError("--overwrite and --shard: the parts share a folder; name another one with --out")
+    make_folder(out)
+    own = {MANIFEST, SHARDS}
+    others = [path for path in out.iterdir() if path.name not in own and not path.name.startswith(".")]
+    if (out / MANIFEST).exists():
+        return
+    if others:
+        raise InputError(f"{out}: not a folder of results (no {MANIFEST}); name another one with --out")
+    write_whole(out / MANIFEST, (json.dumps({"status": IN_PARTS, "files": {}}, indent=2) + "\n").encode())
+
+
+def gatherer(stack: ExitStack, out: Path, folders: Sequence[str] = ()) -> ResultsFolder | None:
+    """The folder for the job that gathers; none where another one, which ended at the same time, does."""
+    try:
+        return stack.enter_context(ResultsFolder(out, resume=True, progress=SHARDS, kept=folders))
+    except InputError:
+        return None
+
+
+def say_part(done: SweepDone, where: Where, out: Path, console: Console, *, as_json: bool) -> None:
+    """Print what one job of an array has done."""
+    told = {"cells": done.cells, "reused": done.reused, "computed": done.computed, "missing": done.missing}
+    if as_json:
+        print(json.dumps({**told, "shard": list(where.part), "process": os.getpid(), "folder": str(out)}, indent=2))
+        return
+    others = f"{done.missing} of {done.cells} cells are still with other parts"
+    console.print(
+        f"Part {where.part[0]} of {where.part[1]}: {done.reused} cells reused, {done.computed} computed; "
+        f"{others if done.missing else 'all cells are there'}. The part that ends last gathers them in "
+        f"[bold]{escape(str(out))}[/bold]",
+        soft_wrap=True,
+    )
