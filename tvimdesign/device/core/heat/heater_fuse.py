@@ -1,4 +1,4 @@
-"""Which thermal cut-out of a maker's table goes into the leads of a heater: one that opens before anything is too hot."""
+"""Which thermal cut-out of a table goes into the leads of a heater: one that opens before anything is too hot."""
 
 from __future__ import annotations
 
