@@ -87,7 +87,7 @@ JIS = {
         "0.8 2010, 0.9 2010, 1 1960, 1.2 1910, 1.4 1860"
     ),
 }
-"""Least strengths [MPa] at standard diameters [mm] of JIS G 3522 and G 3521 (SW-C), as toishi.info and DKSW print them."""
+"""Least strengths [MPa] at standard diameters [mm] of JIS G 3522 and G 3521 (SW-C), as two makers print."""
 
 
 @pytest.mark.parametrize("name", JIS)
