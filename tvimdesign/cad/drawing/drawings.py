@@ -11,7 +11,7 @@ from tvimdesign import __version__
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.drawing.balloons import draw_balloons
 from tvimdesign.cad.drawing.drawing_requirements import DATUM, GROUND, DrawingRequirements
-from tvimdesign.cad.drawing.drawing_sheet import MARGIN, TITLE_ROW, TITLE_WIDTH, DrawingSheet, Field, ratio, to_fill_in
+from tvimdesign.cad.drawing.drawing_sheet import MARGIN, TITLE_ROW, TITLE_WIDTH, DrawingSheet, Field, ratio
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.feature_table import draw_tables, table_height, with_datum
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
@@ -19,6 +19,7 @@ from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, half_section, section
 from tvimdesign.cad.drawing.sheet_layout import FIRST, NEXT, layout
+from tvimdesign.cad.drawing.sheet_number import issue_fields, sheet_number
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.production import PRODUCTION
@@ -177,12 +178,14 @@ def _words(
         *asked.notes,
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),
     ]  # fmt: skip
+    # What decides whether a part is another one, to the figures that are printed.
+    told = [material, asked.tolerances, asked.surface, f"{volume:.1f}", *notes, *(row.text + row.asks for row in rows)]
     left = sheet.size[0] - MARGIN - TITLE_WIDTH
     sheet.column(notes, (left, sheet.size[1] - MARGIN - 2.0))
     sheet.title_block(
         kind.replace("_", " "),
         [
-            to_fill_in("Approved", "Number", "Revision", "Date"),
+            issue_fields("Approved", sheet_number(kind, told)),
             [Field("Made by", f"tvimdesign {__version__}", 0.5),
              Field("Size, projection", f"{sheet.form}, first angle", 0.3), Field("Sheet", "1 of 1", 0.2)],
             [Field("General tolerances", asked.tolerances, 0.65), Field("Surface, Ra in µm", asked.surface, 0.35)],
