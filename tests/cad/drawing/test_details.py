@@ -42,7 +42,7 @@ def test_a_step_under_a_millimetre_is_drawn_to_scale_with_its_height(step: float
     assert title in said
     texts = [one.dxf.text for one in document.modelspace().query("DIMENSION")]
     assert f"{step:g}" in texts
-    scale = float(title.split("(")[1].split(":")[0])
+    scale = float(title.split("(")[1].split(":", maxsplit=1)[0])
     shown = [one for one in document.modelspace().query("DIMENSION") if one.dxf.text == f"{step:g}"]
     paper = {round(one.get_measurement() * _sheet_scale(said), 2) for one in shown}
     assert round(scale * step, 2) in paper, "the enlarged step is as long on paper as its scale says"

@@ -27,7 +27,11 @@ _BEARS = {
 """What stands beside the heater, and the quantity that says what it bears."""
 _ROUNDING = 1e-6
 _WIRES = Path(__file__).with_name("wire_ratings.yaml")
-_SENSES = "NTC 10 kohm at 25 °C with any beta: a choice, the controller must have its table"
+_SENSES = (
+    "NTC 10 kohm at 25 °C with any beta: a choice, the controller must have its table; "
+    "for example of the series B57540G of TDK (EPCOS), in glass, to 250 °C, where its size fits"
+)
+"""The series by its data sheet of 2009, which tells what it measures up to; its bead's size was not to be read."""
 
 
 def up(value: float) -> str:
