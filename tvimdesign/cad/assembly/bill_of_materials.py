@@ -35,6 +35,8 @@ _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
 _NOT_KNOWN = "not known"
 """Price of what no source with a price was read for."""
+_SHEETS = ("spreader", "liner")
+"""Kinds cut from a sheet."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
 
 
@@ -99,15 +101,18 @@ def _titled(design: Design, kind: str, title: str) -> str:
         return thermistor_in_words(design)
     if kind == "peltier_pad" and design.values.get("peltier_seebeck") == 0.0:
         return f"{title}, {_resistance(design):.3g} ohm each, made to the outline of its STEP file"
-    if kind in _HANDS and design.choices.get("stock_spring", "none") != "none":
-        return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
     if kind in _SEALED:
         return f"{title}, sealed on both sides (2RS)"
-    if kind == "liner":
-        return f"{title}, {1e3 * design.value('liner_thickness'):.3g} mm thick, to the outline of its STEP file"
-    if kind not in _HANDS:
-        sheet = kind == "spreader"
-        return f"{title}, {1e3 * design.value('spreader_thickness'):.3g} mm thick" if sheet else title
+    if kind in _SHEETS:
+        thick = f"{title}, {1e3 * design.value(f'{kind}_thickness'):.3g} mm thick"
+        return thick + (", to the outline of its STEP file" if kind == "liner" else "")
+    return _spring(design, kind, title) if kind in _HANDS else title
+
+
+def _spring(design: Design, kind: str, title: str) -> str:
+    """What a spring is ordered by, of a wire by its title, or the title of a stock spring."""
+    if design.choices.get("stock_spring", "none") != "none":
+        return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
     wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
     turns = design.value("coil_count")
     size = f"wire {wire:.4g} mm, mean coil {coil:.4g} mm, {turns:.4g} coils, wound {_HANDS[kind]}"
