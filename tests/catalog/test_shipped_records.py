@@ -1,6 +1,7 @@
 """The shipped records: complete, sourced, and true to the numbers they are made from."""
 
 import math
+from itertools import pairwise
 
 import pytest
 from every import of_every
@@ -70,6 +71,40 @@ def test_en_wire_stays_just_below_its_line(name: str, offset: float, slope: floa
         diameter = 0.3 * (11 / 0.3) ** (step / 200)
         line = offset - slope * math.log10(diameter)
         assert 0.995 * line < strength(name, diameter) < 1.0001 * line
+
+
+JIS = {
+    "jis_swp_b": (
+        "0.32 2650, 0.35 2650, 0.4 2600, 0.45 2550, 0.5 2550, 0.55 2500, 0.6 2450, 0.65 2450, 0.7 2400, "
+        "0.8 2350, 0.9 2300, 1 2260, 1.2 2210, 1.4 2160, 1.6 2110, 1.8 2060, 2 2010, 2.3 1960, 2.6 1960, "
+        "2.9 1910, 3.2 1860, 3.5 1810, 4 1810, 4.5 1770, 5 1770, 5.5 1710, 6 1670, 6.5 1670, 7 1620"
+    ),
+    "jis_swp_a": (
+        "0.5 2300, 0.55 2260, 0.6 2210, 0.65 2210, 0.7 2160, 0.8 2110, 0.9 2110, 1 2060, 1.2 2010, 1.4 1960, "
+        "1.6 1910, 1.8 1860, 2 1810, 2.3 1770"
+    ),
+    "jis_sw_c": (
+        "0.32 2300, 0.35 2300, 0.4 2260, 0.45 2210, 0.5 2210, 0.55 2160, 0.6 2110, 0.65 2110, 0.7 2060, "
+        "0.8 2010, 0.9 2010, 1 1960, 1.2 1910, 1.4 1860"
+    ),
+}
+"""Least strengths [MPa] at standard diameters [mm] of JIS G 3522 and G 3521 (SW-C), as two makers print."""
+
+
+@pytest.mark.parametrize("name", JIS)
+def test_jis_wire_is_never_stronger_than_its_standard_nor_much_weaker(name: str) -> None:
+    table = [tuple(map(float, one.split())) for one in JIS[name].split(", ")]
+    for diameter, least in table:
+        assert 0.944 * least < strength(name, diameter) <= least
+    for (thinner, _), (_, least) in pairwise(table):  # between standard diameters the next larger one counts
+        assert strength(name, 1.001 * thinner) <= least
+
+
+@pytest.mark.parametrize(("jis", "en"), [("jis_sw_c", "patented_wire_sm"), ("jis_swp_b", "patented_wire_sh")])
+def test_wire_that_makers_call_equivalent_is_as_strong_within_a_twentieth(jis: str, en: str) -> None:
+    """Vinco and Hengming list SW-C beside SM and SWP-B beside SH."""
+    for diameter in (0.5, 0.8, 1.0, 1.2, 1.4):
+        assert strength(jis, diameter) == pytest.approx(strength(en, diameter), rel=0.05)
 
 
 def test_paper_wire_is_music_wire_with_the_papers_modulus() -> None:

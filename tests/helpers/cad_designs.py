@@ -14,8 +14,8 @@ from tvimdesign.cad import CadReport
 from tvimdesign.device import table_for
 from tvimdesign.device.table.quantity import Event
 from tvimdesign.device.table.quantity import Path as SwitchPath
+from tvimdesign.study import Study, read_study_text
 from tvimdesign.study import given as resolve
-from tvimdesign.study import read_study_text
 from tvimdesign.study.design import Design
 
 MM = 1e-3
@@ -112,7 +112,16 @@ def given(overrides: Mapping[str, float | str], mode: str) -> dict[str, Any]:
 
 def design_of(name: str, overrides: Mapping[str, float | str], mode: str = "shear") -> Design:
     """A design with every row of the geometry."""
-    known, table = given(overrides, mode), table_for(mode)
+    return _of_the_geometry(name, given(overrides, mode), mode)
+
+
+def as_it_starts(study: Study) -> Design:
+    """The geometry of a study where its search begins: no cycle, no search."""
+    return _of_the_geometry(study.name, resolve(study), study.mode)
+
+
+def _of_the_geometry(name: str, known: dict[str, Any], mode: str) -> Design:
+    table = table_for(mode)
     geometry = ("Layout", "Gaps", "Size and weight", "Springs")
     simple = [row for row in table.outputs if not (row.hidden or row.per_point or row.instant)]
     wanted = [row.name for row in simple if row.group in geometry and not isinstance(row, Event | SwitchPath)]

@@ -239,6 +239,7 @@ CATEGORIES: Mapping[str, Category] = {
             "body_diameter": "mm",
             "body_length": "mm",
             "opening_band": "K",
+            "working_margin": "K",
         },
         tables={
             "types": Columns(

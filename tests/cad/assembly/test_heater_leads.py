@@ -40,22 +40,26 @@ def listed(design: Design) -> dict[str, str]:
 @pytest.mark.parametrize(("changes", "mode"), [({}, "shear"), (TILES, "shear"), ({}, "compression")])
 def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, Any], mode: str) -> None:
     found = listed(switched(changes, mode=mode))
-    assert (
-        "5MA3SPF139019340: opens from 132 to 142 °C, holds 114 °C where the heater has 105.2" in found["thermal_cutout"]
-    )
-    assert "it opens above the 120 °C the heater bears" in found["thermal_cutout"]
+    cutout = found["thermal_cutout"]
+    assert "5MA3SPF121019340: opens from 112 to 122 °C; the heater has 105.2 °C at most" in cutout
+    assert "holds 94 °C at its rated current, less than the heater's peak: ask the maker" in cutout
+    assert "it opens above the 60 °C that the structure bears; it opens above the 120 °C that the heater" in cutout
     assert found["thermistor"].startswith("Thermistor, for 120 °C")
     assert "for 2.1 A and 120 °C" in found["heater_wire"]
 
 
-def test_a_cut_out_that_opens_below_the_heater_s_rating_has_no_such_word() -> None:
-    assert "opens above" not in listed(switched({"peltier_module": "silicone_9ar_08_24v"}))["thermal_cutout"]
+def test_a_cut_out_that_opens_below_every_rating_has_no_such_word() -> None:
+    bears = {"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}
+    cutout = listed(switched(bears, hottest=83.0))["thermal_cutout"]
+    assert "5MA3SPF152019340: opens from 147 to 157 °C" in cutout  # of what opens below the heater's 160 the highest
+    assert "opens above" not in cutout
+    assert "ask the maker" not in cutout
 
 
 def test_none_is_listed_where_the_study_has_none_and_no_type_where_nothing_is_known_of_the_cycle() -> None:
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
-    assert fuse_in_words(FUSE, switched({}, 200.0)).startswith("none fits: ")
+    assert fuse_in_words(FUSE, switched({}, 226.0)).startswith("none fits: ")
 
 
 def test_a_bead_that_is_drawn_is_in_the_list_of_parts_with_its_size() -> None:

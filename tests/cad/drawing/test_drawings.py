@@ -6,6 +6,7 @@ import csv
 import io
 import math
 import os
+import re
 import subprocess
 import sys
 from math import pi
@@ -115,6 +116,19 @@ def test_the_title_block_says_what_the_part_is(module: tuple[Design, Solids], dr
         assert {kind, "petg", design.name, f"{mass:.2f} g", "A – A"} <= said
         assert said & {"A3, first angle", "A2, first angle"}
         assert any("ISO 2768-1 m" in text for text in said)  # a print that is milled instead
+
+
+def test_a_sheet_has_a_number_a_revision_and_what_its_date_is(module: tuple[Design, Solids]) -> None:
+    design, solids = module
+    numbers = set()
+    for solid in (solids["retainer"], solids["retainer"], solids["retainer"].scale(1.01)):
+        drawn = ezdxf.read(io.StringIO(sheet_of(design, "retainer", solid).dxf().decode()))
+        said = texts(drawn)
+        fields = {said[at]: said[at + 1] for at in range(len(said) - 1)}
+        assert (fields["Revision"], fields["Date"]) == ("A", "of approval")
+        assert re.fullmatch(r"retainer-[0-9a-f]{8}", fields["Number"])
+        numbers.add(fields["Number"])
+    assert len(numbers) == 2, "the same part has the same number, another one has another"
 
 
 def test_a_drawing_is_sound_dxf_in_millimetres_at_true_size(drawings: dict[str, Drawing]) -> None:

@@ -16,6 +16,7 @@ from tvimdesign.study.design import Design
 LINER = {"liner_material": "peek", "liner_thickness": 0.8e-3}
 LINED = [
     pytest.param("shear", {**LINER, "key_count": 0.0}, id="arcs"),
+    pytest.param("shear", {**LINER, "key_count": 0.0, "corner_radius": 1e-3}, id="arcs with a mill's corners"),
     pytest.param("compression", {**LINER, "vane_thickness": 9e-3}, id="vanes", marks=pytest.mark.slow),
 ]
 

@@ -203,6 +203,19 @@ def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
     assert (wire["si"]["value"], wire["si"]["unit"]) == (pytest.approx(1e-3 * standard), "m")
 
 
+def test_the_price_is_that_of_the_combination_that_margins_led_to(found: Solution) -> None:
+    choosing = _chosen(found)
+    assert choosing.between is not None
+    second = choosing.best[1]
+    said, data = price_in_words(choosing, TABLE, second.choices), choosing_data(choosing, TABLE, second.choices)
+    assert said != price_in_words(choosing, TABLE)
+    assert f"objective {second.objective / choosing.between.objective - 1.0:+.1%} (both before margins)." in said
+    assert data is not None
+    assert data["cost_of_standard_sizes"]["objective"] == second.objective / choosing.between.objective - 1.0
+    unknown = {**second.choices, "wire_diameter": 1e-3}
+    assert "not known of wire_diameter 1 mm" in price_in_words(choosing, TABLE, unknown)
+
+
 def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:
     text = POWERFUL.replace("vary:", "module: {structure_material: STUFF}\nvary:")
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))

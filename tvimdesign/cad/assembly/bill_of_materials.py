@@ -35,6 +35,8 @@ _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
 _NOT_KNOWN = "not known"
 """Price of what no source with a price was read for."""
+_SHEETS = ("spreader", "liner")
+"""Kinds cut from a sheet."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
 
 
@@ -99,13 +101,18 @@ def _titled(design: Design, kind: str, title: str) -> str:
         return thermistor_in_words(design)
     if kind == "peltier_pad" and design.values.get("peltier_seebeck") == 0.0:
         return f"{title}, {_resistance(design):.3g} ohm each, made to the outline of its STEP file"
-    if kind in _HANDS and design.choices.get("stock_spring", "none") != "none":
-        return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
     if kind in _SEALED:
         return f"{title}, sealed on both sides (2RS)"
-    if kind not in _HANDS:
-        sheet = kind == "spreader"
-        return f"{title}, {1e3 * design.value('spreader_thickness'):.3g} mm thick" if sheet else title
+    if kind in _SHEETS:
+        thick = f"{title}, {1e3 * design.value(f'{kind}_thickness'):.3g} mm thick"
+        return thick + (", to the outline of its STEP file" if kind == "liner" else "")
+    return _spring(design, kind, title) if kind in _HANDS else title
+
+
+def _spring(design: Design, kind: str, title: str) -> str:
+    """What a spring is ordered by, of a wire by its title, or the title of a stock spring."""
+    if design.choices.get("stock_spring", "none") != "none":
+        return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
     wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
     turns = design.value("coil_count")
     size = f"wire {wire:.4g} mm, mean coil {coil:.4g} mm, {turns:.4g} coils, wound {_HANDS[kind]}"
@@ -120,7 +127,7 @@ def _resistance(design: Design) -> float:
 
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
-    grease = "Thermal grease, a film under each pad, and above it where the PCL is not cast on"
+    grease = f"Thermal grease for {_hottest(design)}, a film under each pad, and above it where the PCL is not cast on"
     items = [_polymer(design, titles), Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design)]
     items += [*_of_the_heater(design), *_supply(design), *_glues(design)]
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
@@ -169,21 +176,27 @@ def _glues(design: Design) -> list[Item]:
     """What else holds: the locking of screws in metal, and the motor's bonded parts."""
     items = []
     if design.choices["making_method"] == "milled":
-        text = "Thread-locking compound of medium strength, for all screws in tapped metal"
+        bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
+        text = f"Thread-locking compound of medium strength for {bears} °C, for all screws in tapped metal"
         items.append(Item("thread_locker", 1, False, "", text, 0.0, ()))
     if design.values.get("drive_height", 0.0) > 0.0:
-        text = "Structural adhesive for the motor's rotor, stator and magnet"
+        bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
+        text = f"Structural adhesive for {bears} °C, for the motor's rotor, stator and magnet"
         items.append(Item("motor_adhesive", 1, False, "", text, 0.0, ()))
     return items
+
+
+def _hottest(design: Design) -> str:
+    """What must bear the heater's rating, in words."""
+    return f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
 
 
 def _with_spreaders(design: Design) -> list[Item]:
     """What rigid Peltier modules below spreaders take beside: the adhesive between them."""
     if design.choices.get("heater_form", "flexible") == "flexible":
         return []
-    hottest = f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
     area = 1e6 * design.value("peltier_area") * design.value("heater_count")
-    words = f"Adhesive of modules and spreaders, for {hottest}, a thin film over {area:.4g} mm² in all"
+    words = f"Adhesive of modules and spreaders, for {_hottest(design)}, a thin film over {area:.4g} mm² in all"
     return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
 
 
@@ -196,7 +209,7 @@ def _of_the_heater(design: Design) -> list[Item]:
         count = round(design.value("arc_count")) if hole else 1
         items.append(Item("thermistor", count, False, "", thermistor_in_words(design) + through, 0.0, ()))
     if design.values.get("cutout_diameter", 0.0) > 0.0:
-        film = "Polyimide film with adhesive, to wrap the thermal cut-out"
+        film = f"Polyimide film with adhesive for {_hottest(design)}, to wrap the thermal cut-out"
         items.append(Item("polyimide_film", 1, False, "", film, 0.0, ()))
     wire = wire_in_words(design, pad_count(design))
     return items + ([Item("heater_wire", 1, False, "", wire, 0.0, ())] if wire else [])

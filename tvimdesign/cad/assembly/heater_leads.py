@@ -17,9 +17,21 @@ from tvimdesign.study.design import Design
 
 _HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")
 _STRONGEST = ("peak_current", "stiffening_peak_current")
+_LINER = "liner_service_temperature"
+_BEARS = {
+    "the heater": "peltier_max_temperature",
+    "the PCL": "pcl_decomposition_temperature",
+    "the structure": "structure_service_temperature",
+    "the liner": _LINER,
+}
+"""What stands beside the heater, and the quantity that says what it bears."""
 _ROUNDING = 1e-6
 _WIRES = Path(__file__).with_name("wire_ratings.yaml")
-_SENSES = "NTC 10 kohm at 25 °C with any beta: a choice, the controller must have its table"
+_SENSES = (
+    "NTC 10 kohm at 25 °C with any beta: a choice, the controller must have its table; "
+    "for example of the series B57540G of TDK (EPCOS), in glass, to 250 °C, where its size fits"
+)
+"""The series by its data sheet of 2009, which tells what it measures up to; its bead's size was not to be read."""
 
 
 def up(value: float) -> str:
@@ -38,17 +50,30 @@ def fuse_in_words(record: Record, design: Design) -> str:
     hottest, current = largest(design, _HOTTEST), largest(design, _STRONGEST)
     if hottest is None or current is None:
         return ""
+    bears = _ratings(design)
     try:
-        fuse = heater_fuse(record, hottest, current)
+        fuse = heater_fuse(record, hottest, current, bears)
     except InputError as error:
         return f"none fits: {error}"
-    opens = f"opens from {fuse.opens_from - ZERO_CELSIUS:.3g} to {fuse.opens_at - ZERO_CELSIUS:.3g} °C"
-    holds = f"holds {fuse.holds - ZERO_CELSIUS:.3g} °C where the heater has {up(hottest - ZERO_CELSIUS)}"
     size = " x ".join(f"{1e3 * record.value(name):.3g}" for name in ("body_diameter", "body_length"))
-    said = f"{record.title}, {fuse.designation}: {opens}, {holds}; body {size} mm; ask for its rating in direct current"
-    bears = design.value("peltier_max_temperature")
-    late = f"; it opens above the {bears - ZERO_CELSIUS:.3g} °C the heater bears: it saves what is around the heater"
-    return said + (late if fuse.opens_at > bears else "")
+    works, holds = up(hottest - ZERO_CELSIUS), f"{fuse.holds - ZERO_CELSIUS:.3g} °C at its rated current"
+    said = [
+        f"{record.title}, {fuse.designation}",
+        f"opens from {fuse.opens_from - ZERO_CELSIUS:.3g} to {fuse.opens_at - ZERO_CELSIUS:.3g} °C",
+        f"the heater has {works} °C at most",
+        f"for good it holds {holds}" + (", less than the heater's peak: ask the maker" if fuse.holds < hottest else ""),
+        *(f"it opens above the {bears[what] - ZERO_CELSIUS:.3g} °C that {what} bears" for what in fuse.above),
+    ]
+    return f"{said[0]}: {'; '.join(said[1:])}; body {size} mm; ask for its rating in direct current"
+
+
+def _ratings(design: Design) -> dict[str, float]:
+    """What must not become too hot, in words, with what it bears [K]; only what the design has."""
+    return {
+        words: design.values[name]
+        for words, name in _BEARS.items()
+        if math.isfinite(design.values.get(name, math.nan)) and (name != _LINER or design.values.get("liner_depth"))
+    }
 
 
 def thermistor_in_words(design: Design) -> str:

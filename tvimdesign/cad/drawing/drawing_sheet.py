@@ -50,11 +50,6 @@ class Field:
     """Of the block's width."""
 
 
-def to_fill_in(*labels: str) -> list[Field]:
-    """A row of fields that whoever orders the part fills in by hand."""
-    return [Field(label, "", 1.0 / len(labels)) for label in labels]
-
-
 class DrawingSheet:
     """A sheet at a scale. Places are in mm on paper; geometry keeps its size, and the frame is scaled."""
 

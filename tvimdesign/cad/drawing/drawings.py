@@ -10,8 +10,10 @@ import cadquery as cq
 from tvimdesign import __version__
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.drawing.balloons import draw_balloons
+from tvimdesign.cad.drawing.details import HEIGHT as DETAIL_HEIGHT
+from tvimdesign.cad.drawing.details import draw_details, small_steps
 from tvimdesign.cad.drawing.drawing_requirements import DATUM, GROUND, DrawingRequirements
-from tvimdesign.cad.drawing.drawing_sheet import MARGIN, TITLE_ROW, TITLE_WIDTH, DrawingSheet, Field, ratio, to_fill_in
+from tvimdesign.cad.drawing.drawing_sheet import MARGIN, TITLE_ROW, TITLE_WIDTH, DrawingSheet, Field, ratio
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.feature_table import draw_tables, table_height, with_datum
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
@@ -19,6 +21,7 @@ from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, half_section, section
 from tvimdesign.cad.drawing.sheet_layout import FIRST, NEXT, layout
+from tvimdesign.cad.drawing.sheet_number import issue_fields, sheet_number
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.production import PRODUCTION
@@ -48,19 +51,27 @@ def part_sheet(
     rows = with_datum(rows) if asked.general and not central else rows
     beside = _beside(rows)
     half = half_section(solid, beside) if beside else None
-    place = layout(plan, front, half, len(central), table_height(rows, asked))
+    heights, table = levels(solid), table_height(rows, asked)
+    # A detail is wanted by the scale, which the sheet takes by the room that is left for it.
+    place = layout(plan, front, half, len(central), table)
+    sections = [front, *([half] if half else [])]
+    if small_steps(sections, heights, place.scale):
+        place = layout(plan, front, half, len(central), table + DETAIL_HEIGHT)
     sheet = DrawingSheet(place.scale, place.form)
     placed_plan, placed_front = PlacedView(sheet, plan, place.plan), PlacedView(sheet, front, place.front)
     marks = _draw_plan(placed_plan, found, asked, half, beside)
     _draw_section(placed_front, "A – A", solid, found, asked, 0.0)
+    placed = [placed_front]
     if half:
-        _draw_section(PlacedView(sheet, half, place.half), "D – D", solid, found, asked, beside)
+        placed.append(PlacedView(sheet, half, place.half))
+        _draw_section(placed[-1], "D – D", solid, found, asked, beside)
     if asked.general:
         placed_front.ground(GROUND)
     _dimension_diameters(placed_front, [central[diameter] for diameter in sorted(central)], asked)
     _dimension_extent(placed_front, sorted(central))
-    _dimension_levels(placed_front, levels(solid))
+    _dimension_levels(placed_front, heights)
     draw_tables(sheet, rows, asked)
+    draw_details(placed, small_steps(sections, heights, place.scale), table)
     draw_balloons(placed_plan, rows, place.room, marks)
     _words(sheet, kind, solid, what, module, asked, material or what.material, rows)
     return sheet
@@ -177,12 +188,14 @@ def _words(
         *asked.notes,
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),
     ]  # fmt: skip
+    # What decides whether a part is another one, to the figures that are printed.
+    told = [material, asked.tolerances, asked.surface, f"{volume:.1f}", *notes, *(row.text + row.asks for row in rows)]
     left = sheet.size[0] - MARGIN - TITLE_WIDTH
     sheet.column(notes, (left, sheet.size[1] - MARGIN - 2.0))
     sheet.title_block(
         kind.replace("_", " "),
         [
-            to_fill_in("Approved", "Number", "Revision", "Date"),
+            issue_fields("Approved", sheet_number(kind, told)),
             [Field("Made by", f"tvimdesign {__version__}", 0.5),
              Field("Size, projection", f"{sheet.form}, first angle", 0.3), Field("Sheet", "1 of 1", 0.2)],
             [Field("General tolerances", asked.tolerances, 0.65), Field("Surface, Ra in µm", asked.surface, 0.35)],

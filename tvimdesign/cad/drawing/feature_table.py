@@ -49,7 +49,7 @@ def draw_tables(sheet: DrawingSheet, rows: Sequence[FeatureRow], asked: DrawingR
             draw_frames(sheet, row.frames, (left + _ABOUT, level - 0.8))
             level += _FRAME
         sheet.text(str(index), (left, level), _TEXT)
-        sheet.text(row.text, (left + _INDENT, level), _TEXT)
+        sheet.text(row.text, (left + _INDENT, level), _TEXT, room=TITLE_WIDTH - _INDENT - 1.0)
         level += _LINE + (_OVER if _asks(row) else 0.0)
     if rows:
         sheet.text("Number in the plan, feature", (left, level), _SMALL)

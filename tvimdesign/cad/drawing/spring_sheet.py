@@ -13,7 +13,8 @@ from tvimdesign import __version__
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.base.whole_files import TABLE_ENCODING
-from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio, to_fill_in
+from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio
+from tvimdesign.cad.drawing.sheet_number import issue_fields, sheet_number
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
 from tvimdesign.device.fixtures.tang import BONDED
@@ -149,7 +150,7 @@ def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) 
     sheet.title_block(
         "torsion spring",
         [
-            to_fill_in("Ordered by", "Number", "Revision", "Date"),
+            issue_fields("Ordered by", sheet_number("torsion_spring", map(repr, lines))),
             [Field("Made by", f"tvimdesign {__version__}"), Field("Size, projection", "A3, first angle")],
             [Field("Module", design.name, 0.6), Field("Scale", ratio(scale), 0.4)],
         ],

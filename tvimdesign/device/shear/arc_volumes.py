@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from math import pi
+
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.fixtures.liner import WITH_LINER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import NOTHING, Section, corners, rectangle_at, sector, stacked
+from tvimdesign.physics.bodies.shapes import (
+    NOTHING,
+    Section,
+    inner_corner,
+    outer_corner,
+    rectangle_at,
+    sector,
+    stacked,
+)
 
 quantities = QuantityGroup(shared.group)
+_SPANDREL = (5.0 / 6.0 - 0.25 * pi) / (1.0 - 0.25 * pi)
 
 
 @quantities.helper()
@@ -31,10 +42,14 @@ def pcl_volume(pcl_area: Scalar, pcl_thickness: Scalar, key_moments: Section) ->
 
 
 def _rounded_sector(span: Scalar, inner_radius: Scalar, outer_radius: Scalar, corner_radius: Scalar) -> Section:
-    """Annular sector less what fillets take from its corners, which counts at the mean radius."""
-    taken = corners(corner_radius, inner_radius, outer_radius)
-    mean_radius = 0.5 * (inner_radius + outer_radius)
-    return sector(span, inner_radius, outer_radius) - Section(taken, taken * mean_radius**2)
+    """Annular sector less what fillets take from its corners, which counts where its middle is in a square corner.
+
+    That is (5/6 - pi/4)/(1 - pi/4) of the fillet's radius from either side (a square less a quarter of a disc).
+    """
+    beside = _SPANDREL * corner_radius
+    outer, inner = outer_corner(corner_radius, outer_radius, 0.0), inner_corner(corner_radius, inner_radius, 0.0)
+    moment = outer * ((outer_radius - beside) ** 2 + beside**2) + inner * ((inner_radius + beside) ** 2 + beside**2)
+    return sector(span, inner_radius, outer_radius) - Section(2.0 * (outer + inner), 2.0 * moment)
 
 
 @quantities.helper()

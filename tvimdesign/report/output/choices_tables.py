@@ -10,6 +10,7 @@ from tvimdesign.report.output.number_entry import number_entry
 from tvimdesign.report.output.number_format import NumberEntry
 from tvimdesign.report.output.results_format import ChoosingEntry, Listed
 from tvimdesign.solve.nlp.solution import Choosing, Standard
+from tvimdesign.solve.result import StudyResult
 
 _NEAR = 1e-4
 """Share within which a number in between is the listed size."""
@@ -28,11 +29,21 @@ def best_rows(choosing: Choosing, table: Table) -> tuple[tuple[str, ...], list[t
     return (*best.choices, "objective", *best.values), rows
 
 
-def price_in_words(choosing: Choosing, table: Table) -> str:
-    """What standard sizes cost against the best design in between; empty where none is known."""
+def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | float] | None = None) -> str:
+    """What standard sizes cost against the best design in between; empty where none is known.
+
+    `own` are the design's choices where it was chosen with margins: its combination need not be the best of those that
+    were ranked without. Both sides are without margins, so the price is that of the sizes alone.
+    """
     if choosing.between is None or not choosing.best:
         return ""
-    best, between = choosing.best[0], choosing.between
+    between, margins = choosing.between, "" if own is None else " (both before margins)"
+    best = _own(choosing, own)
+    if best is None:
+        chosen = ", ".join(
+            f"{name} {_shown(name, own[name], table)}" for name in between.choices if own and name in own
+        )
+        return f"The price of going standard is not known of {chosen}, which margins led to: it is not among the best."
     moved = []
     for name, free in between.choices.items():
         value = best.choices[name]
@@ -44,7 +55,34 @@ def price_in_words(choosing: Choosing, table: Table) -> str:
         return "Going standard costs nothing: the best design has listed sizes anyway."
     shares = ", ".join(f"{name} {share:+.1%}" for name, share in _shares(best, between).items())
     whole = best.objective / between.objective - 1.0
-    return f"The price of going standard: {', '.join(moved)}: {shares}; objective {whole:+.1%}."
+    return f"The price of going standard: {', '.join(moved)}: {shares}; objective {whole:+.1%}{margins}."
+
+
+def _own(choosing: Choosing, own: Mapping[str, str | float] | None) -> Standard | None:
+    """The combination that the design has: the best, or the one of the best that margins led to."""
+    return next((one for one in choosing.best if own is None or _same(one.choices, own)), None)
+
+
+def _same(choices: Mapping[str, str | float], own: Mapping[str, str | float]) -> bool:
+    """Whether a combination is the design's own."""
+    return all(
+        value == own.get(name, value)
+        if isinstance(value, str) or isinstance(own.get(name, value), str)
+        else abs(value - float(own.get(name, value))) <= _NEAR * abs(value)
+        for name, value in choices.items()
+    )
+
+
+def choices_with_margins(answer: StudyResult) -> dict[str, str | float] | None:
+    """The design's own choices of what is listed, where margins may have led to another than the best combination."""
+    choosing = answer.solution.choosing if answer.solution else None
+    if choosing is None or not choosing.best or not answer.design.study.get("robust"):
+        return None
+    design = answer.design
+    return {
+        name: design.choices.get(name, word) if isinstance(word, str) else design.values.get(name, word)
+        for name, word in choosing.best[0].choices.items()
+    }
 
 
 def tally_in_words(choosing: Choosing) -> str:
@@ -93,11 +131,13 @@ def _fates(choosing: Choosing) -> str:
     return ", ".join(parts)
 
 
-def choosing_data(choosing: Choosing | None, table: Table) -> ChoosingEntry | None:
-    """The account as plain data; None where nothing is listed."""
+def choosing_data(
+    choosing: Choosing | None, table: Table, own: Mapping[str, str | float] | None = None
+) -> ChoosingEntry | None:
+    """The account as plain data; None where nothing is listed. `own`: as of `price_in_words`."""
     if choosing is None:
         return None
-    best, between = choosing.best[0] if choosing.best else None, choosing.between
+    best, between = _own(choosing, own), choosing.between
     shares = _shares(best, between) if best and between else {}
     return {
         "combinations": choosing.combinations,

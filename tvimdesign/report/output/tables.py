@@ -11,7 +11,7 @@ from typing import Any, cast
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Output, Table
-from tvimdesign.report.output.choices_tables import choosing_data
+from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
 from tvimdesign.report.output.number_entry import finite, number_entry
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.provenance import FindRecord, provenance
@@ -198,7 +198,9 @@ def results(answer: StudyResult, table: Table) -> Answered:
         },
         "best_constant_currents": best,
         "yield_reached": yield_entry(reached, table) if reached else None,
-        "choosing": choosing_data(answer.solution.choosing if answer.solution else None, table),
+        "choosing": choosing_data(
+            answer.solution.choosing if answer.solution else None, table, choices_with_margins(answer)
+        ),
         "solution": _all_finite(design.solution) or None,
     }
 

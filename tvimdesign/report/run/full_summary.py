@@ -12,7 +12,7 @@ from rich.table import Table as Grid
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Input, Table, table_for
-from tvimdesign.report.output.choices_tables import best_rows, price_in_words, tally_in_words
+from tvimdesign.report.output.choices_tables import best_rows, choices_with_margins, price_in_words, tally_in_words
 from tvimdesign.report.output.summary_table import print_table
 from tvimdesign.report.output.tables import current_rows, headline_rows, number, point_rows, variable_rows
 from tvimdesign.report.output.thresholds import meaning
@@ -100,9 +100,9 @@ def _print_choosing(answer: StudyResult, table: Table, console: Console) -> None
     for row in rows:
         grid.add_row(*row)
     console.print(grid)
-    shadow_price = price_in_words(choosing, table)
-    if shadow_price:
-        console.print(escape(shadow_price))
+    price = price_in_words(choosing, table, choices_with_margins(answer))
+    if price:
+        console.print(escape(price))
     console.print(f"[dim]{escape(tally_in_words(choosing))}[/dim]")
 
 

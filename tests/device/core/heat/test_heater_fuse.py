@@ -1,35 +1,46 @@
-"""Which thermal cut-out a heater takes: the first of the maker's table that it does not open."""
+"""Which thermal cut-out a heater takes: one that stays closed in work and opens before anything is too hot."""
 
 import pytest
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.catalog import Catalog
-from tvimdesign.device.core.heat.heater_fuse import heater_fuse
+from tvimdesign.device.core.heat.heater_fuse import HeaterFuse, heater_fuse
 
 RECORD = Catalog().record("thermal_fuses", "ultimheat_5ma3")
 
 
+def chosen(hottest: float, current: float, **bears: float) -> HeaterFuse:
+    """For a heater in degC and A, with what each thing bears in degC."""
+    ratings = {what: one + ZERO_CELSIUS for what, one in bears.items()}
+    return heater_fuse(RECORD, hottest + ZERO_CELSIUS, current, ratings)
+
+
 @pytest.mark.parametrize(
-    ("hottest", "current", "designation", "opens", "holds"),
+    ("hottest", "current", "bears", "designation", "opens", "holds", "above"),
     [  # rows of the sheet, in degC: Tf and Th
-        (84.0, 2.0, "5MA3SPF109019340", 113.0, 84.0),
-        (84.1, 2.0, "5MA3SPF121019340", 122.0, 94.0),
-        (105.0, 12.0, "5MA3SPF139H19340", 142.0, 114.0),
-        (189.5, 10.0, "5MA3SPF227019340", 227.0, 190.0),  # of the two that hold 190 degC the one that opens first
+        (84.0, 2.0, {"heater": 120.0, "structure": 170.0}, "5MA3SPF109019340", 113.0, 84.0, ()),
+        (95.4, 2.0, {"heater": 120.0, "structure": 113.0}, "5MA3SPF109019340", 113.0, 84.0, ()),
+        (95.9, 2.5, {"heater": 120.0, "structure": 105.0}, "5MA3SPF109019340", 113.0, 84.0, ("structure",)),
+        (83.1, 12.0, {"heater": 160.0, "structure": 122.0}, "5MA3SPF121H19340", 122.0, 94.0, ()),
+        (107.0, 3.0, {"heater": 120.0, "structure": 110.0}, "5MA3SPF121019340", 122.0, 94.0, ("structure", "heater")),
+        (98.1, 1.0, {"heater": 112.9}, "5MA3SPF121019340", 122.0, 94.0, ("heater",)),  # 113 - 10 < 98.1 + 5
     ],
 )
-def test_it_is_the_lowest_that_holds_the_heater(
-    hottest: float, current: float, designation: str, opens: float, holds: float
-) -> None:
-    found = heater_fuse(RECORD, hottest + ZERO_CELSIUS, current)
+def test_it_stays_closed_in_work_and_is_the_highest_that_opens_before_the_least_rating(
+    hottest: float, current: float, bears: dict[str, float], designation: str, opens: float, holds: float,
+    above: tuple[str, ...],
+) -> None:  # fmt: skip
+    found = chosen(hottest, current, **bears)
     assert found.designation == designation
     assert (found.opens_at - ZERO_CELSIUS, found.holds - ZERO_CELSIUS) == pytest.approx((opens, holds))
     assert found.opens_at - found.opens_from == pytest.approx(10.0)
+    assert found.opens_from >= hottest + ZERO_CELSIUS + 5.0
+    assert found.above == above
 
 
 def test_what_no_type_holds_or_bears_is_named() -> None:
-    with pytest.raises(InputError, match="no type holds the heater's 195 degC, the highest 190 degC"):
-        heater_fuse(RECORD, 195.0 + ZERO_CELSIUS, 1.0)
+    with pytest.raises(InputError, match="no type stays closed at the heater's 230 degC, the highest at 225 degC"):
+        chosen(230.0, 1.0, heater=250.0)
     with pytest.raises(InputError, match=r"no type bears the heater's 20 A, the strongest 16 A"):
-        heater_fuse(RECORD, 80.0 + ZERO_CELSIUS, 20.0)
+        chosen(80.0, 20.0, heater=120.0)

@@ -1,7 +1,8 @@
-"""Which thermal cut-out of a maker's table goes into the leads of a heater: the first that the heater does not open."""
+"""Which thermal cut-out of a table goes into the leads of a heater: one that opens before anything is too hot."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from tvimdesign.base.errors import InputError
@@ -16,24 +17,31 @@ class HeaterFuse(NamedTuple):
     opens_from: float
     opens_at: float
     holds: float
+    above: tuple[str, ...]
+    """What bears less than it opens at: names of the ratings, the least first; none where it saves everything."""
 
 
-def heater_fuse(record: Record, hottest: float, current: float) -> HeaterFuse:
-    """The lowest type of a record that holds the heater's highest temperature [K], for a current [A].
+def heater_fuse(record: Record, hottest: float, current: float, ratings: Mapping[str, float]) -> HeaterFuse:
+    """The type of a record for a heater whose highest temperature [K] and current [A] are known.
 
-    At its holding temperature a cut-out carries its rated current without opening, by the maker's sheet. Raises
-    InputError where no type holds so much, or bears the current.
+    A type does not open in work where the least temperature at which it may open is a margin above the heater's
+    highest. Of these the highest type that opens at or below the least of the `ratings` [K]; where all open above it,
+    the lowest. Raises InputError where no type opens so high, or bears the current.
     """
-    types = [one for one in record.table("types") if one["holding_temperature"] >= hottest]
-    if not types:
-        most = max(one["holding_temperature"] for one in record.table("types"))
+    margin, band = record.value("working_margin"), record.value("opening_band")
+    stays = [one for one in record.table("types") if one["functioning_temperature"] - band >= hottest + margin]
+    if not stays:
+        most = max(one["functioning_temperature"] for one in record.table("types")) - band - margin
         held, asked = (f"{one - ZERO_CELSIUS:.4g} degC" for one in (most, hottest))
-        raise InputError(f"{record.title}: no type holds the heater's {asked}, the highest {held}")
+        raise InputError(f"{record.title}: no type stays closed at the heater's {asked}, the highest at {held}")
     if current > record.value("high_rated_current"):
         bears = record.value("high_rated_current")
         raise InputError(f"{record.title}: no type bears the heater's {current:.3g} A, the strongest {bears:.3g} A")
-    one = min(types, key=lambda row: row["functioning_temperature"])
+    least = min(ratings.values())
+    saving = [one for one in stays if one["functioning_temperature"] <= least]
+    one = (max if saving else min)(saving or stays, key=lambda row: row["functioning_temperature"])
     high = "H" if current > record.value("rated_current") else "0"
     opens = one["functioning_temperature"]
     name = record.words["designation"].format(**{"model": f"{round(one['model']):03d}", "class": high})
-    return HeaterFuse(name, opens - record.value("opening_band"), opens, one["holding_temperature"])
+    above = tuple(sorted((what for what in ratings if ratings[what] < opens), key=lambda what: ratings[what]))
+    return HeaterFuse(name, opens - band, opens, one["holding_temperature"], above)
