@@ -25,7 +25,7 @@ def seats(dims: Dimensions) -> list[cq.Shape]:
     """The hole through the floor at the end of such an arc; none without a thermistor, and none below tiles."""
     if not dims.thermistor_seat_diameter:
         return []
-    at = polar(dims.thermistor_seat_radius, 0.5 * dims.arc_span)
+    at = polar(dims.thermistor_seat_radius, 0.5 * dims.pocket_span)
     return [cylinder(0.5 * dims.thermistor_seat_diameter, -dims.floor_thickness, 0, at)]
 
 

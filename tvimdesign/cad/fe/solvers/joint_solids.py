@@ -144,7 +144,7 @@ def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
     housing = (whole - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
     # Filled before it is cut, else the rounded openings' edges stay in its faces. Holes of leads are filled too.
     deep = mm["floor_thickness"] if mm["spreader_depth"] else mm["peltier_thickness"] + 0.2
-    for filling in sectors(mm, -deep, 0.0, wider=PAD_GAP):
+    for filling in sectors(mm, -deep, 0.0, wider=mm["slip_clearance"] + 0.1):
         housing += filling
     for opening in openings:
         housing -= opening
