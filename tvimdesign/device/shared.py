@@ -26,6 +26,7 @@ from tvimdesign.device.fixtures import (
     cover,
     cutout,
     dowels,
+    drilled_holes,
     liner,
     preload_adjuster,
     process,
@@ -58,6 +59,7 @@ ROOMS = (
     clearances,
     shrinkage,
     process,
+    drilled_holes,
 )
 BOOKS = (
     materials.quantities,

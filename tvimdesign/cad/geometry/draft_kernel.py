@@ -74,6 +74,12 @@ class DraftKernel:
         body = Manifold.cube((end - start, width, top - bottom))
         return DraftSolid(body.translate((start, -0.5 * width, bottom)))
 
+    def cone(self, radius: float, base: float, tip: float, at: Point) -> DraftSolid:
+        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+        body = Manifold.extrude(_section(radius), abs(tip - base), scale_top=(0.0, 0.0))
+        upright = body if tip > base else body.mirror((0.0, 0.0, 1.0))
+        return DraftSolid(upright.translate((*at, base)))
+
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> DraftSolid:
         """What lies within an outline, less what lies within others."""
         section = _section(outside)

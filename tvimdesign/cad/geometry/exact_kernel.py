@@ -29,6 +29,11 @@ class ExactKernel:
         start, end = along_x
         return cq.Solid.makeBox(end - start, width, top - bottom, cq.Vector(start, -0.5 * width, bottom))
 
+    def cone(self, radius: float, base: float, tip: float, at: Point) -> cq.Solid:
+        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+        way = cq.Vector(0, 0, 1 if tip > base else -1)
+        return cq.Solid.makeCone(radius, 0.0, abs(tip - base), cq.Vector(*at, base), way)
+
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> cq.Solid:
         """What lies within an outline, less what lies within others."""
         inner = [_wire(outline, bottom) for outline in inside]

@@ -6,7 +6,7 @@ import numpy as np
 
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, disc_at, notch, ring, slot, stacked
+from tvimdesign.physics.bodies.shapes import Section, disc_at, notch, point_at, ring, slot, stacked
 
 quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4
@@ -143,6 +143,7 @@ def bare_rotor_moments(
     retainer_screw_depth: Scalar,
     link_dowel_section: Section,
     link_dowel_depth: Scalar,
+    core_drill_points: Section,
 ) -> Section:
     """Volume and its polar moment about the axis, of plate, core and pins less screw and dowel holes."""
     return stacked(
@@ -154,6 +155,30 @@ def bare_rotor_moments(
         (disc_at(0.5 * link_screw_hole, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
         (ring(0.0, 0.5 * retainer_screw_hole), -retainer_screw_depth),
         (link_dowel_section, -link_dowel_depth),
+    ) - core_drill_points  # fmt: skip
+
+
+@quantities.helper()
+def core_drill_points(
+    drill_point_ratio: Scalar,
+    link_screw_hole: Scalar,
+    link_bolt_circle_radius: Scalar,
+    retainer_screw_hole: Scalar,
+    dowels_fitted: Scalar,
+    link_dowel_diameter: Scalar,
+    link_dowel_circle_radius: Scalar,
+) -> Section:
+    """Volume and its polar moment about the axis, of the points of the core's blind holes; nothing where printed."""
+    return stacked(
+        (
+            point_at(0.5 * link_screw_hole, link_bolt_circle_radius).times(LINK_SCREWS),
+            drill_point_ratio * link_screw_hole,
+        ),
+        (point_at(0.5 * retainer_screw_hole, 0.0), drill_point_ratio * retainer_screw_hole),
+        (
+            point_at(0.5 * link_dowel_diameter, link_dowel_circle_radius).times(dowels_fitted),
+            drill_point_ratio * link_dowel_diameter,
+        ),
     )
 
 
