@@ -28,6 +28,7 @@ DATUM = "B"
 GROUND = "C"
 """Letter of the lowest face."""
 _POINTS = "Depths of blind holes are without the drill's point, {angle:.0f}°."
+_FEET = "Fillets at the feet of core and pins R{radius}."
 _BEARINGS = "At bearings: run-out of the shoulder; its fillet R 0.1 at most."
 """0.1 mm is the least chamfer of the rings in the catalogue, with which every bearing comes to its shoulder."""
 
@@ -155,6 +156,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
             general["edges"],
             *([_BEARINGS] if any("bearing" in one for one in seats) else []),
             *([_POINTS.format(angle=degrees(dims.drill_point_angle))] if is_milled and threads else []),
+            *([_FEET.format(radius=figure(dims.foot_fillet))] if kind == "rotor" else []),
             *_remarks(kind, dims, choices),
         ],
         printed=method == "printed" and kind not in reported["of_kind"],

@@ -80,6 +80,13 @@ class DraftKernel:
         upright = body if tip > base else body.mirror((0.0, 0.0, 1.0))
         return DraftSolid(upright.translate((*at, base)))
 
+    def foot(self, radius: float, fillet: float, level: float, at: Point) -> DraftSolid:
+        """A cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
+        turns = np.linspace(0.0, 0.5 * pi, max(_corners(fillet, 0.5 * pi), 4) + 1)
+        arc = np.stack((radius + fillet * (1.0 - np.sin(turns)), fillet * (1.0 - np.cos(turns))), -1)
+        section = CrossSection([np.vstack(([[0.0, 0.0]], arc, [[0.0, fillet]]))])
+        return DraftSolid(Manifold.revolve(section, corners_of(radius)).translate((*at, level)))
+
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> DraftSolid:
         """What lies within an outline, less what lies within others."""
         section = _section(outside)

@@ -50,6 +50,12 @@ def cylinder(radius: float, bottom: float, top: float, at: Point = (0.0, 0.0)) -
     return _KERNEL.get().cylinder(radius, bottom, top, at)
 
 
+def foot(radius: float, fillet: float, level: float, at: Point = (0.0, 0.0)) -> cq.Solid:
+    """The foot of an upright cylinder on a level, as high as its fillet is wide."""
+    _require(radius=radius, fillet=fillet)
+    return _KERNEL.get().foot(radius, fillet, level, at)
+
+
 def blind_hole(diameter: float, mouth: float, bottom: float, point: float, at: Point = (0.0, 0.0)) -> list[cq.Solid]:
     """What a blind hole takes away between its mouth and its bottom, above or below that, and a drill's point beyond.
 

@@ -8,7 +8,18 @@ from math import atan2, hypot, pi, sqrt
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.solids import blind_hole, block, bossed_ring, cylinder, join, polar, ring, slot, turned
+from tvimdesign.cad.geometry.solids import (
+    blind_hole,
+    block,
+    bossed_ring,
+    cylinder,
+    foot,
+    join,
+    polar,
+    ring,
+    slot,
+    turned,
+)
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.cad.parts import dowel_parts
 
@@ -154,6 +165,13 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
     pins = [
         cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
         for azimuth in dims.azimuths("spring_count")
+    ]
+    pins += [
+        foot(radius, dims.foot_fillet, dims.rotor_top_level, at)
+        for radius, at in [
+            (dims.core_radius, (0.0, 0.0)),
+            *((0.5 * dims.pin_diameter, polar(dims.pin_radius, azimuth)) for azimuth in dims.azimuths("spring_count")),
+        ]
     ]
     holes = [*_screw_holes(dims), *dowel_parts.holes_in_core(dims)]
     return join(plate, [*core, *pins, *added]).cut(*holes, *openings)
