@@ -232,6 +232,17 @@ def foot_stiffness(
     return 1.0 / (tilt * height**3 / (12.0 * youngs_modulus * inertia) + height / (0.9 * shear_modulus * area))
 
 
+def foot_bending_stress(force: Any, radius: Any, bore_radius: Any, height: Any, tilt: Any = 1.0) -> Any:
+    """Largest bending stress of such a foot under a sideways force at its upper end, at its lower end [Pa].
+
+    M r/I with M = F h (q + 2)/6: a beam built in below has M = F h where its upper end turns as it likes (q = 4), F h/2
+    where that is held (q = 1). A spring against turning there, c = k h/(E I), takes F h c/(2 (1 + c)) off, and the
+    `foot_tilt` is q = 1 + 3/(1 + c) [B].
+    """
+    inertia = 0.25 * np.pi * (radius**4 - bore_radius**4)
+    return force * height * (tilt + 2.0) / 6.0 * radius / inertia
+
+
 def pocketed_thickness(thickness: Any, count: Any, radius: Any, depth: Any, circle_radius: Any) -> Any:
     """Mean thickness [m] of a floor along a circle on which round pockets stand, t - n r d/(pi R); geometry.
 
