@@ -140,8 +140,8 @@ def test_screws_of_the_motor_have_their_size_and_key() -> None:
         1e3 * design.values[name] for name in ("motor_screw_length", "motor_screw_key", "mount_screw_key")
     )
     torque = design.values["motor_screw_torque"]
-    assert f"x {size:.3g}, key {key:.3g}, {torque:.3g} N·m): the hub" in texts
-    assert f"key {mount:.3g}, {design.values['mount_screw_torque']:.3g} N·m each." in texts
+    assert f"x {size:.3g}, key {key:.3g}, {torque:.2g} N·m): the hub" in texts
+    assert f"key {mount:.3g}, {design.values['mount_screw_torque']:.2g} N·m each." in texts
     assert f"from above: key {mount:.3g}." in texts
 
 
