@@ -94,7 +94,21 @@ def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
         return [cylinder(dims.post_radius, 0, dims.post_height, at) for at in axes], holes
     radius = dims.adjuster_radius + dims.slip_clearance
     pockets = [cylinder(radius, -dims.adjuster_thickness, 0, at) for at in axes]
-    return [], [*pockets, *(cylinder(0.5 * dims.adjuster_screw_clearance, floor_bottom, 0, at) for at in axes)]
+    screws = [cylinder(0.5 * dims.adjuster_screw_clearance, floor_bottom, 0, at) for at in axes]
+    marks = []
+    for (x, y), azimuth in zip(axes, dims.azimuths("spring_count"), strict=True):
+        beside = polar(dims.scale_mark_radius, azimuth + _MARK)
+        marks += scale_dot(dims, (x + beside[0], y + beside[1]))
+    return [], [*pockets, *screws, *marks]
+
+
+_MARK = pi / 3.0
+"""Azimuth about an adjuster's axis [rad], from outwards, at which the floor has the mark of its scale."""
+
+
+def scale_dot(dims: Dimensions, at: tuple[float, float]) -> list[cq.Shape]:
+    """A dot of an adjuster's scale, or its mark, in faces that are level with the floor's upper one."""
+    return [*blind_hole(dims.scale_dot_diameter, 0.0, -dims.scale_dot_depth, dims.drill_point_ratio, at)]
 
 
 def bores(dims: Dimensions) -> list[cq.Shape]:
