@@ -19,6 +19,7 @@ OTHERS: dict[str, set[tuple[str, float]]] = {
     "arc_width": {(">=", 5.0 * MM)}, "window_width": {(">=", 2.0 * MM)}, "link_screw_gap": {(">=", 0.3 * MM)},
     "core_web": {(">=", 1.0 * MM)}, "block_breadth": {(">=", 3.0 * MM)}, "slot_opening": {(">=", 2.0 * MM)},
     "slot_reach": {(">=", 1.0 * MM)}, "keys_in_liner": {("<=", 0.5)}, "pad_seat": {(">=", 0.2 * MM)},
+    "pad_ledge": {(">=", 0.2 * MM)},
 }  # fmt: skip
 LEFT = ("_margin", "_gap", "_reach", "_apart", "_inertia", "_depth", "_web", "_thickness")
 

@@ -26,7 +26,9 @@ from tvimdesign.device.fixtures import (
     cover,
     cutout,
     dowels,
+    drilled_holes,
     liner,
+    mounting,
     preload_adjuster,
     process,
     screws,
@@ -58,6 +60,7 @@ ROOMS = (
     clearances,
     shrinkage,
     process,
+    drilled_holes,
 )
 BOOKS = (
     materials.quantities,
@@ -76,6 +79,7 @@ BOOKS = (
     *preload_adjuster.groups,
     *cover.groups,
     *sensor_flange.groups,
+    *mounting.groups,
     motor_choice.quantities,
     motor_layout.quantities,
     motor_mass_properties.quantities,

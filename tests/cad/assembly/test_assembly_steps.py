@@ -139,8 +139,9 @@ def test_screws_of_the_motor_have_their_size_and_key() -> None:
     size, key, mount = (
         1e3 * design.values[name] for name in ("motor_screw_length", "motor_screw_key", "mount_screw_key")
     )
-    assert f"x {size:.3g}, key {key:.3g}): the hub" in texts
-    assert f"from above: key {mount:.3g}." in texts
+    torque = design.values["motor_screw_torque"]
+    assert f"x {size:.3g}, key {key:.3g}, {torque:.2g} N·m): the hub" in texts
+    assert f"key {mount:.3g}, {design.values['mount_screw_torque']:.2g} N·m each." in texts
 
 
 def test_a_printed_module_s_walls_are_stated() -> None:

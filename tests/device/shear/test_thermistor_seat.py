@@ -33,7 +33,7 @@ def test_the_floor_lacks_the_half_beside_the_pad_and_all_of_it_below() -> None:
     bare, known = (inputs_of(thermistor_diameter=diameter) for diameter in (0.0, 1.8 * MM))
     without, has = (TABLE.evaluate(inputs, names) for inputs in (bare, known))
     side = np.linspace(-1.0, 1.0, 2001) * 0.5 * has["thermistor_seat_diameter"]
-    x, y = np.meshgrid(side, side)  # y along the arc, beyond the pad's end where it is above zero
+    x, y = np.meshgrid(side, side)  # y along the arc, beyond the pocket's end where it is above zero
     inside = np.hypot(x, y) < 0.5 * has["thermistor_seat_diameter"]
     r2, cell = (has["thermistor_seat_radius"] + x) ** 2 + y**2, (side[1] - side[0]) ** 2
     depth = np.where(y > 0.0, has["pad_depth"] + has["floor_web"], has["floor_web"]) * inside * cell
@@ -50,9 +50,10 @@ def test_without_one_nothing_is_asked_however_narrow_the_floor() -> None:
 def test_the_web_to_the_window_is_what_is_left_of_the_ledge() -> None:
     known = inputs_of(thermistor_diameter=1.0 * MM, window_ledge=2.2 * MM)
     seat = TABLE.evaluate(known, ["thermistor_seat_radius", "thermistor_seat_diameter", *GAPS])
-    end = 0.5 * known["arc_span"]
+    pad = 0.5 * known["arc_span"]
+    end = pad + known["slip_clearance"] / known["pcl_inner_radius"]  # the pocket's, on which the seat has its middle
     middle = seat["thermistor_seat_radius"] * np.array([cos(end), sin(end)])
-    edge = end - known["window_ledge"] / known["pcl_inner_radius"]  # the window's end points to the axis as well
+    edge = pad - known["window_ledge"] / known["pcl_inner_radius"]  # the window's end points to the axis as well
     web = abs(middle @ np.array([-sin(edge), cos(edge)])) - 0.5 * seat["thermistor_seat_diameter"]
     assert seat["thermistor_window_gap"] == pytest.approx(web - known["minimum_wall"], rel=1e-9)
     next_end = 2.0 * pi / known["arc_count"] - end

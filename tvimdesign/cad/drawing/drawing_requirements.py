@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from math import floor, hypot
+from math import degrees, floor, hypot
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,8 @@ DATUM = "B"
 """Letter of the datum; A is the section's."""
 GROUND = "C"
 """Letter of the lowest face."""
+_POINTS = "Depths of blind holes are without the drill's point, {angle:.0f}°."
+_FEET = "Fillets at the feet of core and pins R{radius}."
 _BEARINGS = "At bearings: run-out of the shoulder; its fillet R 0.1 at most."
 """0.1 mm is the least chamfer of the rings in the catalogue, with which every bearing comes to its shoulder."""
 
@@ -153,6 +155,8 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
         notes=[
             general["edges"],
             *([_BEARINGS] if any("bearing" in one for one in seats) else []),
+            *([_POINTS.format(angle=degrees(dims.drill_point_angle))] if is_milled and threads else []),
+            *([_FEET.format(radius=figure(dims.foot_fillet))] if kind == "rotor" else []),
             *_remarks(kind, dims, choices),
         ],
         printed=method == "printed" and kind not in reported["of_kind"],

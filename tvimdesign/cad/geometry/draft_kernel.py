@@ -74,6 +74,19 @@ class DraftKernel:
         body = Manifold.cube((end - start, width, top - bottom))
         return DraftSolid(body.translate((start, -0.5 * width, bottom)))
 
+    def cone(self, radius: float, base: float, tip: float, at: Point) -> DraftSolid:
+        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+        body = Manifold.extrude(_section(radius), abs(tip - base), scale_top=(0.0, 0.0))
+        upright = body if tip > base else body.mirror((0.0, 0.0, 1.0))
+        return DraftSolid(upright.translate((*at, base)))
+
+    def foot(self, radius: float, fillet: float, level: float, at: Point) -> DraftSolid:
+        """A cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
+        turns = np.linspace(0.0, 0.5 * pi, max(_corners(fillet, 0.5 * pi), 4) + 1)
+        arc = np.stack((radius + fillet * (1.0 - np.sin(turns)), fillet * (1.0 - np.cos(turns))), -1)
+        section = CrossSection([np.vstack(([[0.0, 0.0]], arc, [[0.0, fillet]]))])
+        return DraftSolid(Manifold.revolve(section, corners_of(radius)).translate((*at, level)))
+
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> DraftSolid:
         """What lies within an outline, less what lies within others."""
         section = _section(outside)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import sqrt
 
 import cadquery as cq
 from OCP.StdFail import StdFail_NotDone
@@ -28,6 +29,21 @@ class ExactKernel:
         """A block across the x axis, between two places on it."""
         start, end = along_x
         return cq.Solid.makeBox(end - start, width, top - bottom, cq.Vector(start, -0.5 * width, bottom))
+
+    def cone(self, radius: float, base: float, tip: float, at: Point) -> cq.Solid:
+        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+        way = cq.Vector(0, 0, 1 if tip > base else -1)
+        return cq.Solid.makeCone(radius, 0.0, abs(tip - base), cq.Vector(*at, base), way)
+
+    def foot(self, radius: float, fillet: float, level: float, at: Point) -> cq.Solid:
+        """A cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
+        wide, half = radius + fillet, fillet * sqrt(0.5)
+        corners = [cq.Vector(*one) for one in ((0, 0, 0), (wide, 0, 0), (radius, 0, fillet), (0, 0, fillet))]
+        middle = cq.Vector(wide - half, 0, fillet - half)
+        lines = [cq.Edge.makeLine(*pair) for pair in zip(corners[2:], [corners[3], corners[0]], strict=True)]
+        arc = cq.Edge.makeThreePointArc(corners[1], middle, corners[2])
+        outline = cq.Wire.assembleEdges([cq.Edge.makeLine(corners[0], corners[1]), arc, *lines])
+        return cq.Solid.revolve(outline, [], 360.0, cq.Vector(), _UP).moved(cq.Location(cq.Vector(*at, level)))
 
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> cq.Solid:
         """What lies within an outline, less what lies within others."""

@@ -21,6 +21,12 @@ class Kernel(Protocol):
     def block(self, along_x: Point, width: float, bottom: float, top: float) -> Any:
         """A block across the x axis, between two places on it."""
 
+    def cone(self, radius: float, base: float, tip: float, at: Point) -> Any:
+        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+
+    def foot(self, radius: float, fillet: float, level: float, at: Point) -> Any:
+        """A cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
+
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> Any:
         """What lies within an outline, less what lies within others."""
 

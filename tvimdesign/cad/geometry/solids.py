@@ -50,6 +50,24 @@ def cylinder(radius: float, bottom: float, top: float, at: Point = (0.0, 0.0)) -
     return _KERNEL.get().cylinder(radius, bottom, top, at)
 
 
+def foot(radius: float, fillet: float, level: float, at: Point = (0.0, 0.0)) -> cq.Solid:
+    """The foot of an upright cylinder on a level, as high as its fillet is wide."""
+    _require(radius=radius, fillet=fillet)
+    return _KERNEL.get().foot(radius, fillet, level, at)
+
+
+def blind_hole(diameter: float, mouth: float, bottom: float, point: float, at: Point = (0.0, 0.0)) -> list[cq.Solid]:
+    """What a blind hole takes away between its mouth and its bottom, above or below that, and a drill's point beyond.
+
+    The point is `point` times the diameter high; none where that is zero.
+    """
+    hole = cylinder(0.5 * diameter, min(mouth, bottom), max(mouth, bottom), at)
+    if not point:
+        return [hole]
+    tip = bottom + (point if bottom > mouth else -point) * diameter
+    return [hole, _KERNEL.get().cone(0.5 * diameter, bottom, tip, at)]
+
+
 def block(along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
     """Upright block across the x axis, between two places on it and two levels."""
     start, end = along_x

@@ -17,6 +17,7 @@ from tvimdesign.cad.geometry.production import PRODUCTION, supported_levels
 from tvimdesign.cad.inspection.coils import coil_checks
 from tvimdesign.cad.inspection.corners import corner_checks, hole_check
 from tvimdesign.cad.inspection.finding import at_least, finding
+from tvimdesign.cad.inspection.fits import fit_checks
 from tvimdesign.cad.inspection.milling import milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
@@ -64,7 +65,9 @@ def module_checks(
     yield from rule_checks(design)
     yield from coil_checks(dims)
     yield from thread_checks(dims, drawn)
-    yield from order_checks(dims, instances(dims, drawn, place(dims, drawn), known))
+    placed = place(dims, drawn)
+    yield from fit_checks(dims, placed)
+    yield from order_checks(dims, instances(dims, drawn, placed, known))
 
 
 def rule_checks(design: Design) -> Iterator[SolidCheck]:

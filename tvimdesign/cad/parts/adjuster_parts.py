@@ -8,9 +8,10 @@ from math import atan2, pi
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.solids import block, cylinder, join, polar
+from tvimdesign.cad.geometry.solids import blind_hole, block, cylinder, join, polar
 from tvimdesign.cad.geometry.spring_solids import installed_coil
-from tvimdesign.cad.parts.common_parts import hand_of
+from tvimdesign.cad.parts.common_parts import hand_of, scale_dot
+from tvimdesign.device.fixtures.preload_adjuster import FIRST_DOT, LAST_DOT
 
 
 def adjuster(dims: Dimensions) -> cq.Shape:
@@ -18,10 +19,19 @@ def adjuster(dims: Dimensions) -> cq.Shape:
     bottom, top = -dims.adjuster_thickness, dims.post_height
     body = join(cylinder(dims.adjuster_radius, bottom, 0), [cylinder(dims.post_radius, bottom, top)])
     tang = cylinder(0.5 * dims.wire_diameter + dims.tang_clearance, bottom, 0, installed_coil(dims).tang_position)
-    pilot = cylinder(0.5 * dims.adjuster_screw_hole, bottom, bottom + dims.adjuster_screw_depth)
+    pilot = blind_hole(dims.adjuster_screw_hole, bottom, bottom + dims.adjuster_screw_depth, dims.drill_point_ratio)
     across = (-dims.adjuster_radius, dims.adjuster_radius)
     slot = block(across, dims.driver_slot_width, top - dims.driver_slot_depth, top)
-    return body.cut(tang, pilot, slot)
+    return body.cut(tang, *pilot, slot, *_scale(dims))
+
+
+def _scale(dims: Dimensions) -> list[cq.Shape]:
+    """The dots of a flange, from its tang on around the axis."""
+    tang = atan2(*reversed(installed_coil(dims).tang_position))
+    places = [
+        polar(dims.scale_circle_radius, tang + index * dims.scale_division) for index in range(FIRST_DOT, LAST_DOT + 1)
+    ]
+    return [dot for at in places for dot in scale_dot(dims, at)]
 
 
 def adjuster_screw(dims: Dimensions) -> cq.Shape:

@@ -8,7 +8,18 @@ from math import atan2, hypot, pi, sqrt
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.solids import block, bossed_ring, cylinder, join, polar, ring, slot, turned
+from tvimdesign.cad.geometry.solids import (
+    blind_hole,
+    block,
+    bossed_ring,
+    cylinder,
+    foot,
+    join,
+    polar,
+    ring,
+    slot,
+    turned,
+)
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.cad.parts import dowel_parts
 
@@ -63,13 +74,14 @@ def sensor_holes(dims: Dimensions, ground: float) -> list[cq.Shape]:
     """Holes for a torque sensor's screws and pin, upwards from the face it is screwed to."""
     pitch = 2.0 * pi / dims.count("sensor_screw_count")
     azimuths = [dims.flange_azimuth + index * pitch for index in range(dims.count("sensor_screw_count"))]
+    point = dims.drill_point_ratio
     screws = [
-        cylinder(0.5 * dims.sensor_screw_pilot, ground, ground + dims.flange_screw_depth, at)
+        hole
         for at in (polar(dims.sensor_pitch_radius, azimuth) for azimuth in azimuths)
+        for hole in blind_hole(dims.sensor_screw_pilot, ground, ground + dims.flange_screw_depth, point, at)
     ]
     pin_at = polar(dims.sensor_pitch_radius, dims.flange_azimuth + 0.5 * pitch)
-    pin = cylinder(0.5 * dims.sensor_pin_diameter, ground, ground + dims.sensor_pin_depth, pin_at)
-    return [*screws, pin]
+    return [*screws, *blind_hole(dims.sensor_pin_diameter, ground, ground + dims.sensor_pin_depth, point, pin_at)]
 
 
 def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
@@ -82,7 +94,21 @@ def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
         return [cylinder(dims.post_radius, 0, dims.post_height, at) for at in axes], holes
     radius = dims.adjuster_radius + dims.slip_clearance
     pockets = [cylinder(radius, -dims.adjuster_thickness, 0, at) for at in axes]
-    return [], [*pockets, *(cylinder(0.5 * dims.adjuster_screw_clearance, floor_bottom, 0, at) for at in axes)]
+    screws = [cylinder(0.5 * dims.adjuster_screw_clearance, floor_bottom, 0, at) for at in axes]
+    marks = []
+    for (x, y), azimuth in zip(axes, dims.azimuths("spring_count"), strict=True):
+        beside = polar(dims.scale_mark_radius, azimuth + _MARK)
+        marks += scale_dot(dims, (x + beside[0], y + beside[1]))
+    return [], [*pockets, *screws, *marks]
+
+
+_MARK = pi / 3.0
+"""Azimuth about an adjuster's axis [rad], from outwards, at which the floor has the mark of its scale."""
+
+
+def scale_dot(dims: Dimensions, at: tuple[float, float]) -> list[cq.Shape]:
+    """A dot of an adjuster's scale, or its mark, in faces that are level with the floor's upper one."""
+    return [*blind_hole(dims.scale_dot_diameter, 0.0, -dims.scale_dot_depth, dims.drill_point_ratio, at)]
 
 
 def bores(dims: Dimensions) -> list[cq.Shape]:
@@ -124,7 +150,8 @@ def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shap
     half_pitch = pi / dims.count("spring_count")
     azimuths = [azimuth + half_pitch for azimuth in dims.azimuths("spring_count")]
     wall = bossed_ring((inner, outer), dims.cover_boss_radius, dims.cover_corner_radius, azimuths, (0, rim))
-    holes = [cylinder(0.5 * dims.cover_screw_hole, rim - dims.cover_screw_depth, rim, at) for at in axes]
+    point, bottom = dims.drill_point_ratio, rim - dims.cover_screw_depth
+    holes = [hole for at in axes for hole in blind_hole(dims.cover_screw_hole, rim, bottom, point, at)]
     return [ring(inner, outer, ground, 0), wall], holes
 
 
@@ -153,11 +180,24 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
         cylinder(0.5 * dims.pin_diameter, dims.rotor_top_level, dims.pin_top_level, polar(dims.pin_radius, azimuth))
         for azimuth in dims.azimuths("spring_count")
     ]
-    core_top = dims.link_bottom_level
-    pilot_bottom = core_top - dims.link_screw_depth
-    pilots = [cylinder(0.5 * dims.link_screw_hole, pilot_bottom, core_top, at) for at in link_screws(dims)]
-    retainer_pilot = cylinder(0.5 * dims.retainer_screw_hole, core_bottom, core_bottom + dims.retainer_screw_depth)
-    return join(plate, [*core, *pins, *added]).cut(retainer_pilot, *pilots, *dowel_parts.holes_in_core(dims), *openings)
+    pins += [
+        foot(radius, dims.foot_fillet, dims.rotor_top_level, at)
+        for radius, at in [
+            (dims.core_radius, (0.0, 0.0)),
+            *((0.5 * dims.pin_diameter, polar(dims.pin_radius, azimuth)) for azimuth in dims.azimuths("spring_count")),
+        ]
+    ]
+    holes = [*_screw_holes(dims), *dowel_parts.holes_in_core(dims)]
+    return join(plate, [*core, *pins, *added]).cut(*holes, *openings)
+
+
+def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
+    """The core's holes for the screws of retainer and link."""
+    top, bottom, point = dims.link_bottom_level, dims.core_bottom_level, dims.drill_point_ratio
+    found = blind_hole(dims.retainer_screw_hole, bottom, bottom + dims.retainer_screw_depth, point)
+    for at in link_screws(dims):
+        found += blind_hole(dims.link_screw_hole, top, top - dims.link_screw_depth, point, at)
+    return found
 
 
 def link(dims: Dimensions) -> cq.Shape:

@@ -13,11 +13,11 @@ import cadquery as cq
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
-from tvimdesign.cad.parts import cutout_parts, liner_parts, vane_tile_parts
+from tvimdesign.cad.parts import cutout_parts, liner_parts, thermistor_parts, vane_tile_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
 FIXED = (
-    "housing", "peltier_pad", "spreader", "thermal_cutout", "bearing_outer", "preload_spring",
+    "housing", "peltier_pad", "spreader", "thermistor", "thermal_cutout", "bearing_outer", "preload_spring",
     "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw", "cover_insert",
 )  # fmt: skip
 """Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
@@ -32,6 +32,7 @@ def housing(dims: Dimensions) -> cq.Shape:
     pocketed = vane.cut(*_beside_faces(dims, end, end, (dims.running_clearance, dims.vane_height + end)))
     azimuths = _housing_vanes(dims)
     openings = [turned(slot, at) for at in azimuths for slot in _slots(dims)]
+    openings += [turned(hole, _first_face(dims)) for hole in thermistor_parts.hole_at_end(dims)]
     return bare_housing(dims, [turned(pocketed, at) for at in azimuths], openings)
 
 
@@ -90,6 +91,8 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     from the vane and keeps its shape.
     """
     placed = cutout_parts.stand(drawn, _housing_vanes(dims)[0])
+    if "thermistor" in drawn:
+        placed["thermistor_1"] = turned(drawn["thermistor"], _first_face(dims))
     for index, azimuth in enumerate(_housing_vanes(dims)):
         for face, side in enumerate(_SIDES):
             placed |= _heaters(dims, drawn, 2 * index + face, azimuth, side)
@@ -110,6 +113,11 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
 def _housing_vanes(dims: Dimensions) -> list[float]:
     """Azimuths of the housing's vanes [rad], half a pitch beyond the rotor's."""
     return [azimuth + pi / dims.count("vane_count") for azimuth in dims.azimuths("vane_count")]
+
+
+def _first_face(dims: Dimensions) -> float:
+    """Azimuth of the face [rad] in which the first pad stands."""
+    return _housing_vanes(dims)[0] + 0.5 * dims.housing_vane_angle
 
 
 def _heaters(

@@ -8,7 +8,7 @@ from math import pi
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.solids import cylinder, polar, turned
+from tvimdesign.cad.geometry.solids import blind_hole, cylinder, polar, turned
 
 _AZIMUTHS = (0.0, pi, 0.5 * pi, 1.5 * pi)
 """In the order in which pins are added: on the link's long axis, then across it, all between the link screws."""
@@ -26,8 +26,12 @@ def places(dims: Dimensions) -> list[tuple[float, float]]:
 
 def holes_in_core(dims: Dimensions) -> list[cq.Shape]:
     """What is cut from the core for the pins."""
-    top = dims.link_bottom_level
-    return [cylinder(0.5 * dims.link_dowel_diameter, top - dims.link_dowel_depth, top, at) for at in places(dims)]
+    top, point = dims.link_bottom_level, dims.drill_point_ratio
+    return [
+        hole
+        for at in places(dims)
+        for hole in blind_hole(dims.link_dowel_diameter, top, top - dims.link_dowel_depth, point, at)
+    ]
 
 
 def holes_in_link(dims: Dimensions) -> list[cq.Shape]:

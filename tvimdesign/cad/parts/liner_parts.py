@@ -22,18 +22,20 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
 
 def _on_arc(dims: Dimensions) -> cq.Shape:
     """The liner above an arc that is centred on the x axis, flush with the rotor plate."""
-    return _over_arc(dims, dims.liner_thickness)
+    return _over_arc(dims, (dims.pcl_inner_radius, dims.pcl_outer_radius), dims.arc_span, dims.liner_thickness)
 
 
 def recesses_over_arc(dims: Dimensions) -> list[cq.Shape]:
     """What the rotor plate lacks above such an arc; nothing without a liner."""
-    return [_over_arc(dims, dims.liner_depth)] if dims.liner_depth else []
+    if not dims.liner_depth:
+        return []
+    return [_over_arc(dims, (dims.pocket_inner_radius, dims.pocket_outer_radius), dims.pocket_span, dims.liner_depth)]
 
 
-def _over_arc(dims: Dimensions, depth: float) -> cq.Shape:
-    """An arc's outline with the corners of a pad, so deep into the rotor plate."""
+def _over_arc(dims: Dimensions, radii: tuple[float, float], span: float, depth: float) -> cq.Shape:
+    """A sector between two radii with the corners of a pad, so deep into the rotor plate."""
     levels = (dims.rotor_bottom_level, dims.rotor_bottom_level + depth)
-    return rounded(sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, *levels), dims.corner_radius)
+    return rounded(sector(*radii, span, *levels), dims.corner_radius)
 
 
 def _on_vane(dims: Dimensions) -> cq.Shape:

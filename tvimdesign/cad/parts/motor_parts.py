@@ -8,7 +8,7 @@ from math import pi
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.solids import block, cylinder, join, polar, ring, spoked_disc, turned
+from tvimdesign.cad.geometry.solids import blind_hole, block, cylinder, join, polar, ring, spoked_disc, turned
 from tvimdesign.cad.parts.common_parts import mounts, sensor_holes
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 
@@ -30,9 +30,9 @@ def hub(dims: Dimensions) -> cq.Shape:
     end = dims.motor_journal_level
     journal = cylinder(dims.motor_journal_radius, end, dims.stator_top_level)
     pilots = [cylinder(0.5 * dims.mount_screw_pilot, bottom, top, at) for at in mounts(dims)]
-    pilot = cylinder(0.5 * dims.motor_screw_pilot, end, end + dims.motor_screw_depth)
+    pilot = blind_hole(dims.motor_screw_pilot, end, end + dims.motor_screw_depth, dims.drill_point_ratio)
     body = join(plate, [barrel, collar, journal])
-    return body.cut(pilot, *pilots)
+    return body.cut(*pilot, *pilots)
 
 
 def housing(dims: Dimensions) -> cq.Shape:
@@ -65,9 +65,11 @@ def base_holes(dims: Dimensions) -> list[cq.Shape]:
         recess = cylinder(dims.flange_bore_radius, bottom, bottom + dims.sensor_recess_depth)
         return [recess, *sensor_holes(dims, bottom)]
     azimuths = [(index + 0.5) * 2.0 * pi / BASE_SCREWS for index in range(BASE_SCREWS)]
+    top, point = bottom + dims.motor_base_hole_depth, dims.drill_point_ratio
     return [
-        cylinder(0.5 * dims.mount_screw_pilot, bottom, bottom + dims.motor_base_hole_depth, at)
+        hole
         for at in (polar(dims.motor_base_hole_radius, azimuth) for azimuth in azimuths)
+        for hole in blind_hole(dims.mount_screw_pilot, bottom, top, point, at)
     ]
 
 

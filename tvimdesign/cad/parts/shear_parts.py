@@ -28,6 +28,12 @@ def housing(dims: Dimensions) -> cq.Shape:
 
 def _pocket(dims: Dimensions) -> cq.Solid:
     """The pocket under an arc, for a pad of its outline or for tiles and a spreader, centred on the x axis."""
+    sharp = sector(dims.pocket_inner_radius, dims.pocket_outer_radius, dims.pocket_span, -dims.pad_depth, 0)
+    return rounded(sharp, dims.corner_radius)
+
+
+def _pad(dims: Dimensions) -> cq.Solid:
+    """A pad of an arc's outline, centred on the x axis, flush with the floor."""
     sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.pad_depth, 0)
     return rounded(sharp, dims.corner_radius)
 
@@ -79,8 +85,8 @@ def _keys(dims: Dimensions) -> list[cq.Shape]:
 
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """One Peltier module under an arc: a pad that fills its pocket, or a tile, on the x axis."""
-    return tile_parts.tile(dims) if dims.spreader_depth else _pocket(dims)
+    """One Peltier module under an arc: a pad of its outline, or a tile, on the x axis."""
+    return tile_parts.tile(dims) if dims.spreader_depth else _pad(dims)
 
 
 DRAWN = {

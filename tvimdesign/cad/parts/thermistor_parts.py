@@ -1,4 +1,4 @@
-"""The thermistor by the layer: its bead at the end of a pad or below a spreader, and its seat in the floor."""
+"""The thermistor by the layer: its bead at the end of a pad or below a spreader, and its hole in the floor."""
 
 from __future__ import annotations
 
@@ -25,10 +25,28 @@ def seats(dims: Dimensions) -> list[cq.Shape]:
     """The hole through the floor at the end of such an arc; none without a thermistor, and none below tiles."""
     if not dims.thermistor_seat_diameter:
         return []
-    at = polar(dims.thermistor_seat_radius, 0.5 * dims.arc_span)
+    at = polar(dims.thermistor_seat_radius, 0.5 * dims.pocket_span)
     return [cylinder(0.5 * dims.thermistor_seat_diameter, -dims.floor_thickness, 0, at)]
 
 
 def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     """How a bead is drawn, where a module has one: the shear module alone has the sizes."""
-    return {"thermistor": bead} if dims.mode == "shear" and dims.thermistor_diameter else {}
+    return {"thermistor": bead if dims.mode == "shear" else standing} if dims.thermistor_diameter else {}
+
+
+def standing(dims: Dimensions) -> cq.Shape:
+    """The bead at the outer end of what stands behind a vane's face that is the x axis, the vane below that."""
+    bottom = dims.running_clearance
+    return cylinder(0.5 * dims.thermistor_diameter, bottom, bottom + dims.thermistor_length, _at_end(dims))
+
+
+def hole_at_end(dims: Dimensions) -> list[cq.Shape]:
+    """The hole in the floor below such a bead; none without."""
+    if not dims.thermistor_diameter:
+        return []
+    return [cylinder(0.5 * dims.thermistor_seat_diameter, -dims.floor_thickness, 0, _at_end(dims))]
+
+
+def _at_end(dims: Dimensions) -> tuple[float, float]:
+    half = 0.5 * dims.thermistor_diameter
+    return dims.pcl_outer_radius + half, -half

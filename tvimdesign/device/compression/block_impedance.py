@@ -96,11 +96,13 @@ def core_foot_rise(
     block_between: vane.BlockBetween,
     block_lean_out: Scalar,
     vanes_plate: wedge.PlateAround,
+    foot_fillet: Scalar,
 ) -> Scalar:
     """Rise of the core's stress at its foot [1]: among the vanes that hang from its plate and cup it, with the link's
     holes."""
     length = link_bottom_level - rotor_top_level
-    turned = structure.foot_rise_among_vanes(core_radius, length, rotor_thickness, core_screw_bores, core_dowel_bores)
+    holes = core_screw_bores, core_dowel_bores
+    turned = structure.foot_rise_among_vanes(core_radius, length, rotor_thickness, *holes, fillet=foot_fillet)
     cupped = wedge.foot_bending(block_lean_out, block_between.arm, core_radius, vanes_plate)
     return np.sqrt(turned**2 + cupped**2)
 

@@ -59,12 +59,6 @@ def spreader_volume(pcl_area: Scalar, spreader_depth: Scalar) -> Scalar:
     return pcl_area * spreader_depth
 
 
-@quantities.output("g")
-def thermistor_mass() -> Scalar:
-    """Mass of all thermistor beads together: none is drawn."""
-    return 0.0
-
-
 @quantities.helper()
 def slot_section(
     heater_form: str,
@@ -157,9 +151,9 @@ def housing_vanes_volume(housing_vanes_moments: Section) -> Scalar:
 
 
 @quantities.helper()
-def floor_openings(slot_foot_section: Section, floor_thickness: Scalar) -> Section:
-    """What the floor has not got, volume and its polar moment: the slots."""
-    return slot_foot_section.times(floor_thickness)
+def floor_openings(slot_foot_section: Section, thermistor_seat_section: Section, floor_thickness: Scalar) -> Section:
+    """What the floor has not got, volume and its polar moment: the slots, and a hole for the thermistor."""
+    return slot_foot_section.plus(thermistor_seat_section).times(floor_thickness)
 
 
 @quantities.output("mm^3")

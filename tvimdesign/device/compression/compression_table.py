@@ -9,6 +9,7 @@ from tvimdesign.device.compression import (
     block_volumes,
     plate_above,
     ring_heat,
+    thermistor_place,
     tile_heat,
     tile_load,
     vane_clearances,
@@ -36,5 +37,5 @@ ROOMS = (
     tile_heat,
     tile_load,
 )
-GROUPS = (*vane_tiles.groups, *vane_liners.groups, *block_shrinkage.groups)
+GROUPS = (*vane_tiles.groups, *vane_liners.groups, *block_shrinkage.groups, *thermistor_place.groups)
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "compression"), PHASES)

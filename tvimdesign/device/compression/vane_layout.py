@@ -43,6 +43,18 @@ def block_width(pcl_outer_radius: Scalar, pcl_inner_radius: Scalar) -> Scalar:
     return pcl_outer_radius - pcl_inner_radius
 
 
+@quantities.output("mm", hidden=True)
+def pocket_inner_radius(pcl_inner_radius: Scalar) -> Scalar:
+    """Inner radius of the pads' pockets: open there, as the vanes are."""
+    return pcl_inner_radius
+
+
+@quantities.output("mm", hidden=True)
+def pocket_outer_radius(pcl_outer_radius: Scalar) -> Scalar:
+    """Outer radius of the pads' pockets: open there, as the vanes are."""
+    return pcl_outer_radius
+
+
 @quantities.output("deg")
 def block_angle(block_depth: Scalar, pcl_mean_radius: Scalar) -> Scalar:
     """Angle each block covers."""

@@ -139,10 +139,17 @@ def link_screw_gap(link_bolt_circle_radius: Scalar, link_screw_head: Scalar) -> 
 
 @quantities.output("mm", at_least(1.0 * MM, "the screw holes in the core must not meet"))
 def core_web(
-    link_bottom_level: Scalar, core_bottom_level: Scalar, link_screw_depth: Scalar, retainer_screw_depth: Scalar
+    link_bottom_level: Scalar,
+    core_bottom_level: Scalar,
+    link_screw_depth: Scalar,
+    retainer_screw_depth: Scalar,
+    drill_point_ratio: Scalar,
+    link_screw_hole: Scalar,
+    retainer_screw_hole: Scalar,
 ) -> Scalar:
-    """Core between the holes of the link screws and that of the retainer's screw."""
-    return link_bottom_level - core_bottom_level - link_screw_depth - retainer_screw_depth
+    """Core between the holes of the link screws and that of the retainer's screw, a drill's points included."""
+    points = drill_point_ratio * (link_screw_hole + retainer_screw_hole)
+    return link_bottom_level - core_bottom_level - link_screw_depth - retainer_screw_depth - points
 
 
 @quantities.output("mm", at_least(0.0, "the feet must stand inside the skirt"))

@@ -144,6 +144,34 @@ def pin_top_level(leg_top_level: Scalar, axial_clearance: Scalar) -> Scalar:
     return leg_top_level + axial_clearance
 
 
+LEAST_FILLET = 1e-4
+"""Fillet [m] that is drawn where there is no room for one: what a nozzle or an edge of a cutter leaves anyway."""
+
+
+@quantities.output("mm")
+def foot_fillet(
+    largest_foot_fillet: Scalar,
+    coil_end_level: Scalar,
+    wire_diameter: Scalar,
+    rotor_top_level: Scalar,
+    running_clearance: Scalar,
+    rotor_radius: Scalar,
+    pin_radius: Scalar,
+    pin_diameter: Scalar,
+    core_radius: Scalar,
+) -> Scalar:
+    """Radius of the fillets at the feet of the core and of the pins on the rotor plate.
+
+    As large as is asked for, but below the legs by a running clearance, within the plate's rim, and no more than half
+    of the way between core and pins.
+    """
+    below_legs = coil_end_level - 0.5 * wire_diameter - rotor_top_level - running_clearance
+    to_rim = rotor_radius - pin_radius - 0.5 * pin_diameter
+    between = 0.5 * (pin_radius - 0.5 * pin_diameter - core_radius)
+    room = np.fmin(below_legs, np.fmin(to_rim, between))
+    return np.fmax(np.fmin(largest_foot_fillet, room), LEAST_FILLET)
+
+
 @quantities.output("mm")
 def link_bottom_level(rim_level: Scalar, cover_height: Scalar, axial_clearance: Scalar) -> Scalar:
     """Lower face of the output link and upper end of the core."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, disc_at, notch, ring, slot, stacked
+from tvimdesign.physics.bodies.shapes import Section, disc_at, fillet_at_foot, notch, point_at, ring, slot, stacked
 
 quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4
@@ -143,6 +143,8 @@ def bare_rotor_moments(
     retainer_screw_depth: Scalar,
     link_dowel_section: Section,
     link_dowel_depth: Scalar,
+    core_drill_points: Section,
+    foot_fillets: Section,
 ) -> Section:
     """Volume and its polar moment about the axis, of plate, core and pins less screw and dowel holes."""
     return stacked(
@@ -154,6 +156,42 @@ def bare_rotor_moments(
         (disc_at(0.5 * link_screw_hole, link_bolt_circle_radius).times(LINK_SCREWS), -link_screw_depth),
         (ring(0.0, 0.5 * retainer_screw_hole), -retainer_screw_depth),
         (link_dowel_section, -link_dowel_depth),
+        (foot_fillets, 1.0),
+        (core_drill_points, -1.0),
+    )
+
+
+@quantities.helper()
+def foot_fillets(
+    foot_fillet: Scalar, core_radius: Scalar, pin_diameter: Scalar, pin_radius: Scalar, spring_count: Scalar
+) -> Section:
+    """Volume and its polar moment about the axis, of the fillets at the feet of core and pins."""
+    of_pin = fillet_at_foot(0.5 * pin_diameter, foot_fillet)
+    beside = Section(of_pin.area, of_pin.polar + of_pin.area * pin_radius**2)
+    return fillet_at_foot(core_radius, foot_fillet).plus(beside.times(spring_count))
+
+
+@quantities.helper()
+def core_drill_points(
+    drill_point_ratio: Scalar,
+    link_screw_hole: Scalar,
+    link_bolt_circle_radius: Scalar,
+    retainer_screw_hole: Scalar,
+    dowels_fitted: Scalar,
+    link_dowel_diameter: Scalar,
+    link_dowel_circle_radius: Scalar,
+) -> Section:
+    """Volume and its polar moment about the axis, of the points of the core's blind holes; nothing where printed."""
+    return stacked(
+        (
+            point_at(0.5 * link_screw_hole, link_bolt_circle_radius).times(LINK_SCREWS),
+            drill_point_ratio * link_screw_hole,
+        ),
+        (point_at(0.5 * retainer_screw_hole, 0.0), drill_point_ratio * retainer_screw_hole),
+        (
+            point_at(0.5 * link_dowel_diameter, link_dowel_circle_radius).times(dowels_fitted),
+            drill_point_ratio * link_dowel_diameter,
+        ),
     )
 
 

@@ -115,12 +115,12 @@ def motor_journal_wall_margin(motor_journal_radius: Scalar, motor_screw_pilot: S
 @quantities.output("mm", at_least(0.0, "the screw of the motor's retainer is too short to hold in the journal"))
 def motor_thread_margin(
     motor_screw_depth: Scalar,
-    screw_tip_room: Scalar,
+    motor_screw_runout: Scalar,
     thread_engagement: Scalar,
     motor_screw_diameter: Scalar,
 ) -> Scalar:
     """Thread of that screw beyond what the process wants; zero without a motor."""
-    return motor_screw_depth - screw_tip_room - thread_engagement * motor_screw_diameter
+    return motor_screw_depth - motor_screw_runout - thread_engagement * motor_screw_diameter
 
 
 @quantities.output("mm", at_least(0.0, "the screw of the motor's retainer would come out of the hub's disc"))
@@ -129,10 +129,13 @@ def motor_disc_margin(
     motor_plate_thickness: Scalar,
     motor_journal_level: Scalar,
     motor_screw_depth: Scalar,
+    drill_point_ratio: Scalar,
+    motor_screw_pilot: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Hub above that screw's hole beyond the process's least wall; zero without a motor."""
-    return motor_plate_level + motor_plate_thickness - motor_journal_level - motor_screw_depth - minimum_wall
+    """Hub above the point of that screw's hole beyond the process's least wall; zero without a motor."""
+    deep = motor_screw_depth + drill_point_ratio * motor_screw_pilot
+    return motor_plate_level + motor_plate_thickness - motor_journal_level - deep - minimum_wall
 
 
 @quantities.output("mm", at_least(0.0, "the motor's retainer would split around its screw's head, or the magnet"))
@@ -145,14 +148,14 @@ def motor_retainer_wall_margin(motor_collar_radius: Scalar, motor_sink_radius: S
 def motor_base_thread_margin(
     base_pattern: Pattern,
     motor_base_hole_depth: Scalar,
-    screw_tip_room: Scalar,
+    mount_screw_runout: Scalar,
     thread_engagement: Scalar,
     mount_screw_diameter: Scalar,
 ) -> Scalar:
     """Thread in the base beyond what the process wants; zero without a motor, or where a sensor bears it."""
     if base_pattern.screws:
         return 0.0
-    return motor_base_hole_depth - screw_tip_room - thread_engagement * mount_screw_diameter
+    return motor_base_hole_depth - mount_screw_runout - thread_engagement * mount_screw_diameter
 
 
 @quantities.output(

@@ -24,6 +24,7 @@ import numpy as np
 
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
+from tvimdesign.device.fixtures.drilled_holes import runout
 from tvimdesign.device.fixtures.sensor_flange import Pattern
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -205,13 +206,37 @@ def motor_screw_depth(
     motor_screw_length: Scalar,
     motor_retainer_floor: Scalar,
     running_clearance: Scalar,
-    screw_tip_room: Scalar,
+    motor_screw_runout: Scalar,
 ) -> Scalar:
-    """Depth of the retainer screw's hole in the journal; zero without a motor."""
-    return motor_screw_length - motor_retainer_floor - running_clearance + screw_tip_room
+    """Depth of the retainer screw's hole in the journal, without a drill's point; zero without a motor."""
+    return motor_screw_length - motor_retainer_floor - running_clearance + motor_screw_runout
 
 
 @quantities.output("mm")
-def motor_base_hole_depth(base_pattern: Pattern, motor_base_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
-    """Depth of the base's holes: they leave it the least wall; zero without a motor, or where a sensor bears it."""
-    return 0.0 if base_pattern.screws else motor_base_thickness - minimum_wall
+def motor_screw_runout(
+    screw_tip_room: Scalar, tap_runout_ratio: Scalar, motor_screw_diameter: Scalar, motor_screw_pilot: Scalar
+) -> Scalar:
+    """Depth of that hole beyond the screw's end; zero without a motor."""
+    return runout(screw_tip_room, tap_runout_ratio, motor_screw_diameter, motor_screw_pilot)
+
+
+@quantities.output("mm")
+def mount_screw_runout(
+    screw_tip_room: Scalar, tap_runout_ratio: Scalar, mount_screw_diameter: Scalar, mount_screw_pilot: Scalar
+) -> Scalar:
+    """Depth of the base's holes beyond their thread; zero without a motor."""
+    return runout(screw_tip_room, tap_runout_ratio, mount_screw_diameter, mount_screw_pilot)
+
+
+@quantities.output("mm")
+def motor_base_hole_depth(
+    base_pattern: Pattern,
+    motor_base_thickness: Scalar,
+    drill_point_ratio: Scalar,
+    mount_screw_pilot: Scalar,
+    minimum_wall: Scalar,
+) -> Scalar:
+    """Depth of the base's holes: their points leave it the least wall; zero without a motor, or on a sensor."""
+    if base_pattern.screws:
+        return 0.0
+    return motor_base_thickness - drill_point_ratio * mount_screw_pilot - minimum_wall

@@ -12,7 +12,17 @@ from tvimdesign.device.fixtures.sensor_flange import Pattern, pattern_holes
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, inner_corner, notch, ring, spoke, stacked
+from tvimdesign.physics.bodies.shapes import (
+    NOTHING,
+    Section,
+    disc_at,
+    inner_corner,
+    notch,
+    point_at,
+    ring,
+    spoke,
+    stacked,
+)
 
 quantities = QuantityGroup(shared.group, WITH_MOTOR)
 
@@ -31,6 +41,7 @@ def motor_hub_moments(
     motor_journal_level: Scalar,
     motor_screw_pilot: Scalar,
     motor_screw_depth: Scalar,
+    drill_point_ratio: Scalar,
     spring_count: Scalar,
     mount_boss_radius: Scalar,
     mount_screw_pilot: Scalar,
@@ -49,6 +60,7 @@ def motor_hub_moments(
         (ring(0.0, motor_collar_radius), motor_plate_level - stator_top_level),
         (ring(0.0, motor_journal_radius), stator_top_level - motor_journal_level),
         (ring(0.0, 0.5 * motor_screw_pilot), -motor_screw_depth),
+        (point_at(0.5 * motor_screw_pilot, 0.0), -drill_point_ratio * motor_screw_pilot),
     )
 
 
@@ -79,6 +91,7 @@ def motor_housing_volume(
     base_pattern: Pattern,
     flange_bore_radius: Scalar,
     flange_screw_depth: Scalar,
+    drill_point_ratio: Scalar,
     sensor_recess_depth: Scalar,
 ) -> Scalar:
     """Volume of the motor's housing: base, wall and tube, less bore, seats, holes, recesses and wires' ways."""
@@ -92,9 +105,10 @@ def motor_housing_volume(
     bore = (
         ring(0.0, motor_seat_radius).area * (lower + drive_motor.bearing_width) + ring(0.0, motor_lip_radius).area * lip
     )
-    screws = BASE_SCREWS * ring(0.0, 0.5 * mount_screw_pilot).area * motor_base_hole_depth
+    point = 0.0 if base_pattern.screws else drill_point_ratio * mount_screw_pilot
+    screws = BASE_SCREWS * ring(0.0, 0.5 * mount_screw_pilot).area * (motor_base_hole_depth + point / 3.0)
     wires = notch(0.5 * motor_wire_width, stator_seat_radius, motor_outer_radius).area * motor_wire_depth
-    whole = solid - bore - screws - wires - pattern_holes(base_pattern, flange_screw_depth)
+    whole = solid - bore - screws - wires - pattern_holes(base_pattern, flange_screw_depth, drill_point_ratio)
     recesses: list[tuple[Scalar, Scalar]] = [(flange_bore_radius, sensor_recess_depth)] if base_pattern.screws else []
     if angle_sensor is not None:
         recesses.append((encoder_recess_radius, angle_sensor.board_height))

@@ -60,6 +60,18 @@ def pad_section(
     return _rounded_sector(arc_span, pcl_inner_radius, pcl_outer_radius, corner_radius).times(arc_count)
 
 
+@quantities.helper()
+def pocket_section(
+    arc_count: Scalar,
+    pocket_span: Scalar,
+    pocket_inner_radius: Scalar,
+    pocket_outer_radius: Scalar,
+    corner_radius: Scalar,
+) -> Section:
+    """Plan view of all pockets for pads, and of all recesses for liners."""
+    return _rounded_sector(pocket_span, pocket_inner_radius, pocket_outer_radius, corner_radius).times(arc_count)
+
+
 @quantities.output("mm^3")
 def peltier_volume(heater_form: str, pad_section: Section, tile_section: Section, peltier_thickness: Scalar) -> Scalar:
     """Volume of all Peltier modules together: cut to the pockets' outline, or rectangular tiles."""
@@ -90,7 +102,7 @@ def window_section(
 
 @quantities.helper()
 def floor_openings(
-    pad_section: Section,
+    pocket_section: Section,
     pad_depth: Scalar,
     window_section: Section,
     lead_hole_section: Section,
@@ -98,7 +110,7 @@ def floor_openings(
     thermistor_seat_moments: Section,
 ) -> Section:
     """What the floor has not got, volume and its polar moment: pockets, windows, holes for leads, thermistor's seat."""
-    opened = stacked((pad_section, pad_depth), (window_section, floor_web), (lead_hole_section, floor_web))
+    opened = stacked((pocket_section, pad_depth), (window_section, floor_web), (lead_hole_section, floor_web))
     return opened.plus(thermistor_seat_moments)
 
 
@@ -127,9 +139,9 @@ def liner_moments(pad_section: Section, liner_thickness: Scalar) -> Section:
 
 
 @quantities.helper(requires=WITH_LINER, default=NOTHING)
-def liner_recess(pad_section: Section, liner_depth: Scalar) -> Section:
+def liner_recess(pocket_section: Section, liner_depth: Scalar) -> Section:
     """Volume of the recesses for the liners and its polar moment about the axis."""
-    return pad_section.times(liner_depth)
+    return pocket_section.times(liner_depth)
 
 
 @quantities.helper()

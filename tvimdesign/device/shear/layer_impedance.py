@@ -122,10 +122,12 @@ def core_foot_rise(
     rotor_thickness: Scalar,
     core_screw_bores: structure.Bores,
     core_dowel_bores: structure.Bores,
+    foot_fillet: Scalar,
 ) -> Scalar:
     """Rise of the core's stress at its foot [1]: on a plate that the arcs drive, with the holes of the link."""
     length = link_bottom_level - rotor_top_level
-    return structure.foot_rise_on_plate(core_radius, length, rotor_thickness, core_screw_bores, core_dowel_bores)
+    holes = core_screw_bores, core_dowel_bores
+    return structure.foot_rise_on_plate(core_radius, length, rotor_thickness, *holes, fillet=foot_fillet)
 
 
 @quantities.helper()

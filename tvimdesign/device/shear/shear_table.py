@@ -17,6 +17,7 @@ from tvimdesign.device.shear import (
     lip_heat,
     melt_lip,
     melt_retention,
+    pad_pockets,
     rotor_level,
     thermistor_seat,
     tile_heat,
@@ -30,5 +31,8 @@ ROOMS = (
     rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, lip_heat, floor_heat, arc_volumes,
     arc_clearances, melt_retention, tile_heat,
 )  # fmt: skip
-GROUPS = (*tiles.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups, *melt_lip.groups)
+GROUPS = (
+    *tiles.groups, *pad_pockets.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups,
+    *melt_lip.groups,
+)  # fmt: skip
 TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

@@ -1,9 +1,9 @@
 """The thermistor by the layer: where its bead stands, and the seat it takes out of the floor.
 
 Below a pad of an arc's outline there is no room, so a hole goes through the floor at the end of the first arc, its
-middle on the end of the pad. Half of it lies beside the pad: there the bead stands, touching the pad's end, its top
-flush with the floor, below the end of the layer. Its wires go down through the hole. Tiles leave room of their own: the
-bead stands below the spreader of each arc, over the hole that is there for its wires.
+middle on the end of the pad's pocket. Half of it lies beside the pocket: there the bead stands, touching the pad's end,
+its top flush with the floor, below the end of the layer. Its wires go down through the hole. Tiles leave room of their
+own: the bead stands below the spreader of each arc, over the hole that is there for its wires.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ def thermistor_seat_radius(pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -
 def thermistor_seat_moments(
     thermistor_seat_diameter: Scalar, thermistor_seat_radius: Scalar, pad_depth: Scalar, floor_web: Scalar
 ) -> Section:
-    """What the seat takes out of the floor: the half beside the pad, and below the pad all of it.
+    """What the seat takes out of the floor: the half beside the pocket, and below the pocket all of it.
 
-    The end of a pad points to the axis, so either half of the hole has half of its polar moment.
+    The end of a pocket points to the axis, so either half of the hole has half of its polar moment.
     """
     whole = disc_at(0.5 * thermistor_seat_diameter, thermistor_seat_radius)
     return stacked((whole.times(0.5), pad_depth), (whole, floor_web))
@@ -73,13 +73,14 @@ def thermistor_mass(thermistor_volume: Scalar, thermistor_density: Scalar) -> Sc
 )
 def thermistor_window_gap(
     window_ledge: Scalar,
+    slip_clearance: Scalar,
     pcl_inner_radius: Scalar,
     thermistor_seat_radius: Scalar,
     thermistor_seat_diameter: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
     """Web between the thermistor's seat and the window below the pad, beyond the least wall where there is a seat."""
-    ledge = thermistor_seat_radius * np.sin(window_ledge / pcl_inner_radius)
+    ledge = thermistor_seat_radius * np.sin((window_ledge + slip_clearance) / pcl_inner_radius)
     wall = np.fmin(minimum_wall, thermistor_seat_diameter)
     return np.fmax(ledge, wall) - wall - 0.5 * thermistor_seat_diameter
 
@@ -89,12 +90,12 @@ def thermistor_window_gap(
 )
 def thermistor_arc_gap(
     arc_count: Scalar,
-    arc_span: Scalar,
+    pocket_span: Scalar,
     thermistor_seat_radius: Scalar,
     thermistor_seat_diameter: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
     """Web between the thermistor's seat and the next arc's pocket, beyond the least wall where there is a seat."""
-    to_next = thermistor_seat_radius * np.sin(np.fmin(2.0 * np.pi / arc_count - arc_span, 0.5 * np.pi))
+    to_next = thermistor_seat_radius * np.sin(np.fmin(2.0 * np.pi / arc_count - pocket_span, 0.5 * np.pi))
     wall = np.fmin(minimum_wall, thermistor_seat_diameter)
     return np.fmax(to_next, wall) - wall - 0.5 * thermistor_seat_diameter

@@ -73,6 +73,28 @@ def disc_at(radius: Any, distance: Any) -> Section:
     return Section(area, area * (0.5 * radius**2 + distance**2))
 
 
+def point_at(radius: Any, distance: Any) -> Section:
+    """What a cone is as a prism of its height: its base a disc whose centre lies `distance` from the axis.
+
+    A cone has a third of the volume and 3/10 of the squared radius of gyration about its own axis.
+    """
+    area = np.pi * radius**2 / 3.0
+    return Section(area, area * (0.3 * radius**2 + distance**2))
+
+
+def fillet_at_foot(radius: Any, fillet: Any) -> Section:
+    """Volume [m^3] and its polar moment [m^5] of a fillet around the foot of an upright cylinder about the axis.
+
+    At u inwards from its outer end, b = R + r from the axis, it is r - sqrt(r^2 - u^2) high; the moments of that,
+    integral of u^k over 0 to r, are r^2 (1 - pi/4), r^3/6, r^4 (1/3 - pi/16) and 7 r^5/60.
+    """
+    b = radius + fillet
+    shares = (1.0 - np.pi / 4.0, 1.0 / 6.0, 1.0 / 3.0 - np.pi / 16.0, 7.0 / 60.0)
+    flat, first, second, third = (fillet ** (power + 2) * share for power, share in enumerate(shares))
+    polar = b**3 * flat - 3.0 * b**2 * first + 3.0 * b * second - third
+    return Section(2.0 * np.pi * (b * flat - first), 2.0 * np.pi * polar)
+
+
 def rectangle_at(radial: Any, along: Any, distance: Any, corner: Any = 0.0) -> Section:
     """Rectangle whose middle lies `distance` from the axis, one side along the ray there, its corners rounded.
 

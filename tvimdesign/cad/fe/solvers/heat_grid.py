@@ -87,10 +87,20 @@ def _cut_slots(grid: Grid, found: Any) -> None:
         return
     inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
     near = (r > inner - slot) & (r < outer + slot) & (a < 0.5 * mm["arc_span"] + 2.0 * slot / (inner + outer))
+    within = (r > inner) & (r < outer) & (a < 0.5 * mm["arc_span"])
+    beside = (z < 0.0) & (z > -mm["pad_depth"]) & ~within & _in_pocket(grid)
+    found[beside & (found == "")] = "housing"  # the slot is as wide as its contact says, whatever the pocket is
     found[near & (z < 0.0) & (z > -mm["pad_depth"]) & (found == "housing")] = "edge"
     for beside, column in ((1, inner - 0.5 * slot), (-1, outer + 0.5 * slot)):
         i = int(np.searchsorted(grid.along.ends, column)) - 1
         found[i][(found[i] == "rotor") & (found[i + beside] == "layer")] = "lip"
+
+
+def _in_pocket(grid: Grid) -> Any:
+    """What a pocket takes of the floor, its clearance around the pad included."""
+    mm = grid.mm
+    r, a, _ = _places(grid)
+    return (r > mm["pocket_inner_radius"]) & (r < mm["pocket_outer_radius"]) & (a < 0.5 * mm["pocket_span"])
 
 
 def _places(grid: Grid) -> tuple[Array, Array, Array]:

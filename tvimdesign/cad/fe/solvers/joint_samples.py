@@ -26,12 +26,28 @@ from ngsolve import (
 
 STRETCH = 2.0
 """Length along an edge over which its highest stress is a mean [mm]."""
+PEAKS = 1.44
+"""Fillet [mm] from which on the model has the peak along it, not the mean over a millimetre of a sharp foot."""
+ASIDE = 0.01
+"""How far within the surface it is read [mm]."""
 
 
 def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
-    """Core's von Mises stress [MPa] at one newton metre beside its foot, a mean over the first millimetre above it."""
+    """Core's von Mises stress [MPa] at one newton metre beside its foot, a mean over the first millimetre above it.
+
+    On a fillet of more than that, along which it has a peak, the largest along it.
+    """
+    fillet = mm.get("foot_fillet", 0.0)
     angles, levels = np.meshgrid(np.linspace(0, 2 * np.pi, 73)[:-1], (np.arange(10) + 0.5) / 10)
     radius = mm["core_radius"] * 0.998
+    if fillet > PEAKS:
+        turns = 0.5 * np.pi * levels
+        radius = mm["core_radius"] + fillet - (fillet + ASIDE) * np.sin(turns)
+        places = (radius * np.cos(angles), radius * np.sin(angles),
+                  mm["rotor_top_level"] + fillet - (fillet + ASIDE) * np.cos(turns))  # fmt: skip
+        along = elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque
+        peak = np.nanmax(along, axis=0)
+        return {"foot_highest": np.nanmax(peak), "foot_mean": np.nanmean(peak), "foot_lower_half": np.nanmax(peak)}
     places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + levels
     along = elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque
     mean = np.nanmean(along, axis=0)

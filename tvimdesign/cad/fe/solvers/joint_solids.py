@@ -144,7 +144,7 @@ def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
     housing = (whole - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
     # Filled before it is cut, else the rounded openings' edges stay in its faces. Holes of leads are filled too.
     deep = mm["floor_thickness"] if mm["spreader_depth"] else mm["peltier_thickness"] + 0.2
-    for filling in sectors(mm, -deep, 0.0, wider=PAD_GAP):
+    for filling in sectors(mm, -deep, 0.0, wider=mm["slip_clearance"] + 0.1):
         housing += filling
     for opening in openings:
         housing -= opening
@@ -178,14 +178,16 @@ def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:
     And where a window ends below a pad, whose shear has no bound there.
     """
     top, low, high = mm["rotor_top_level"], -0.01, mm.get("pcl_thickness", -1.0) + 0.01
+    fillet = mm.get("foot_fillet", 0.0)
+    foot = mm["core_radius"] + fillet
     pads = -mm["peltier_thickness"] if "pcl_thickness" in mm and not mm["spreader_depth"] else -np.inf
     for edge in whole.edges:
         box = edge.bounding_box
         flat = box[1].z - box[0].z < 1e-4
         wide = max(box[1].x - box[0].x, box[1].y - box[0].y)
         centre = edge.center
-        if flat and abs(box[0].z - top) < 1e-3 and wide < 2.02 * mm["core_radius"]:
-            if np.hypot(centre.x, centre.y) < mm["core_radius"] + 0.01 and wide > 0.5 * mm["core_radius"]:
+        if flat and min(abs(box[0].z - top), abs(box[0].z - top - fillet)) < 1e-3 and wide < 2.02 * foot:
+            if np.hypot(centre.x, centre.y) < foot + 0.01 and wide > 0.5 * mm["core_radius"]:
                 edge.maxh = FOOT * coarser
         elif flat and abs(box[0].z - pads) < 1e-3 and _beside_window(edge, mm):
             edge.maxh = max(WINDOW[0] * mm["peltier_thickness"], WINDOW[1]) * coarser

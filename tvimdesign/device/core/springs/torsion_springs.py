@@ -11,6 +11,7 @@ import numpy as np
 from tvimdesign.base.record import Record
 from tvimdesign.device.table.quantity import Feature, Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.solids import structure
 from tvimdesign.physics.springs import spring
 from tvimdesign.physics.springs.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
 
@@ -295,3 +296,12 @@ def pin_safety(
     # No leg lies lower than on the plate; without that, the search is lost beyond the pole at height zero.
     height = np.fmax(coil_end_level + helix_slope * leg_arm - rotor_top_level, 0.5 * wire_diameter)
     return structure_layer_strength / spring.bending_stress(force * height, pin_diameter, 1.0)
+
+
+@quantities.output(
+    "1",
+    advice=(Rule(sense=">=", value=1.0, reason="pins may crack at their fillet: a thicker pin, or a larger fillet"),),
+)
+def pin_foot_safety(pin_safety: Scalar, pin_diameter: Scalar, foot_fillet: Scalar) -> Scalar:
+    """Bending strength of the rotor's pins, cold, over the peak of the stress at their fillet at full winding."""
+    return pin_safety / structure.bent_at_fillet(pin_diameter, foot_fillet)

@@ -1,0 +1,75 @@
+"""What lies in a pocket goes in: gaps measured on the solids, and pockets of the pad's own outline are found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import cadquery as cq
+import pytest
+from cad_designs import BLOCKS, TILES, VANE_TILES, broken_rules, design_of
+
+from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.solids import turned
+from tvimdesign.cad.inspection.fits import fit_checks
+from tvimdesign.cad.parts import shear_parts
+from tvimdesign.study.design import Design
+
+LINED = {"liner_material": "peek", "key_count": 0}
+CASES: dict[str, tuple[str, Mapping[str, Any], list[str]]] = {
+    "pads": ("shear", {}, ["peltier_pad"]), "milled": ("shear", {"process": "machine_6061"}, ["peltier_pad"]),
+    "tiles": ("shear", TILES, ["peltier_pad", "spreader"]), "lined": ("shear", LINED, ["peltier_pad", "liner"]),
+    "vanes": ("compression", BLOCKS, ["peltier_pad"]),
+    "tiles in vanes": ("compression", VANE_TILES, ["peltier_pad", "spreader"]),
+}  # fmt: skip
+
+
+def placed(design: Design, dims: Dimensions) -> dict[str, cq.Solid]:
+    kinds = [kind for kind in ("peltier_pad", "spreader", "liner") if kind in MODULES[design.mode].drawn(dims)]
+    block = "pcl_arc" if design.mode == "shear" else "pcl_block"
+    drawn = {kind: drawn_part(dims, kind) for kind in ("housing", "rotor", block, *kinds)}
+    standing = MODULES[design.mode].stand(dims, drawn, 0.0)
+    return {name: shape.Solids()[0] for name, shape in standing.items()} | {
+        kind: drawn[kind] for kind in ("housing", "rotor")
+    }
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_what_lies_in_a_pocket_has_the_clearance_of_its_process_to_every_wall(case: str) -> None:
+    mode, changes, kinds = CASES[case]
+    design = design_of(case, changes, mode)
+    dims = dimensions(design)
+    checks = list(fit_checks(dims, placed(design, dims)))
+    assert [check.part for check in checks] == kinds
+    assert all(check.ok for check in checks), [check.text for check in checks]
+    if case in ("pads", "milled"):
+        assert checks[0].value == pytest.approx(dims.slip_clearance, abs=1e-6)
+
+
+def test_a_pad_just_as_wide_as_its_pocket_does_not_go_in(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shear_parts, "_pocket", shear_parts._pad)
+    design = design_of("tight", {})
+    dims = dimensions(design)
+    (check,) = fit_checks(dims, placed(design, dims))
+    assert not check.ok
+    assert check.value == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_pad_that_stands_an_eighth_of_a_millimetre_aside_is_found() -> None:
+    design = design_of("aside", {})
+    dims = dimensions(design)
+    there = placed(design, dims)
+    there["peltier_pad_1"] = turned(there["peltier_pad_1"], 0.125 / dims.pcl_inner_radius)
+    (check,) = fit_checks(dims, there)
+    assert not check.ok
+    assert check.value == pytest.approx(dims.slip_clearance - 0.125, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("rule", "changes"),
+    [("pocket_web_margin", {"arc_span": 1.48, "minimum_wall": 3e-3}), ("pad_ledge", {"slip_clearance": 2e-3})],
+)
+def test_pockets_that_leave_too_little_floor_break_a_rule(rule: str, changes: dict[str, float]) -> None:
+    assert rule in broken_rules(design_of("near", changes))

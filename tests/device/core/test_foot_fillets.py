@@ -1,0 +1,37 @@
+"""Fillets at the feet of core and pins: as large as is asked, where legs, rim and pins leave room."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from tvimdesign.device import table_for
+from tvimdesign.study import given, read_study_text
+
+MM = 1e-3
+
+
+def found(rows: list[str], mode: str = "shear", **module: Any) -> dict[str, float]:
+    inputs = given(read_study_text(f"mode: {mode}\n", "a test").model_copy(update={"module": module}))
+    return {name: float(value) for name, value in table_for(mode).evaluate(inputs, rows).items()}
+
+
+def test_it_stays_below_the_legs_and_on_the_plate() -> None:
+    rows = ["foot_fillet", "coil_end_level", "rotor_top_level", "rotor_radius", "pin_radius"]
+    asked = found(rows, largest_foot_fillet=9.0 * MM)
+    wire, pin, play = 2.413 * MM, 4.0 * MM, 0.4 * MM
+    rooms = [asked["coil_end_level"] - 0.5 * wire - asked["rotor_top_level"] - play,
+             asked["rotor_radius"] - asked["pin_radius"] - 0.5 * pin]  # fmt: skip
+    assert 0.0 < asked["foot_fillet"] <= min(rooms) + 1e-12
+    assert found(rows, largest_foot_fillet=0.3 * MM)["foot_fillet"] == pytest.approx(0.3 * MM)
+
+
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_the_strength_of_core_and_pins_counts_it(mode: str) -> None:
+    rows = ["core_holding_torque", "pin_foot_safety", "foot_fillet"]
+    small, large = (found(rows, mode, largest_foot_fillet=at * MM, radial_clearance=2.5 * MM) for at in (0.5, 2.0))
+    assert large["foot_fillet"] == pytest.approx(2.0 * MM)
+    assert large["pin_foot_safety"] / small["pin_foot_safety"] == pytest.approx(4.0**0.33243)
+    rise = large["core_holding_torque"] / small["core_holding_torque"]
+    assert 1.01 < rise <= 1.0 / (1.10 * 2.0**-0.26) + 1e-9
