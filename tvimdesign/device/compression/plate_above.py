@@ -9,6 +9,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow.lip import Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Body, Link, Place
 
 quantities = QuantityGroup(shared.group)
@@ -93,6 +94,18 @@ def plate_losses(
             link = Link(place, ("around", beyond), share * conductance)
             found.append(_onward(link, around_pads, ambient_temperature, share))
     return tuple(found)
+
+
+@quantities.helper()
+def loss_links(plate_losses: tuple[lumps.Loss, ...]) -> tuple[Link, ...]:
+    """What passes heat from the plate to bodies around it."""
+    return tuple(loss.link for loss in plate_losses)
+
+
+@quantities.helper()
+def lip() -> Lip | None:
+    """No lip stands at a block."""
+    return None
 
 
 def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar) -> lumps.Loss:

@@ -14,15 +14,24 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import lumps, slab_faces
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
+from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
+from tvimdesign.physics.heat_flow.slab_faces import ACROSS
+from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
 UPPER, LOWER = (0, 1, 2), (3, 4, 5)
 """Places of the strips' bodies, from the pockets' walls on."""
 LEDGES, CORNER, HOUSING = 6, 7, 8
-LEGS = ("legs", 0)
+BELOW = (CORNER, *UPPER[1:])
+"""What of the floor is below each body of the plate's strip."""
+SPREADER = ("spreader", 0)
+SIDE = 2.0 * SIDE_SHARE
+"""What of half of a pad's height is its side, of one temperature; the rest is half of the legs."""
+GAP = (("beside", 0), ("around", CORNER))
+LEGS, UPPER_LEGS, LOWER_LEGS = (("legs", i) for i in range(3))
 
 
 @quantities.helper()
@@ -90,6 +99,8 @@ def floor_links(
     housing_ring: Scalar,
     floor_end: tuple[lumps.Surface, Scalar, Scalar],
     structure_conductivity: Scalar,
+    ambient_temperature: Scalar,
+    around_pads: tuple[Body, ...],
 ) -> tuple[Link, ...]:
     """What conducts within the floor, along the strips to the housing's wall and from the upper to the lower one."""
     per_depth = structure_conductivity * edge_length**2 / beside_area
@@ -106,7 +117,10 @@ def floor_links(
     found.append(_link(CORNER, UPPER[0], down[0] / (0.5 * pad_depth)))
     for i, area in enumerate(down):
         height = pad_depth if i else 0.5 * pad_depth
-        found.append(_link(UPPER[i], LOWER[i], area / (0.5 * height + floor_web / 3.0)))
+        onto, surface = (0.5 * height + floor_web / 3.0) / area, around_pads[LOWER[i]].surface
+        found += slab_faces.through_faces(
+            ("around", UPPER[i]), ("around", LOWER[i]), surface, ambient_temperature, onto, ACROSS * floor_web / area
+        )
     return tuple(found)
 
 
@@ -116,11 +130,24 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 @quantities.helper()
 def pad_wall(
-    pad_edge: Scalar, beside_area: Scalar, edge_length: Scalar, pad_depth: Scalar, structure_conductivity: Scalar
+    heater_form: str,
+    pad_edge: Scalar,
+    beside_area: Scalar,
+    edge_length: Scalar,
+    pad_depth: Scalar,
+    spreader_depth: Scalar,
+    structure_conductivity: Scalar,
 ) -> Scalar:
-    """Conductance [W/K] from one side of the pads into the first body of the floor beside half of their pockets."""
+    """Conductance [W/K] from one side of the pads into the first body of the floor beside half of their pockets.
+
+    A spreader's edge heats a share of that body's height (`lumps.constriction`).
+    """
     way = WAYS[0] * beside_area / edge_length
-    return lumps.in_series(pad_edge, structure_conductivity * 0.5 * pad_depth * edge_length / way)
+    along = structure_conductivity * 0.5 * pad_depth * edge_length / way
+    if heater_form == CUT:
+        return lumps.in_series(pad_edge, along)
+    crowded = lumps.constriction(spreader_depth / (0.5 * pad_depth))
+    return lumps.in_series(pad_edge, along, structure_conductivity * edge_length / crowded)
 
 
 @quantities.helper()
@@ -132,34 +159,71 @@ def stack_links(
     cold_area: Scalar,
     beside_area: Scalar,
     edge_length: Scalar,
-    peltier_thickness: Scalar,
     floor_web: Scalar,
     structure_conductivity: Scalar,
-    air_conductivity: Scalar,
-    surface_emissivity: Scalar,
+    tile_links: tuple[Link, ...],
+    ambient_temperature: Scalar,
+    around_pads: tuple[Body, ...],
 ) -> tuple[Link, ...]:
     """From the pads' edges into the walls of their pockets, and by their cold sides through the ledges.
 
-    A pad's upper half is on average a quarter colder than its hot side, as the legs between its sides fall evenly: half
-    of what it loses comes from that side, half from the legs' mean. So it is with its lower half. Tiles stand in air:
-    of them the spreader's edge meets a wall, and its back beside them faces the ledge through air as thick as they are.
+    A pad's upper half meets the floor's corner, its lower half what is below. Tiles stand in air: of them the
+    spreader's edge meets a wall, and its back beside them a room of air, which ends at the wall as well (`tile_room`).
     """
     first, ledge = WAYS[0] * beside_area / edge_length, (heated_area - cold_area) / edge_length
     bare = (pcl_area - heated_area) / edge_length
-    onto, to_root = (way / (structure_conductivity * edge_length) for way in lumps.ledge_ways(ledge / floor_web))
+    slender, face = ledge / floor_web, around_pads[LEDGES].surface
+    onto, to_root, under = (
+        way / (structure_conductivity * edge_length)
+        for way in (*lumps.ledge_ways(slender), slab_faces.ledge_across(slender))
+    )
     beyond = (bare + first) / (structure_conductivity * floor_web * edge_length)
     upper, lower, ledges = ("around", CORNER), ("around", UPPER[0]), ("around", LEDGES)
     hot, cold = ("hot", 0), ("cold", 0)
     if heater_form == CUT:
+        halves = ((hot, UPPER_LEGS, upper), (cold, LOWER_LEGS, lower))
         rims = [
-            Link(side, half, 0.5 * pad_wall) for half, place in ((upper, hot), (lower, cold)) for side in (place, LEGS)
+            Link(place, wall, share * pad_wall)
+            for side, legs, wall in halves
+            for place, share in ((side, SIDE), (legs, 1.0 - SIDE))
         ]
     else:
-        backs = lumps.air_gap(
-            pcl_area - heated_area, peltier_thickness, air_conductivity, surface_emissivity, hot, ledges
-        )
-        rims = [Link(hot, upper, pad_wall), backs]
-    return (*rims, Link(cold, ledges, 1.0 / onto), _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)))
+        rims = [Link(SPREADER, upper, pad_wall), *tile_links]
+    rested = slab_faces.through_faces(cold, ledges, face, ambient_temperature, onto, under)
+    return (*rims, *rested, _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)))
+
+
+@quantities.helper()
+def open_gaps(
+    beside_area: Scalar,
+    lip_over: tuple[Scalar, ...],
+    edge_length: Scalar,
+    pcl_thickness: Scalar,
+    air_conductivity: Scalar,
+    surface_emissivity: Scalar,
+    ambient_temperature: Scalar,
+    plate_faces: Scalar,
+) -> tuple[Link, ...]:
+    """Air between plate and floor beside the arcs where no lip stands, as thick as the layer."""
+    found = []
+    for share, covered, above, floor in zip(STRIP, lip_over, range(len(STRIP)), BELOW, strict=True):
+        area = share * beside_area - covered * edge_length
+        gap = lumps.air_gap(area, pcl_thickness, air_conductivity, surface_emissivity,
+                            ("beside", above), ("around", floor))  # fmt: skip
+        found.append(lumps.behind(gap, area / plate_faces, ambient_temperature))
+    return tuple(found)
+
+
+@quantities.helper()
+def loss_links(open_gaps: tuple[Link, ...]) -> tuple[Link, ...]:
+    """What passes heat from the plate beside the arcs to the floor, its lips apart."""
+    return open_gaps
+
+
+@quantities.helper()
+def plate_faces(rotor_thickness: Scalar, pad_depth: Scalar, structure_conductivity: Scalar) -> Scalar:
+    """What lies behind both faces of that gap [m^2 K/W]: a third of the plate's depth and half of the upper strip's."""
+    return (rotor_thickness / 3.0 + 0.5 * pad_depth) / structure_conductivity
 
 
 @quantities.helper()
@@ -167,44 +231,39 @@ def below_lips(
     lip_height: Scalar,
     lip_over: tuple[Scalar, ...],
     edge_length: Scalar,
-    pcl_thickness: Scalar,
     running_clearance: Scalar,
+    pad_depth: Scalar,
     air_conductivity: Scalar,
+    surface_emissivity: Scalar,
+    ambient_temperature: Scalar,
+    pcl_melting: polymer.Melting,
     structure_conductivity: Scalar,
 ) -> tuple[Scalar, ...]:
-    """What lips make the gap beside the arcs conduct better before each body of the strip [W/K]."""
-    lip = 1.0 / (running_clearance / air_conductivity + lip_height / structure_conductivity)
-    more = lip - air_conductivity / pcl_thickness
-    return tuple(more * covered * edge_length for covered in lip_over)
+    """What the clearance below the lips conducts between the floor and their lower face, over each body of the strip
+    [W/K]; its faces radiate as where the PCL is molten."""
+    gap = lumps.air_gap(1.0, running_clearance, air_conductivity, surface_emissivity, *GAP)
+    across = lumps.link_conductance(gap, pcl_melting.end, ambient_temperature)
+    each = lumps.in_series(across, structure_conductivity / (0.5 * pad_depth))
+    return tuple(each * covered * edge_length for covered in lip_over)
 
 
 @quantities.helper()
 def plate_losses(
     beside_area: Scalar,
+    open_gaps: tuple[Link, ...],
     below_lips: tuple[Scalar, ...],
-    pcl_thickness: Scalar,
-    air_conductivity: Scalar,
     housing_coefficient: Scalar,
     surface_emissivity: Scalar,
     ambient_temperature: Scalar,
     pad_depth: Scalar,
     floor_thickness: Scalar,
-    rotor_thickness: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[lumps.Loss, ...]:
-    """Air between plate and floor beside the arcs, as thick as the layer or less below lips, and what is below it.
-
-    On the way lie a third of the plate's depth and half of the upper strip's.
-    """
-    faces = (rotor_thickness / 3.0 + 0.5 * pad_depth) / structure_conductivity
+    """How the plate beside the arcs loses heat: through that gap, below lips through their clearance, and the floor."""
     open_below = lumps.Surface(1.0, housing_coefficient, surface_emissivity)
     below = lumps.surface_coefficient(open_below, ambient_temperature, ambient_temperature)
     onward = lumps.in_series(below, structure_conductivity / (floor_thickness - 0.5 * pad_depth))
-    found = []
-    for share, above, floor in zip(STRIP, range(len(STRIP)), (CORNER, *UPPER[1:]), strict=True):
-        area = share * beside_area
-        gap = lumps.air_gap(area, pcl_thickness, air_conductivity, surface_emissivity,
-                            ("beside", above), ("around", floor))  # fmt: skip
-        gap = gap._replace(conductance=gap.conductance + below_lips[above])
-        found.append(lumps.Loss(lumps.behind(gap, area / faces, ambient_temperature), onward * area))
-    return tuple(found)
+    return tuple(
+        lumps.Loss(gap._replace(conductance=gap.conductance + lip), onward * share * beside_area)
+        for gap, lip, share in zip(open_gaps, below_lips, STRIP, strict=True)
+    )

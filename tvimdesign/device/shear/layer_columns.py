@@ -8,12 +8,11 @@ import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
-from tvimdesign.device.shear.floor_heat import CORNER
+from tvimdesign.device.shear.floor_heat import CORNER, SIDE
 from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import columns, heat, peltier, star
-from tvimdesign.physics.heat_flow.star import Arm
+from tvimdesign.physics.heat_flow import columns, heat, peltier
 
 quantities = QuantityGroup(shared.group)
 
@@ -39,19 +38,19 @@ def edge_drops(
     plate_to_edge: Scalar,
     uneven_sideways: Scalar,
     cold_end: ColdEnd | None,
-    lip_arms: tuple[Arm, ...],
     edge_length: Scalar,
 ) -> tuple[Scalar, Scalar]:
     """How far the edges of the pads' hot side and of the plate's face are below their means [K], by what they lose."""
     now, corner = stack_profile, stack_profile.around[CORNER]
     side = now.hot
     if heater_form == CUT:
-        side = 0.5 * (now.hot + peltier.legs_temperature(now.hot, now.legs[0], now.cold))
+        upper = peltier.legs_temperatures(now.hot, now.legs[0], now.cold)[1]
+        side = SIDE * now.hot + (1.0 - SIDE) * upper
     mean = np.mean(now.plate)
     even = stack.beside[0].conductance * (mean - now.beside[0])
     given = pad_wall * (side - corner)
-    if cold_end is not None:
-        given = given + edge_length * cold_end.near * (now.hot - star.temperature(lip_arms, now.at))
+    if cold_end is not None and now.lip is not None:
+        given = given + edge_length * cold_end.near * (now.hot - now.lip.temperature)
     return (
         given / heater_along,
         (even + uneven_sideways * (now.plate[0] - mean)) / plate_to_edge,
@@ -65,7 +64,6 @@ def layer_temperatures(
     edge_drops: tuple[Scalar, Scalar],
     air_beside: tuple[Scalar, Scalar],
     cold_end: ColdEnd | None,
-    lip_arms: tuple[Arm, ...],
     plate_slenderness: Scalar,
     pcl_area: Scalar,
     edge_length: Scalar,
@@ -80,7 +78,7 @@ def layer_temperatures(
     count = len(stack_profile.cells)
     heights = (np.arange(count) + 0.5) / count
     width = pcl_area / edge_length / pcl_depth
-    ends = _at_end(stack_profile, heights, width, air_beside, cold_end, lip_arms, pcl_conductivity_melt)
+    ends = _at_end(stack_profile, heights, width, air_beside, cold_end, pcl_conductivity_melt)
     pads, plate = edge_drops
     share = columns.way_through(stack, heights)
     found = []
@@ -96,12 +94,11 @@ def _at_end(
     width: Scalar,
     air_beside: tuple[Scalar, Scalar],
     cold_end: ColdEnd | None,
-    lip_arms: tuple[Arm, ...],
     pcl_conductivity_melt: Scalar,
 ) -> list[Scalar]:
     """Temperatures of the slices in each column [K], by what leaves the layer at its end alone."""
-    if cold_end is not None:
-        lip = star.temperature(lip_arms, now.at)
+    if cold_end is not None and now.lip is not None:
+        lip = now.lip.temperature
         warmer = columns.beside_wall(heights, width, cold_end.contact, cold_end.free)
         return [lip + (now.cells - lip) * one for one in warmer]
     conductivity, slot = air_beside

@@ -17,14 +17,17 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.lumps import Link
+from tvimdesign.physics.heat_flow.still_air import below_lip
 from tvimdesign.physics.heat_flow.walled_end import walled_end
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
 HOT, BESIDE, FLOOR = ("hot", 0), ("beside", 0), ("around", CORNER)
-AT_CORNER = 2.0 / np.pi
-"""Length along a corner's face over the way through it: heat goes along quarter circles there."""
+AT_CORNER = 4.0 / np.pi
+"""Free height below a lip that resists as a contact does, over the contact's thickness of layer. Around a corner heat
+goes along quarter circles, which at a radius r resist pi r/2: a contact is as 2/pi of it more radius. In a quarter of a
+plane whose one face begins at c from the corner it is as if they began at c/2 (the map w = z^2)."""
 
 
 class ColdEnd(NamedTuple):
@@ -101,21 +104,21 @@ def air_beside(
 def side_links(
     edge_length: Scalar,
     air_beside: tuple[Scalar, Scalar],
-    lip_links: tuple[Link, ...],
+    melt_lip: str,
     structure_conductivity: Scalar,
 ) -> tuple[Link, ...]:
     """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
 
     `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
-    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side. A lip takes the place
-    of the way to the plate.
+    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot
+    side gives it (`still_air.below_lip`), and the lip gets the rest (`lip_heat`).
     """
     conductivity, slot = air_beside
-    near, far = lumps.gap_end(slot)
+    near, far = lumps.gap_end(slot) if melt_lip == NO_LIP else below_lip(slot)[::-1]
     through = edge_length * conductivity
+    if melt_lip != NO_LIP:
+        return (Link(HOT, FLOOR, near * through),)
     corner = structure_conductivity * edge_length * lumps.corner_shape(near)
     inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
-    if not lip_links:
-        return (to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
-    return (to_floor._replace(of_layer=None), *lip_links)
+    return (to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))

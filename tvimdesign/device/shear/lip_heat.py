@@ -10,19 +10,23 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
+from tvimdesign.device.shear.floor_heat import BELOW
 from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, star, stepped_sheet
-from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Link
+from tvimdesign.physics.heat_flow import lumps, slab_faces, stepped_sheet, still_air
+from tvimdesign.physics.heat_flow.lip import Lip
+from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Lump, Place
 from tvimdesign.physics.heat_flow.star import Arm
 
 quantities = QuantityGroup(shared.group)
 
-HOT, LAYER, FACE, BESIDE = ("hot", 0), ("layer", 0), ("face", 0), ("beside", 0)
-AT_EDGE = ((FACE, 0.5), (BESIDE, 0.5))
-"""The plate's face at the arcs' edge: the mean of above and beside, as where a heated face ends."""
+HOT, FACE, PLATE, BESIDE = ("hot", 0), ("face", 0), ("plate", 0), ("beside", 0)
+Means = tuple[tuple[Place, Scalar], ...]
+UNEVEN = 0.5
+"""What is left at the arcs' edge of how much warmer the plate's face is than its mean: half, as where a heated face
+ends."""
 
 
 @quantities.helper()
@@ -68,29 +72,72 @@ def lip_ways(
 
 
 @quantities.helper()
-def lip_arms(
-    cold_end: ColdEnd | None,
-    lip_height: Scalar,
-    edge_length: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-) -> tuple[Arm, ...]:
-    """What heats and cools a lip; nothing without lips.
+def lip_faces(lip_height: Scalar, rotor_thickness: Scalar, lip_over: tuple[Scalar, ...]) -> tuple[Scalar, ...]:
+    """How much warmer lips' lower faces are than the plate above them, over each body of the strip, over how much
+    warmer their sides are than the plate's edge [1] (`slab_faces.beyond_constriction`)."""
+    depth = lip_height + rotor_thickness
+    share, begin, found = lip_height / depth, 0.0, []
+    for covered in lip_over:
+        found.append(slab_faces.beyond_constriction(share, begin / depth, covered / depth) / lumps.constriction(share))
+        begin = begin + covered
+    return tuple(found)
 
-    Layer and pads give heat to its side (`cold_end`). From there it spreads as from a share of the end of a slab that
-    is as deep as plate and lip together (`lumps.constriction`).
+
+@quantities.helper()
+def lip_root(
+    rotor_beside: tuple[Lump, ...],
+    plate_to_edge: Scalar,
+    lip_ways: tuple[Scalar, ...],
+    lip_height: Scalar,
+    beside_area: Scalar,
+    rotor_thickness: Scalar,
+    edge_length: Scalar,
+    structure_conductivity: Scalar,
+) -> tuple[Means, Means]:
+    """Places whose mean is the strip's temperature at the arcs' edge: what lips begin from, and its mean over the depth.
+
+    The latter lies on the way from above the arcs to the first body beside them. What heat through a lip's side and
+    through the plate crowd less for one another (`lumps.constriction`) is a resistance below zero before that.
     """
-    if cold_end is None:
-        return ()
-    onto = lumps.constriction(lip_height / (lip_height + rotor_thickness))
+    share = lip_height / (lip_height + rotor_thickness)
+    together = lumps.constriction(share) * share / (1.0 - share)
+    way = WAYS[0] * beside_area / edge_length / (rotor_thickness + lip_height)
+    whole = structure_conductivity * edge_length / rotor_beside[0].conductance
+    from_lip, mean = (way - together) / whole, way / whole
     return (
-        Arm(cold_end.of_layer * edge_length, ((LAYER, 1.0),)),
-        Arm(cold_end.of_pads * edge_length, ((HOT, 1.0),)),
-        Arm(structure_conductivity / onto * edge_length, AT_EDGE),
+        ((FACE, UNEVEN), (PLATE, from_lip - UNEVEN), (BESIDE, 1.0 - from_lip)),
+        ((PLATE, mean), (BESIDE, 1.0 - mean)),
     )
 
 
 @quantities.helper()
-def lip_links(lip_arms: tuple[Arm, ...]) -> tuple[Link, ...]:
-    """What lips pass between pads, layer and plate; nothing without lips."""
-    return star.meshed(lip_arms) if lip_arms else ()
+def lip(
+    cold_end: ColdEnd | None,
+    air_beside: tuple[Scalar, Scalar],
+    below_lips: tuple[Scalar, ...],
+    lip_faces: tuple[Scalar, ...],
+    lip_root: tuple[Means, Means],
+    lip_height: Scalar,
+    edge_length: Scalar,
+    rotor_thickness: Scalar,
+    structure_conductivity: Scalar,
+) -> Lip | None:
+    """What heats and cools a lip; none without lips.
+
+    Layer and pads give heat to its side (`cold_end`), and to its lower edge through the clearance. From there it
+    spreads as from a share of the end of a slab that is as deep as plate and lip together (`lumps.constriction`). Its
+    lower face meets the floor (`lip_faces`).
+    """
+    if cold_end is None:
+        return None
+    share = lip_height / (lip_height + rotor_thickness)
+    onto = lumps.constriction(share) / (1.0 - share)
+    (root, mean), (conductivity, slot) = lip_root, air_beside
+    arms = [
+        Arm(structure_conductivity / onto * edge_length, root),
+        Arm(still_air.below_lip(slot)[0] * conductivity * edge_length, ((HOT, 1.0),)),
+    ]
+    for i, (through, warmer, floor) in enumerate(zip(below_lips, lip_faces, BELOW, strict=True)):
+        edge = tuple((place, weight * warmer) for place, weight in mean)
+        arms.append(Arm(through, ((("around", floor), 1.0), (("beside", i), -1.0), *edge), warmer))
+    return Lip(cold_end.of_layer * edge_length, cold_end.of_pads * edge_length, tuple(arms))

@@ -21,6 +21,7 @@ from tvimdesign.device.shear import (
     rotor_level,
     thermistor_seat,
     tile_heat,
+    tile_room,
     tiles,
 )
 from tvimdesign.device.table.phases import PHASES
@@ -29,7 +30,7 @@ from tvimdesign.device.table.table import Table
 
 ROOMS = (
     rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, lip_heat, floor_heat, arc_volumes,
-    arc_clearances, melt_retention, tile_heat,
+    arc_clearances, melt_retention, tile_heat, tile_room,
 )  # fmt: skip
 GROUPS = (
     *tiles.groups, *pad_pockets.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups,

@@ -25,6 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tvimdesign.physics.heat_flow import conduction, liner, lumps, peltier
+from tvimdesign.physics.heat_flow.lip import warm_lip
 from tvimdesign.physics.heat_flow.stack import Profile, Stack
 from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
@@ -121,7 +122,7 @@ def profile(state: Any, stack: Stack) -> Profile:
     # Radiation at the temperature of the outermost cell: in a thin plate that is nearly the surface's.
     outside = lumps.surface_coefficient(stack.plate_surface, plate[-1], stack.ambient) * stack.area
     outflow = outside * (plate[-1] - stack.ambient) / (1.0 + outside * plate_half)
-    return Profile(
+    now = Profile(
         cold=_kelvin(parts.cold),
         hot=hot,
         near=cells[0] + inflow * near_half,
@@ -139,6 +140,20 @@ def profile(state: Any, stack: Stack) -> Profile:
         through_layer=np.append(np.append(inflow, inside), across),
         through_plate=np.append(np.append(onward, within), outflow),
     )
+    if stack.lip is None:
+        return now
+    return now._replace(lip=warm_lip(stack.lip, cells, now.at, lambda wall: _over_mean(stack, now, wall)))
+
+
+def _over_mean(stack: Stack, now: Profile, wall: Any) -> tuple[Any, Any]:
+    """Conductivity of the polymer between each cell and a temperature, and between the pads and it, over the mean of
+    both phases [1]; with a history that of what is there."""
+    both, mean = _conductivities(stack), 0.5 * (stack.conductivity_solid + stack.conductivity_melt)
+    cells, pads = both.mixed(now.fractions), both.mixed(now.fractions[0])
+    if stack.freezing is None:
+        cells = conduction.mean_conductivity(now.cells, cells, wall, both, stack.melting)
+        pads = conduction.mean_conductivity(now.hot, pads, wall, both, stack.melting)
+    return cells / mean, pads / mean
 
 
 def _conductivities(stack: Stack) -> conduction.Conductivities:
@@ -198,17 +213,18 @@ def _pads(now: Profile, stack: Stack, current: Any, linked: Mapping[str, Sequenc
     """Heat [W] that comes to the pads' cold and hot side, what they give onwards aside, and heating [K/s] of the legs'
     middle, where they have one.
 
-    What comes to the legs by links is even over their length.
+    What comes to the legs by links is even over their length, or over a half of it.
     """
-    pads, along = stack.peltier, linked.get("legs", [0.0])[0]
+    pads, of_legs = stack.peltier, linked.get("legs", [0.0, 0.0, 0.0])
+    along, tilt = of_legs[0] + of_legs[1] + of_legs[2], peltier.OF_HALF * (of_legs[1] - of_legs[2])
     if stack.legs_capacity is None:
         cold = linked["cold"][0] - peltier.cold_side_heat(pads, current, now.hot, now.cold)
         hot = linked["hot"][0] + peltier.hot_side_heat(pads, current, now.hot, now.cold)
-        return cold + 0.5 * along, hot + 0.5 * along, now.legs
+        return cold + 0.5 * along - tilt, hot + 0.5 * along + tilt, now.legs
     legs = peltier.legs_heat(pads, current, now.hot, now.legs[0], now.cold)
     carried, of_side = pads.seebeck * current, peltier.OF_SIDE * along
-    cold = linked["cold"][0] + legs.cold - carried * now.cold + of_side
-    hot = linked["hot"][0] + legs.hot + carried * now.hot + of_side
+    cold = linked["cold"][0] + legs.cold - carried * now.cold + of_side - tilt
+    hot = linked["hot"][0] + legs.hot + carried * now.hot + of_side + tilt
     return cold, hot, (legs.middle / peltier.OF_MIDDLE + along) / stack.legs_capacity
 
 
@@ -233,12 +249,36 @@ def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
 
 def _linked(now: Profile, stack: Stack, current: Any) -> dict[str, list[Any]]:
     """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate."""
-    places = {"cold": [now.cold], "hot": [now.hot], "beside": now.beside, "around": now.around}
+    spreader = now.hot - stack.to_spreader * now.through_layer[0]
+    places = {
+        "ambient": [stack.ambient],
+        "spreader": [spreader],
+        "cold": [now.cold],
+        "hot": [now.hot],
+        "beside": now.beside,
+        "around": now.around,
+    }
     if any("legs" in (link.first[0], link.second[0]) for link in stack.links):
         settled = stack.legs_capacity is None
         middle = peltier.settled_middle(stack.peltier, current, now.hot, now.cold) if settled else now.legs[0]
-        places["legs"] = [peltier.legs_temperature(now.hot, middle, now.cold)]
-    return lumps.linked(stack.links, places, {"layer": now.cells, "plate": now.plate})
+        places["legs"] = list(peltier.legs_temperatures(now.hot, middle, now.cold))
+    linked = lumps.linked(stack.links, places, {"layer": now.cells, "plate": now.plate})
+    linked["hot"][0] = linked["hot"][0] + linked["spreader"][0]
+    if now.lip is not None:
+        _take(linked, now)
+    return linked
+
+
+def _take(linked: dict[str, list[Any]], now: Profile) -> None:
+    """Take what a lip takes from the heat that places get."""
+    assert now.lip is not None
+    linked["layer"][0] = linked["layer"][0] - now.lip.from_layer
+    for (group, i), heat in now.lip.from_places.items():
+        if group in ("face", "plate"):
+            shares = lumps.of_first(len(now.plate)) if group == "face" else 1.0 / len(now.plate)
+            linked["plate"][0] = linked["plate"][0] - heat * shares
+        else:
+            linked[group][i] = linked[group][i] - heat
 
 
 def _sideways(now: Profile, stack: Stack) -> Any:

@@ -76,7 +76,7 @@ class Lump(NamedTuple):
 
 
 Place = tuple[str, int]
-"""Where a link ends: `cold`, `hot`, `legs` between them, `layer` or `plate` of the column, the plate's first cell as
+"""Where a link ends: `ambient`, `cold`, `hot`, `legs` between these (their half next to hot is 1, to cold 2), a `spreader`, `layer` or `plate` of the column, the plate's first cell as
 its `face`, or a body `beside` or `around`, and which."""
 
 
@@ -166,7 +166,7 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
     for group, cells in divided.items():
         found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
     if "face" in found:
-        found["plate"][0] = found["plate"][0] + found["face"][0] * _first(len(divided["plate"]))
+        found["plate"][0] = found["plate"][0] + found["face"][0] * of_first(len(divided["plate"]))
     for link in links:
         if link.of_layer is not None:
             (group, i), count = link.first, len(divided["layer"])
@@ -186,7 +186,7 @@ def risen(slope: Slope, places: Mapping[str, Any], count: int) -> Any:
     return slope.share * (warm - places[group][k]) * (0.5 - (np.arange(count) + 0.5) / count)
 
 
-def _first(count: int) -> Any:
+def of_first(count: int) -> Any:
     """One for the first of so many cells, nothing for the others."""
     return 1.0 * (np.arange(count) == 0)
 

@@ -60,6 +60,19 @@ def legs_temperature(hot: Any, middle: Any, cold: Any) -> Any:
     return (hot + 4.0 * middle + cold) / 6.0
 
 
+OF_HALF = 0.25
+"""What a half of the legs is warmer than their mean, over what the side next to it is warmer than the other."""
+
+
+def legs_temperatures(hot: Any, middle: Any, cold: Any) -> tuple[Any, Any, Any]:
+    """Mean temperatures [K] of legs with that parabola: of all, of the half next to the hot side, of the other.
+
+    What the middle is above the straight line between the sides is alike in both halves: 2/3 of it in the mean.
+    """
+    mean = legs_temperature(hot, middle, cold)
+    return mean, mean + OF_HALF * (hot - cold), mean - OF_HALF * (hot - cold)
+
+
 def settled_middle(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
     """Middle of legs that the current heats evenly, once they have settled, (T_h + T_c)/2 + I^2 R/(8 K) [K].
 

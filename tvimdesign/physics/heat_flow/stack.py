@@ -8,6 +8,7 @@ import numpy as np
 
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.physics.heat_flow.liner import Liner
+from tvimdesign.physics.heat_flow.lip import Lip, WarmLip
 from tvimdesign.physics.heat_flow.lumps import Body, Link, Lump, Place, Surface
 from tvimdesign.physics.polymers import crystallization, polymer
 
@@ -62,6 +63,10 @@ class Stack(NamedTuple):
     """Kinetics of freezing; without them the equilibrium melting curve holds."""
     liner: Liner | None = None
     """A sheet between polymer and plate; `plate_contact` is then that of polymer and sheet."""
+    lip: Lip | None = None
+    """A lip of the plate at the layer's edge."""
+    to_spreader: Any = 0.0
+    """From the pads' hot side to a spreader on it [K/W], which is a part of the way to the polymer."""
 
 
 class Profile(NamedTuple):
@@ -94,6 +99,8 @@ class Profile(NamedTuple):
     """Heat [W] into the sheet's first cell, between its cells, and out of the last."""
     through_plate: Any
     """Heat [W] into the first plate cell, between the cells, and out to the air."""
+    lip: WarmLip | None = None
+    """The plate's lip, if there is one."""
 
     def at(self, place: Place) -> Any:
         """Temperature [K] of a place that a link may end at; of the legs that of their middle."""

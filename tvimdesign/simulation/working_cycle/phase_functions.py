@@ -9,6 +9,7 @@ from typing import Any
 from tvimdesign.device import Event, Path, Phase, Steady, Table
 from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
 from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.heat_flow.slab_faces import AMBIENT
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
@@ -74,9 +75,10 @@ class PhaseFunctions:
     @cached_property
     def links(self) -> Any:
         """The function inputs -> conductance [W/K] of every link between them; one that corrects another may be below
-        zero.
+        zero. Those to the air only correct what surfaces lose.
         """
-        return ca.Function("links", [self._inputs], [ca.vertcat(*(link.conductance for link in self._stack.links))])
+        links = [link for link in self._stack.links if link.second != AMBIENT]
+        return ca.Function("links", [self._inputs], [ca.vertcat(*(link.conductance for link in links))])
 
     @cached_property
     def initial(self) -> Any:

@@ -117,6 +117,14 @@ def pad_contact(
     return 1.0 / (through + spreader_resistance)
 
 
+@flows.helper()
+def to_spreader(
+    heater_form: str, heater_coverage: Scalar, spreader_contact: Scalar, spreader_resistance: Scalar
+) -> Scalar:
+    """What of that lies between the modules' hot side and the mean of the spreader [m^2 K/W]; nothing without one."""
+    return 0.0 if heater_form == CUT else 1.0 / (heater_coverage * spreader_contact) + spreader_resistance
+
+
 @flows.helper(requires=WITH_TILES)
 def spreader_capacity(spreader_mass: Scalar, spreader_specific_heat: Scalar) -> Scalar:
     """Heat capacity of all spreaders [J/K], counted at the modules' hot side; zero without."""

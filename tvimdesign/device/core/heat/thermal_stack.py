@@ -3,8 +3,8 @@
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`, `core_share`), the pads' open
 `cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
-`stack_links`, `side_links`), and by which of these the plate loses heat in the end (`plate_losses`); what of the
-layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
+`stack_links`, `side_links`, `loss_links`, and a `lip` of the plate), and how the plate loses heat in the end
+(`plate_losses`); what of the layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes from them to the layer
 (`pad_contact`), and what is heated on the way (`spreader_capacity`); and by `layer_temperatures`, `column_shares` and
 `moment_now` what a partly molten layer is to the joint. `layer_heater.py` has the layer that its own current heats.
 """
@@ -19,6 +19,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
 from tvimdesign.physics.heat_flow.liner import Liner
+from tvimdesign.physics.heat_flow.lip import Lip
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers import crystallization, polymer
 
@@ -130,10 +131,10 @@ def heat_links(
     floor_links: tuple[lumps.Link, ...],
     stack_links: tuple[lumps.Link, ...],
     side_links: tuple[lumps.Link, ...],
-    plate_losses: tuple[lumps.Loss, ...],
+    loss_links: tuple[lumps.Link, ...],
 ) -> tuple[lumps.Link, ...]:
     """What passes heat between the stack and the bodies beside and around it, and among these."""
-    return (*floor_links, *stack_links, *side_links, *(loss.link for loss in plate_losses))
+    return (*floor_links, *stack_links, *side_links, *loss_links)
 
 
 @quantities.helper()
@@ -152,6 +153,7 @@ def stack(
     surface_emissivity: Scalar,
     cold_area: Scalar,
     pad_contact: Scalar,
+    to_spreader: Scalar,
     spreader_capacity: Scalar,
     rotor_contact: Scalar,
     liner_sheet: Liner | None,
@@ -169,6 +171,7 @@ def stack(
     sink: lumps.Lump | None,
     around_pads: tuple[lumps.Body, ...],
     heat_links: tuple[lumps.Link, ...],
+    lip: Lip | None,
 ) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
     side, legs = peltier.shared_capacity(peltier_mass * peltier_specific_heat)
@@ -199,6 +202,8 @@ def stack(
         sink=sink,
         around=around_pads,
         links=heat_links,
+        lip=lip,
+        to_spreader=to_spreader / pcl_area,
         layer_resistance=layer_resistance,
     )
 

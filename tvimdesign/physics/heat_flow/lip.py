@@ -1,0 +1,66 @@
+"""A lip of the plate at the end of the layer: a body without heat capacity that layer, pads and air heat at its side.
+
+Heat comes to it through the polymer, from slices at their height and from the pads, and through its other arms
+(`star`). Between two temperatures the polymer passes as much as the mean of its conductivity between them says
+(Kirchhoff's transform, `conduction`), whatever its shape: molten it gives less than frozen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tvimdesign.physics.heat_flow import star
+from tvimdesign.physics.heat_flow.lumps import Place
+from tvimdesign.physics.heat_flow.star import Arm
+
+HOT, LAYER = ("hot", 0), ("layer", 0)
+
+
+class Lip(NamedTuple):
+    """What a lip is joined to; the polymer's conductances [W/K] are of the mean conductivity of both phases."""
+
+    slices: Any
+    """From the layer's slices, by their mean excess over the lip."""
+    pads: Any
+    """From the pads' hot side through the layer, by its excess."""
+    arms: tuple[Arm, ...]
+    """What else heats and cools it."""
+
+
+class WarmLip(NamedTuple):
+    """A lip at one instant."""
+
+    temperature: Any
+    """[K]"""
+    from_layer: Any
+    """Heat [W] that each polymer cell gives it."""
+    from_places: dict[Place, Any]
+    """Heat [W] that other places give it."""
+
+
+def warm_lip(lip: Lip, cells: Any, at: Callable[[Place], Any], conducting: Callable[[Any], tuple[Any, Any]]) -> WarmLip:
+    """A lip beside polymer `cells` [K], other places being `at` theirs.
+
+    `conducting` says how well the polymer conducts between each cell and a temperature, and between the pads and it,
+    over the mean of both phases. It is asked at the temperature that the lip has where all conducts as that mean.
+    """
+    alike = _temperature(lip, cells, at, 1.0 + 0.0 * cells, 1.0)
+    of_cells, of_pads = conducting(alike)
+    found = _temperature(lip, cells, at, of_cells, of_pads)
+    from_places = star.taken((_pads(lip, of_pads), *lip.arms), found, at)
+    return WarmLip(found, lip.slices / len(cells) * of_cells * (cells - found), from_places)
+
+
+def _pads(lip: Lip, of_pads: Any) -> Arm:
+    return Arm(of_pads * lip.pads, ((HOT, 1.0),))
+
+
+def _temperature(lip: Lip, cells: Any, at: Callable[[Place], Any], of_cells: Any, of_pads: Any) -> Any:
+    mean = np.mean(of_cells)
+    layer = Arm(lip.slices * mean, ((LAYER, 1.0),))
+    seen = np.mean(of_cells * cells) / mean
+    arms = (layer, _pads(lip, of_pads), *lip.arms)
+    return star.temperature(arms, lambda place: seen if place == LAYER else at(place))
