@@ -24,7 +24,7 @@ from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, Solve
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import BELOW_YIELD, OPTIMAL
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD, NO_COMBINATION, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 from tvimdesign.study import SolverOptions, Study
@@ -126,9 +126,17 @@ def _optimize(
         yield_reached=_yield_reached(relaxation.optimizer, run, nominal),
         out_of_time=deadline.seconds if deadline.met else None,
     )
-    if solution.status == OPTIMAL and solution.yield_reached and not solution.yield_reached.reached:
-        return replace(solution, status=BELOW_YIELD)
-    return replace(solution, status="infeasible: this design breaks its limits least") if conflict_set else solution
+    return replace(solution, status=_status(solution, no_combination=listed and search.hopeless))
+
+
+def _status(solution: Solution, *, no_combination: bool) -> str:
+    """The status of a solution, which its check cannot know: of too low a yield, or that there is no design."""
+    if solution.status == OPTIMAL:
+        below = solution.yield_reached and not solution.yield_reached.reached
+        return BELOW_YIELD if below else OPTIMAL
+    if solution.conflict_set:
+        return "infeasible: this design breaks its limits least"
+    return NO_COMBINATION if no_combination else solution.status
 
 
 def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 
 import pytest
@@ -13,14 +14,17 @@ from small_studies import COMPRESSION_BLOCKS
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
+from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.enumeration import enumerate_all
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.solution import Choosing, Solution, SolverEffort
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import NO_COMBINATION
+from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
-from tvimdesign.study import Study, given
+from tvimdesign.study import Study, given, read_study_text
 
 TABLE = table_for("shear")
 # The aluminium draws so much of the layer's heat that 9 W never soften it.
@@ -256,6 +260,23 @@ def test_where_no_combination_has_a_design_that_is_said() -> None:
     choosing = _chosen(none)
     assert not choosing.best
     assert choosing.without_design == choosing.combinations
+
+
+def test_where_a_design_lies_between_listed_sizes_the_study_is_infeasible_and_told_what_to_list() -> None:
+    """By hand: the rate goes as the wire's diameter to the fourth, 3.56 N.m/rad at most with 2.6 mm, so that 2.4 mm has
+    2.58 at most and 2.33 at least; between 2.65 and 3.1 the stroke fits at 2.5 mm, with neither of the two."""
+    study = read_study_text(
+        "mode: shear\n"
+        "vary: {wire_diameter: {choose: [2.4 mm, 2.6 mm]}, pcl_thickness: [0.6 mm, 2 mm]}\n"
+        "require: {spring_stiffness: ['>= 2.65 N.m/rad', '<= 3.1 N.m/rad']}\n"
+        "accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]\n"
+        "minimize: module_mass\nsolver: {starts: 1, cells: 6}\n"
+    )
+    found = answer(study)
+    assert found.design.status == NO_COMBINATION
+    said = complaint(found, study.table)
+    assert re.search(r"With wire_diameter 2\.[45]\d* mm there is a design: list values nearer", said)
+    assert "solver.starts" not in said  # no other start helps
 
 
 def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:

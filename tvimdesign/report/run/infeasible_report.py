@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
+from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
 from tvimdesign.report.output.results_format import Conflict, Optimum, SideEntry, Starts
 from tvimdesign.report.output.tables import NOTHING, margin_text
@@ -22,6 +23,10 @@ def complaint(answer: StudyResult, table: Table) -> str:
     lines = [f"{answer.design.name}: no design found that keeps every limit ({answer.design.status})."]
     if conflict_set:
         lines += conflict_in_words(conflict_set)
+    between = solution.choosing.between if solution and solution.choosing and not solution.choosing.best else None
+    if between:
+        values = ", ".join(f"{name} {_in_words(name, value, table)}" for name, value in between.choices.items())
+        lines.append(f"With {values} there is a design: list values nearer to these, or give a number a range.")
     broken = _worst_of_each(check for check in answer.checks if not check.kept)
     if broken:
         lines.append(
@@ -41,10 +46,14 @@ def complaint(answer: StudyResult, table: Table) -> str:
         lines.append(
             "Ease a limit, or widen a range under `vary`. The design.json written is the one that comes closest."
         )
-    else:
+    elif between is None:
         lines += endings(solution.starts if solution else ())
         lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")
     return "\n".join(lines)
+
+
+def _in_words(name: str, value: str | float, table: Table) -> str:
+    return value if isinstance(value, str) else format_quantity(value, table.unit(name))
 
 
 def _worst_of_each(checks: Iterable[ConstraintCheck]) -> list[ConstraintCheck]:

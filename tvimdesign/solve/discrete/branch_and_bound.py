@@ -72,6 +72,8 @@ class BranchAndBound:
     found: dict[tuple[int, Box], Run] = field(default_factory=dict)
     inside: float = 0.0
     """Largest share by which a design within a box was better than the box's bound."""
+    unknown: set[tuple[int, Box]] = field(default_factory=set)
+    """Combinations without a design so far of which it is not certain that they have none."""
     _open: list[Node] = field(default_factory=list)
     _made: int = 0
     _told: int = 0
@@ -110,6 +112,11 @@ class BranchAndBound:
     def stopped(self) -> bool:
         """Whether the time is over: what is open stays so."""
         return self.trees[0].optimizer.deadline.passed
+
+    @property
+    def hopeless(self) -> bool:
+        """Whether no combination has a design, as far as searches from all optima see."""
+        return not (self.found or self.unknown or self.stopped)
 
     def _begin_afresh(self) -> None:
         """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
@@ -200,7 +207,10 @@ class BranchAndBound:
             if self._promises(task):
                 first.setdefault((task.place, task.box), task)
         others: list[Task] = []
-        for key, (run, _) in zip(first, self._answers(list(first.values())), strict=False):
+        for key, (run, certain) in zip(first, self._answers(list(first.values())), strict=False):
+            self.unknown.discard(key)
+            if run is None and not certain:
+                self.unknown.add(key)
             if run is not None and (key not in self.found or order(run) < order(self.found[key])):
                 others += self._found(key, run)
         if others:

@@ -11,6 +11,8 @@ ABOVE_RATING = "above_rating"
 """Status of such a design beyond a rating that the study does not accept."""
 BELOW_YIELD = "below_yield"
 """Status of a design within its limits that fewer modules keep than the study asks."""
+NO_COMBINATION = "infeasible: nothing that is listed goes together"
+"""Status where lists are searched and no combination of what they hold has a design."""
 NO_DESIGN = "Infeasible_Problem_Detected"
 """IPOPT's word for a point from which no step brings the limits nearer."""
 
