@@ -68,6 +68,21 @@ def test_the_plate_beside_its_core_is_by_equilibrium(tmp_path: Any) -> None:
     assert rows["plate_stress"].fe == pytest.approx(0.5 * held)
 
 
+def test_vanes_cup_the_plate_they_hang_from() -> None:
+    module = resolve_study(read_study(ROOT / "studies/machined_compression.yaml"))
+    thick, core, arm, lean = (
+        float(value) for value in (module.values["rotor_thickness"], module.values["core_radius"],
+                                   module.quantity("block_between").arm, module.quantity("block_lean_out"))
+    )  # fmt: skip
+    # A moment M = F a sin x of each of n vanes, F = T/(n r), over the circumference; sheared and bent, by quadrature.
+    radius = float(module.quantity("vanes_plate").radius)
+    moment = arm * math.sin(lean) / radius / (2.0 * math.pi * (core + 5e-4))
+    bent, shear = 6.0 * moment / thick**2, math.sqrt(3.0) / (2.0 * math.pi * thick * core * (core + 1e-3))
+    mean = sum(math.hypot(shear, bent * (i + 0.5) / 1000) for i in range(1000)) / 1000
+    assert bent > 0.2 * shear
+    assert comparison.plate_stress(module, thick, core) == pytest.approx(mean, rel=1e-5)
+
+
 def test_screws_bear_what_friction_leaves(tmp_path: Any) -> None:
     found = solved(tmp_path)
     for one in (found["joint"].found, found["joint"].coarse):

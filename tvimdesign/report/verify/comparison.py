@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.physics.solids import structure
+from tvimdesign.physics.solids import structure, wedge
 from tvimdesign.report.verify.screw_rows import Carried, screw_rows
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
@@ -129,8 +129,7 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         "core_stress": found["cold_layer_strength"] / yields * 1e-6,
         "link_friction_torque": found["link_friction_torque"],
         "foot_force": 1.0 / (found["spring_count"] * found["placement_radius"]),
-        "plate_stress": structure.mises(structure.shear_beside_core(
-            1.0, found["rotor_thickness"], found["core_radius"], structure.FOOT_MEAN)) * 1e-6,
+        "plate_stress": plate_stress(module, found["rotor_thickness"], found["core_radius"]) * 1e-6,
     }  # fmt: skip
     rows |= screw_rows(module, Carried(rows["foot_force"] * found["holding_torque"], 0.0, rows["link_friction_torque"]))
     plate, floor = found["plate_stiffness"], found["floor_stiffness"]
@@ -138,6 +137,22 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         traction = found["layer_edge_traction"] / found["holding_torque"] * 1e-6
         return {**rows, "plate": plate, "floor": floor, "edge_traction": traction}
     return {**rows, **_vanes(found["rotor_vane_stiffness"], plate, found["housing_vane_stiffness"], floor)}
+
+
+def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
+    """Von Mises of the plate at one newton metre [Pa], a mean over its thickness and a millimetre beside the core.
+
+    All torque shears it; vanes that hang from it cup it besides (`wedge.foot_bending`, over the plain core's stress).
+    """
+    sheared = structure.mises(structure.shear_beside_core(1.0, thickness, core, structure.FOOT_MEAN))
+    if module.study.mode == "shear":
+        return float(sheared)
+    names = ("block_lean_out", "block_between", "vanes_plate")
+    lean, block, plate = module.table.evaluate(_drawn(module), names).values()
+    of_core = structure.mises(1.0 / structure.shaft_torque(1.0, core))
+    at = core / (core + 0.5 * structure.FOOT_MEAN)  # a moment on each length falls with the radius
+    bent = wedge.foot_bending(lean, block.arm, core, plate) * of_core * at
+    return float(structure.mean_with_bending(sheared, bent) if bent else sheared)
 
 
 def fe_values(module: ResolvedModule, found: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
