@@ -73,8 +73,9 @@ def told(cells: int, workers: int, task: str, more: list[str], folder: Path) -> 
     tables = {name: (out / name).stat().st_size / count for name in ("cells.csv", "cells.sqlite")}
     print(f"  bytes a cell                     {size / count:9.0f} in shards, "
           + ", ".join(f"{value:.0f} in {name}" for name, value in tables.items()))  # fmt: skip
-    _, clock, cpu = sweep(study, out, "--resume", *more)
-    print(f"resumed with its figure: {clock:.2f} s by the clock, {cpu:.2f} s of the processor")
+    for what in ("its figure drawn", "figure and page kept"):
+        _, clock, cpu = sweep(study, out, "--resume", *more)
+        print(f"resumed, {what}: {clock:.2f} s by the clock, {cpu:.2f} s of the processor")
     _, clock, cpu = sweep(study, out, "--resume", "--no-plots", *more)
     print(f"resumed without it: {clock:.2f} s by the clock, {cpu:.2f} s of the processor")
 
