@@ -38,7 +38,9 @@ def walls(work: cq.Workplane) -> dict[str, SolidCheck]:
     return of(wall_checks("part", Triangles(solid_mesh(one_solid(work))), 1.2, 0.8))
 
 
-def printed(work: cq.Workplane, down: str = "bottom", supported: Sequence[float] = ()) -> dict[str, SolidCheck]:
+def printed(
+    work: cq.Workplane, down: str = "bottom", supported: Sequence[tuple[float, float]] = ()
+) -> dict[str, SolidCheck]:
     return of(printing_checks("part", solid_mesh(one_solid(work)), down, radians(45.0), 10.0, BED, supported))
 
 
@@ -350,12 +352,12 @@ def test_support_at_the_levels_that_are_said_is_told_and_no_fault() -> None:
     # A plate of 30 mm on a foot of 6 mm, its lower face 5 mm above the bed, printed as it stands or turned over.
     work = box(30.0, 30.0, 2.0).translate((0, 0, 5.0)).union(box(6.0, 6.0, 5.0))
     assert printed(work)["overhang"].level == "warning"
-    found = printed(work, supported=[5.0])["overhang"]
+    found = printed(work, supported=[(5.0, 5.0)])["overhang"]
     assert found.level == "pass"
     assert "need support" in found.text
-    assert printed(work, supported=[4.0])["overhang"].level == "warning"
+    assert printed(work, supported=[(4.0, 4.0)])["overhang"].level == "warning"
     turned = work.rotate((0, 0, 0), (1, 0, 0), 180.0)
-    assert printed(turned, "top", supported=[-5.0])["overhang"].level == "pass"
+    assert printed(turned, "top", supported=[(-5.0, -5.0)])["overhang"].level == "pass"
 
 
 @pytest.mark.parametrize("bearing", ["none", "ball_6803"])

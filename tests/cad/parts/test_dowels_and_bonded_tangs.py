@@ -131,6 +131,11 @@ def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:
     design = design_of("loose", {"link_fit": "clearance", "tang_hold": "hole"})
     dims = dimensions(design)
     assert "link_dowel" not in drawn_parts(dims)
-    assert [one.kind for one in beside(design, {})] == ["polymer", "thermal_grease", "thermistor", "polyimide_film"]
+    assert [one.kind for one in beside(design, {})] == [
+        "polymer",
+        "heat_conducting_adhesive",
+        "thermistor",
+        "polyimide_film",
+    ]
     assert drawing_requirements("link", dims, design.choices).seats == []
     assert broken_rules(design_of("fitted", {})) == []

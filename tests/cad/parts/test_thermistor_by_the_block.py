@@ -49,7 +49,7 @@ def test_it_touches_what_heats_the_block_and_cuts_nothing(changes: Mapping[str, 
         ("thermistor_rim_gap", {"rotor_rim": 0.5e-3}),
         ("thermistor_height_gap", {"thermistor_length": 14e-3}),
         ("thermistor_end_gap", {"peltier_thickness": 0.3e-3}),
-        ("thermistor_hole_gap", {"thermistor_diameter": 6e-3, "placement_radius": 38e-3}),
+        ("thermistor_hole_gap", {"placement_radius": 31e-3, "vane_count": 3}),
     ],
 )
 def test_a_bead_without_room_breaks_a_rule(rule: str, changes: dict[str, float]) -> None:

@@ -102,6 +102,12 @@ def _cutout_place(_: Design, dims: Dimensions) -> str:
     return "in the window, to the outer side of the heater" if fits_in_window(dims) else "below the floor"
 
 
+def _ledge_pull(design: Design, _: Dimensions) -> str:
+    """How strongly the freezing layer pulls at what lies on the ledges; nothing where the design does not say."""
+    tension = design.values.get("ledge_tension", math.nan)
+    return f", by {1e-6 * tension:.2g} MPa there at most" if math.isfinite(tension) else ""
+
+
 def _heated_parts(_: Design, dims: Dimensions) -> str:
     """What the PCL lies on."""
     return "spreaders" if dims.spreader_depth else "pads"
@@ -113,5 +119,6 @@ _WORDS: Mapping[str, Callable[[Design, Dimensions], str]] = {
     "bonding_heat": _bonding_heat,
     "cutout_place": _cutout_place,
     "heated_parts": _heated_parts,
+    "ledge_pull": _ledge_pull,
 }
 """By the name a text has in braces."""

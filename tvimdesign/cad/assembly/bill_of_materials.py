@@ -127,8 +127,7 @@ def _resistance(design: Design) -> float:
 
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
-    grease = f"Thermal grease for {_hottest(design)}, a film under each pad, and above it where the PCL is not cast on"
-    items = [_polymer(design, titles), Item("thermal_grease", 1, False, "", grease, 0.0, ()), *_with_spreaders(design)]
+    items = [_polymer(design, titles), *_under_pads(design), *_with_spreaders(design)]
     items += [*_of_the_heater(design), *_supply(design), *_glues(design)]
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
         record = str(design.choices["liner_adhesive"])
@@ -184,6 +183,22 @@ def _glues(design: Design) -> list[Item]:
         text = f"Structural adhesive for {bears} °C, for the motor's rotor, stator and magnet"
         items.append(Item("motor_adhesive", 1, False, "", text, 0.0, ()))
     return items
+
+
+def _under_pads(design: Design) -> list[Item]:
+    """What lies between pads and housing: adhesive on the ledges that a freezing layer pulls at, grease in vanes.
+
+    Pads and spreaders in vanes are glued at their ends, and the block presses them in.
+    """
+    if design.mode == "compression":
+        grease = f"Thermal grease for {_hottest(design)}, a film behind each pad"
+        return [Item("thermal_grease", 1, False, "", grease, 0.0, ())]
+    if design.choices.get("heater_form", "flexible") != "flexible":
+        return []
+    tension = design.values.get("ledge_tension", math.nan)
+    bears = f", which bears {1e-6 * tension:.2g} MPa in tension" if math.isfinite(tension) else ""
+    words = f"Heat-conducting adhesive for {_hottest(design)}, a thin film on the pads' ledges{bears}"
+    return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
 
 
 def _hottest(design: Design) -> str:

@@ -29,7 +29,9 @@ PRODUCTION = {
     "rotor": Production(
         down="top", drawn=True,
         why="link end of the core on the bed: the face the PCL bonds to, or the vanes, come out on top without marks "
-        "of supports, which stand between plate and bed, and under the pins",
+        "of supports, which stand between plate and bed, and under the pins, whose ends hang free whichever way the "
+        "rotor lies: set supports from the bed, everywhere, a layer short of the part; the legs bear on the pins' "
+        "sides, which no support touches, so that only ends and fillets are trimmed",
     ),
     "link": Production(down="bottom", drawn=True, why="flat: no support, and the layers lie in the plane of bending"),
     "retainer": Production(down="bottom", drawn=True, why="flat: no support"),
@@ -85,9 +87,16 @@ PRODUCTION = {
 """By kind of part, of all modes."""
 
 
-def supported_levels(kind: str, dims: Dimensions) -> tuple[float, ...]:
-    """Levels [mm] at which `PRODUCTION` says that a part stands on support as it is printed, in the open."""
+def supported_levels(kind: str, dims: Dimensions) -> tuple[tuple[float, float], ...]:
+    """Levels [mm] between which `PRODUCTION` says that a part stands on support as it is printed, in the open.
+
+    A face is level there, or ends in a fillet.
+    """
     if kind == "housing":
-        lip = (dims.hub_bottom_level + dims.lower_seat_depth,) if dims.bearing_width > 0.0 else ()
-        return (-dims.floor_thickness, *lip)
-    return (dims.rotor_top_level, dims.pin_top_level) if kind == "rotor" else ()
+        levels = [-dims.floor_thickness]
+        levels += [dims.hub_bottom_level + dims.lower_seat_depth] if dims.bearing_width > 0.0 else []
+        return tuple((level, level) for level in levels)
+    if kind != "rotor":
+        return ()
+    top, pins = dims.rotor_top_level, dims.pin_top_level
+    return (top, top + dims.foot_fillet), (pins, pins)

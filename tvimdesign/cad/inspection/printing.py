@@ -40,8 +40,8 @@ class Overhang(NamedTuple):
     span: float
     """Longest of the shortest ways between walls across it [mm]; infinite where it ends in the air, or leans."""
     middle: Array
-    level: bool
-    """Whether it lies level throughout."""
+    levels: tuple[float, float]
+    """Between which it lies [mm]."""
 
 
 def lying(mesh: Mesh, down: str) -> Mesh:
@@ -56,11 +56,11 @@ def printing_checks(
     overhang_angle: float,
     bridge_span: float,
     bed: tuple[float, float, float],
-    supported: Sequence[float] = (),
+    supported: Sequence[tuple[float, float]] = (),
 ) -> list[SolidCheck]:
     """Hold a part as it is printed against the process: angle from upright [rad], lengths [mm].
 
-    `supported` are levels of the module at which faces stand on support: that is told, and no fault.
+    `supported` are levels of the module between which faces stand on support: that is told, and no fault.
     """
     triangles = Triangles(lying(mesh, down))
     found = overhangs(triangles, overhang_angle)
@@ -69,7 +69,7 @@ def printing_checks(
     hanging = [one for one in found if one.span > bridge_span]
     area = sum(one.area for one in hanging)
     worst = max(hanging, key=lambda one: one.area, default=None)
-    is_open = all(one.level and any(abs(one.middle[2] * back[2] - at) < _ON_BED for at in supported) for one in hanging)
+    is_open = all(any(_within(one, back[2], between) for between in supported) for one in hanging)
     angle = f"{degrees(overhang_angle):.3g} deg"
     text = f"{area:.4g} mm2 lean more than {angle} and are no bridge of {bridge_span:.3g} mm or less"
     if worst:
@@ -88,6 +88,12 @@ def printing_checks(
         ),
         bed_check(part, triangles.upper - triangles.lower, bed),
     ]  # fmt: skip
+
+
+def _within(one: Overhang, back: float, between: tuple[float, float]) -> bool:
+    """Whether all of an overhang is between two levels of the module; `back` is -1 where the part is turned over."""
+    low, high = sorted(back * level for level in one.levels)
+    return low > between[0] - _ON_BED and high < between[1] + _ON_BED
 
 
 def bed_check(part: str, size: Array, bed: tuple[float, float, float]) -> SolidCheck:
@@ -129,7 +135,8 @@ def _overhang(triangles: Triangles, group: Index) -> Overhang:
     if level:
         spans = across(triangles, where.point + _BELOW * down, down, _edge_directions(triangles.corners[group]))[0]
     worst = int(np.argmax(spans))
-    return Overhang(area, float(spans[worst]), where.point[worst], level)
+    heights = triangles.corners[group][:, :, 2]
+    return Overhang(area, float(spans[worst]), where.point[worst], (float(heights.min()), float(heights.max())))
 
 
 def _edge_directions(corners: Array) -> list[float]:

@@ -83,18 +83,35 @@ def thermistor_rim_gap(rotor_rim: Scalar, thermistor_diameter: Scalar) -> Scalar
     return rotor_rim - thermistor_diameter
 
 
+@rules.helper()
+def thermistor_azimuth(
+    vane_count: Scalar, housing_vane_angle: Scalar, pcl_outer_radius: Scalar, thermistor_diameter: Scalar
+) -> Scalar:
+    """Azimuth of the bead's axis [rad]: half a bead behind the face of the first vane that the first pad stands in."""
+    half = 0.5 * thermistor_diameter
+    return np.pi / vane_count + 0.5 * housing_vane_angle - np.arctan2(half, pcl_outer_radius + half)
+
+
 @rules.output("mm", at_least(0.0, "the floor between the thermistor's hole and what is beside it is too thin"))
 def thermistor_hole_gap(
     placement_radius: Scalar,
+    spring_count: Scalar,
     spring_reach: Scalar,
     adjuster_radius: Scalar,
     slip_clearance: Scalar,
     tang_clearance: Scalar,
+    thermistor_azimuth: Scalar,
     thermistor_seat_radius: Scalar,
     thermistor_seat_diameter: Scalar,
     minimum_wall: Scalar,
 ) -> Scalar:
-    """Floor between the hole and springs' tangs or adjusters' pockets beyond the least wall, where there is a hole."""
+    """Floor between the hole and the nearest spring's tang or adjuster's pocket, beyond the least wall where it is.
+
+    Springs stand at azimuth 0 and evenly around, so the nearest is arccos(cos(n a))/n beside.
+    """
     taken = np.fmax(spring_reach + tang_clearance, adjuster_radius + slip_clearance)
-    room = np.fmax(placement_radius - taken - thermistor_seat_radius, 0.0)
+    beside = np.arccos(np.fmin(np.cos(spring_count * thermistor_azimuth), 1.0 - 1e-12)) / spring_count
+    across = placement_radius * np.sin(beside)
+    away = np.sqrt((placement_radius * np.cos(beside) - thermistor_seat_radius) ** 2 + across**2)
+    room = np.fmax(away - taken, 0.0)
     return room - np.fmin(minimum_wall + 0.5 * thermistor_seat_diameter, room + 1e3 * thermistor_seat_diameter)

@@ -162,13 +162,13 @@ def foot_fillet(
 ) -> Scalar:
     """Radius of the fillets at the feet of the core and of the pins on the rotor plate.
 
-    As large as is asked for, but below the legs by a running clearance, within the plate's rim, and no more than half
-    of the way between core and pins.
+    As large as is asked for, but below the legs by a running clearance, and a tenth of a millimetre short of the
+    plate's rim and of half of the way between core and pins: where two circles touch no mesh closes.
     """
     below_legs = coil_end_level - 0.5 * wire_diameter - rotor_top_level - running_clearance
     to_rim = rotor_radius - pin_radius - 0.5 * pin_diameter
     between = 0.5 * (pin_radius - 0.5 * pin_diameter - core_radius)
-    room = np.fmin(below_legs, np.fmin(to_rim, between))
+    room = np.fmin(below_legs, np.fmin(to_rim, between) - LEAST_FILLET)
     return np.fmax(np.fmin(largest_foot_fillet, room), LEAST_FILLET)
 
 

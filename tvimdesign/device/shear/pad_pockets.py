@@ -10,12 +10,15 @@ import numpy as np
 from tvimdesign.device.core.clearances import MM
 from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.heat.heater_form import CUT
+from tvimdesign.device.core.impedance.joint_impedance import quantities as impedance
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.bodies.shapes import Section
 
 places, rules = QuantityGroup(layout.group), QuantityGroup(gaps.group)
-groups = (places, rules)
+holds = QuantityGroup(impedance.group)
+groups = (places, rules, holds)
 
 
 @places.output("mm")
@@ -48,3 +51,22 @@ def pocket_web_margin(
 def pad_ledge(heater_form: str, window_ledge: Scalar, slip_clearance: Scalar, tile_clearance: Scalar) -> Scalar:
     """Width of what a pad, or a tile, lies on beside its window when it is pushed away from there."""
     return window_ledge - (slip_clearance if heater_form == CUT else tile_clearance)
+
+
+@holds.helper()
+def ledge_area(
+    heater_form: str, pad_section: Section, peltier_length: Scalar, peltier_width: Scalar, heater_count: Scalar,
+    window_section: Section,
+) -> Scalar:  # fmt: skip
+    """What all pads, or tiles, lie on beside their windows [m^2]."""
+    lying = pad_section.area if heater_form == CUT else heater_count * peltier_length * peltier_width
+    return lying - window_section.area
+
+
+@holds.output("MPa")
+def ledge_tension(freezing_traction: Scalar, pcl_bond_strength: Scalar, pcl_area: Scalar, ledge_area: Scalar) -> Scalar:
+    """Tension that holds the pads on their ledges while the layer freezes: the adhesive there has to bear it.
+
+    The layer pulls with `freezing_traction`, its highest, over all of it, and with no more than its bond bears.
+    """
+    return np.fmin(freezing_traction, pcl_bond_strength) * pcl_area / ledge_area
