@@ -181,12 +181,23 @@ class AnotherStack:
         # Of either half of the pads a sixth is a side, the rest half of the legs' parabola.
         self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 1.0 / 6.0 / wall
         self.from_legs[[UPPER[0], CORNER]] = 5.0 / 6.0 / wall
+        self._ledges(ledge, web, onto, across)
+        self._layer_s_end()
+
+    def _ledges(self, ledge: float, web: float, onto: Array, across: Array) -> None:
+        """What leads onto ledges, and how much colder their lower face is than their mean."""
+        k, edge = self.value("structure_conductivity"), self.edge
         # A slab of the web's depth heated evenly over a part of its face that ends free: cosines over its depth.
         waves = np.pi * np.arange(1, 2001) / web
         falling = 2.0 * ledge / waves - (1.0 - np.exp(-2.0 * waves * ledge)) / waves**2
         terms, sign = falling / (waves * web * ledge**2) / (k * edge), (-1.0) ** np.arange(1, 2001)
         onto[3], across[3] = np.sum(terms), -np.sum(sign * terms)
         self.onto, self.across = onto, across
+
+    def _layer_s_end(self) -> None:
+        """From the layer's free side through the gap to floor and plate."""
+        v, edge = self.value, self.edge
+        k = v("structure_conductivity")
         # The end of the gap, as warm as the pads below: heat to its lower and to its upper wall.
         gap, slot = v("pcl_thickness"), v("air_conductivity") / v("pad_edge_contact")
         warm, cool = v("pcl_melting_end"), v("ambient_temperature")

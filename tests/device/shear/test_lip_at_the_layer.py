@@ -11,8 +11,10 @@ import pytest
 from support import ROOT
 
 from tvimdesign.device import table_for
+from tvimdesign.physics.heat_flow.conduction import Conductivities, mean_conductivity
 from tvimdesign.physics.heat_flow.lip import warm_lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, Place
+from tvimdesign.physics.polymers.polymer import fraction_at
 from tvimdesign.study import given, read_study, read_study_text
 
 MM = 1e-3
@@ -38,7 +40,7 @@ def test_the_slices_and_the_pads_give_a_metal_lip_what_a_cold_wall_takes_beyond_
     assert conductivity * wall < given_heat < 1.2 * conductivity * wall
 
 
-def alike(wall: Any) -> tuple[Any, Any]:
+def alike(_: Any) -> tuple[Any, Any]:
     """A polymer whose phases conduct alike."""
     return np.ones(CELLS), 1.0
 
@@ -71,11 +73,21 @@ def test_a_metal_lip_is_as_cold_as_the_plate_and_a_plastic_one_is_between_plate_
 )
 def test_a_plastic_lip_takes_what_the_plane_says(study: str, warm: tuple[float, ...], given_heat: float) -> None:
     inputs = given(read_study(STUDIES / f"{study}.yaml"))
-    one = TABLE.evaluate(inputs, ["lip", "edge_length"])
+    one = TABLE.evaluate(inputs, ["lip", "edge_length", "pcl_melting"])
     names = [("hot", 0), ("layer", 0), ("face", 0), ("plate", 0), *(("beside", i) for i in range(3)),
              ("around", 7), ("around", 1), ("around", 2)]  # fmt: skip
     at = dict(zip(names, warm, strict=True))
-    lip = warm_lip(one["lip"], np.full(CELLS, at["layer", 0]), at.__getitem__, alike)
+    phases = Conductivities(inputs["pcl_conductivity_solid"], inputs["pcl_conductivity_melt"])
+    melting, cells = one["pcl_melting"], np.full(CELLS, at["layer", 0])
+
+    def conducting(wall: float) -> tuple[Any, Any]:
+        kelvin, pads, cold = (celsius + 273.15 for celsius in (cells, at["hot", 0], wall))
+        own = phases.mixed(fraction_at(kelvin, melting))
+        mean = 0.5 * (phases.solid + phases.melt)
+        to_lip = (mean_conductivity(place, own[0], cold, phases, melting) / mean for place in (kelvin, pads))
+        return next(to_lip), next(to_lip)
+
+    lip = warm_lip(one["lip"], cells, at.__getitem__, conducting)
     taken = np.sum(lip.from_layer) + lip.from_places["hot", 0]
     assert taken / one["edge_length"] == pytest.approx(given_heat, rel=0.12)
 
@@ -85,15 +97,14 @@ def test_a_lip_gives_as_much_as_it_takes() -> None:
     at = {("hot", 0): 90.0, ("face", 0): 60.0, ("plate", 0): 55.0, ("around", 7): 50.0, ("around", 1): 40.0,
           ("around", 2): 30.0, ("beside", 0): 45.0, ("beside", 1): 35.0, ("beside", 2): 25.0}  # fmt: skip
     cells = np.linspace(85.0, 62.0, CELLS)
-    lip = warm_lip(one["lip"], cells, at.__getitem__, lambda wall: (np.linspace(0.9, 1.1, CELLS), 0.9))
+    lip = warm_lip(one["lip"], cells, at.__getitem__, lambda _: (np.linspace(0.9, 1.1, CELLS), 0.9))
     assert np.sum(lip.from_layer) + sum(lip.from_places.values()) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_molten_layer_gives_less_to_a_cold_lip_than_a_frozen_one() -> None:
     one = found("lip")["lip"]
     molten, frozen = (
-        warm_lip(one, np.full(CELLS, 0.5), at_the_edge(1.0), lambda wall, k=k: (np.full(CELLS, k), k))
-        for k in (0.9, 1.1)
+        warm_lip(one, np.full(CELLS, 0.5), at_the_edge(1.0), lambda _, k=k: (np.full(CELLS, k), k)) for k in (0.9, 1.1)
     )
     assert np.sum(molten.from_layer) / np.sum(frozen.from_layer) == pytest.approx(0.9 / 1.1, rel=0.01)
 

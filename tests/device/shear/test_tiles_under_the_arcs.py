@@ -193,8 +193,8 @@ def test_spreaders_face_the_ledges_beside_the_tiles_and_only_their_edges_meet_th
     links = {(link.first, link.second): link for link in values["stack"].links}
     spreader, cold, ledges, below_walls = ("spreader", 0), ("cold", 0), ("around", 6), ("around", 3)
     bare, length, web = values["pcl_area"] - values["heated_area"], values["edge_length"], values["floor_web"]
-    # Still air as thick as the tiles, 3.2 mm, between parallel grey plates of 0.9 (Incropera, ch. 13); the pocket's wall
-    # takes some of what would come to the ledge, at most half, and more from the spreader next to it.
+    # Still air as thick as the tiles, 3.2 mm, between parallel grey plates of 0.9 (Incropera, ch. 13); the pocket's
+    # wall takes some of what would come to the ledge, and more from the spreader next to it.
     found = links[spreader, ledges]
     even = known["air_conductivity"] * bare / 3.2e-3
     assert 0.2 * even < found.conductance < even

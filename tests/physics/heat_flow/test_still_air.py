@@ -125,7 +125,7 @@ def test_a_ledge_s_lower_face_is_colder_than_its_mean_by_what_two_dimensions_say
     inside = np.ones((wide + 3 * N, N), dtype=bool)
     sources = np.zeros(inside.shape)
     sources[:wide, -1] = 1.0 / wide
-    found, _ = solved(inside, lambda a, b: 0.0 if a == wide + 3 * N else None, sources)
+    found, _ = solved(inside, lambda a, _: 0.0 if a == wide + 3 * N else None, sources)
     ledge = found[:wide]
     top, bottom = (np.mean(ledge[:, k] + 0.5 * (ledge[:, k] - ledge[:, near])) for k, near in ((-1, -2), (0, 1)))
     assert ledge_ways(slenderness)[0] == pytest.approx(top - np.mean(ledge), rel=0.03)
@@ -138,7 +138,7 @@ def test_a_lip_s_lower_face_is_warmer_than_its_mean_by_what_two_dimensions_say(b
     inside = np.ones((3 * N, N), dtype=bool)
     sources = np.zeros(inside.shape)
     sources[0, : N // 3] = 3.0 / N
-    found, _ = solved(inside, lambda a, b: 0.0 if a == 3 * N else None, sources)
+    found, _ = solved(inside, lambda a, _: 0.0 if a == 3 * N else None, sources)
     first, last = round(begin * N), round((begin + width) * N)
     face = found[first:last, 0] + 0.5 * (found[first:last, 0] - found[first:last, 1])
     warmer = np.mean(face - np.mean(found[first:last], axis=1))

@@ -97,7 +97,7 @@ def lip_root(
     edge_length: Scalar,
     structure_conductivity: Scalar,
 ) -> tuple[Means, Means] | None:
-    """Places whose mean is the strip's temperature at the arcs' edge: what lips begin from, and its mean over the depth.
+    """Places whose mean is the strip's temperature at the arcs' edge: what lips begin from, and its mean in depth.
 
     The latter lies on the way from above the arcs to the first body beside them. What heat through a lip's side and
     through the plate crowd less for one another (`lumps.constriction`) is a resistance below zero before that.
