@@ -29,6 +29,8 @@ STRIPS, WAYS = np.array([0.087, 0.247, 0.666]), np.array([0.029, 0.153, 0.395])
 """Widths of the three bodies a strip is divided into and the way to each, as shares."""
 PARABOLA = np.array([[7.0, -8.0, 1.0], [-8.0, 16.0, -8.0], [1.0, -8.0, 7.0]]) / 3.0
 """Heat that a bar's two ends and its middle between them give to it, over its conductance and their temperatures."""
+UPPER_HALF, LOWER_HALF = np.array([-1.0, 8.0, 5.0]) / 12.0, np.array([5.0, 8.0, -1.0]) / 12.0
+"""Means of that parabola over half of the bar, from its values at the cold end, in the middle and at the hot end."""
 SIMPSON = np.array([1.0, 4.0, 1.0]) / 6.0
 
 
@@ -166,20 +168,36 @@ class AnotherStack:
         join(UPPER[0], UPPER[1], 0.5 * among[UPPER[0], UPPER[1]])
         join(CORNER, UPPER[1], among[UPPER[0], UPPER[1]])
         join(CORNER, UPPER[0], k * widths[0] * edge / (0.5 * pad))
-        for i, half in enumerate((0.25 * pad, 0.5 * pad, 0.5 * pad)):
-            join(UPPER[i], LOWER[i], k * widths[i] * edge / (half + web / 3.0))
+        # What is above a slab that cools below warms its lower face less than its mean: a sixth of its depth.
+        areas = np.append(widths * edge, self.area - self.window)
+        onto = np.append((np.array([0.25, 0.5, 0.5]) * pad + web / 3.0) / (k * areas[:3]), 0.0)
+        across = web / 6.0 / (k * areas)
         ledge = (self.area - self.window) / edge
         join(LEDGES, LOWER[0], k * web * edge / (ledge / 3.0 + WAYS[0] * wide))
         side = 0.5 * pad * edge
         wall = way / (v("pad_conductivity") * side) + 1.0 / (v("pad_edge_contact") * side) + WAYS[0] * wide / (k * side)
         self.from_cold, self.from_hot = np.zeros(9), np.zeros(9)
         self.from_legs = np.zeros(9)
-        self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 0.5 / wall
-        self.from_legs[[UPPER[0], CORNER]] = 0.5 / wall
+        # Of either half of the pads a sixth is a side, the rest half of the legs' parabola.
+        self.from_cold[UPPER[0]] = self.from_hot[CORNER] = 1.0 / 6.0 / wall
+        self.from_legs[[UPPER[0], CORNER]] = 5.0 / 6.0 / wall
+        self._ledges(ledge, web, onto, across)
+        self._layer_s_end()
+
+    def _ledges(self, ledge: float, web: float, onto: Array, across: Array) -> None:
+        """What leads onto ledges, and how much colder their lower face is than their mean."""
+        k, edge = self.value("structure_conductivity"), self.edge
         # A slab of the web's depth heated evenly over a part of its face that ends free: cosines over its depth.
         waves = np.pi * np.arange(1, 2001) / web
         falling = 2.0 * ledge / waves - (1.0 - np.exp(-2.0 * waves * ledge)) / waves**2
-        self.from_cold[LEDGES] = k * edge / np.sum(falling / (waves * web * ledge**2))
+        terms, sign = falling / (waves * web * ledge**2) / (k * edge), (-1.0) ** np.arange(1, 2001)
+        onto[3], across[3] = np.sum(terms), -np.sum(sign * terms)
+        self.onto, self.across = onto, across
+
+    def _layer_s_end(self) -> None:
+        """From the layer's free side through the gap to floor and plate."""
+        v, edge = self.value, self.edge
+        k = v("structure_conductivity")
         # The end of the gap, as warm as the pads below: heat to its lower and to its upper wall.
         gap, slot = v("pcl_thickness"), v("air_conductivity") / v("pad_edge_contact")
         warm, cool = v("pcl_melting_end"), v("ambient_temperature")
@@ -254,8 +272,9 @@ class AnotherStack:
         cold, hot = self.from_cold * (y[0] - y[FLOOR]), self.from_hot * (y[1] - y[FLOOR])
         up, side = self.up * (y[1] - y[BESIDE.start]), self.side * (y[1] - y[FLOOR][CORNER])
         pads = y[[0, LEGS, 1]]
-        legs = self.from_legs * (SIMPSON @ pads - y[FLOOR])
-        below, middle, above = SIMPSON * (amps**2 * self.ohms - np.sum(legs)) - self.leak * PARABOLA @ pads
+        legs = self.from_legs * (np.where(np.arange(9) == CORNER, UPPER_HALF @ pads, LOWER_HALF @ pads) - y[FLOOR])
+        given = legs[CORNER] * UPPER_HALF + legs[UPPER[0]] * LOWER_HALF
+        below, middle, above = SIMPSON * amps**2 * self.ohms - given - self.leak * PARABOLA @ pads
         watts[1 + CELLS :] -= aside
         watts[0] += above - np.sum(hot) - (1.0 - np.sum(self.within)) * (up + side)
         watts[1 : 1 + CELLS] -= self.within * (up + side)
@@ -264,17 +283,33 @@ class AnotherStack:
         )
         floor = cold + hot + legs + self.among @ y[FLOOR] - np.sum(self.among, axis=1) * y[FLOOR]
         floor[CORNER] += side
-        floor -= self.below * self._flux(y[FLOOR], self.value("housing_coefficient"), self.to_face[1])
+        down, lost = self._through(y)
+        floor[UPPER] -= down[:3]
+        floor[[*LOWER, LEDGES]] += down
+        floor -= lost
         gap = self._gap(y)
         beside[:3] -= gap
         floor[[CORNER, *UPPER[1:]]] += gap
-        everything = np.concatenate([[self._cold(y, amps) + below - np.sum(cold)], watts, beside, floor, [middle]])
+        everything = np.concatenate(
+            [[self._cold(y, amps) + below - np.sum(cold) - down[3]], watts, beside, floor, [middle]]
+        )
         if self.sink:
             given = self.window * self.value("sink_contact") * (y[0] - y[SINK])
             lost = self.value("sink_area") * self._flux(y[SINK], self.value("sink_coefficient"))
             everything = np.append(everything, given - lost)
         rates = everything / self.capacities
         return np.append(rates, self._freezing(y)) if self.kinetic else rates
+
+    def _through(self, y: Array) -> tuple[Array, Array]:
+        """Heat into the lower strip and the ledges from above, and what each body of the floor loses [W]."""
+        floor, places = y[FLOOR], [*LOWER, LEDGES]
+        above = np.append(floor[UPPER], y[0])
+        faces, down = floor.copy(), np.zeros(4)
+        for _ in range(6):
+            lost = self.below * self._flux(faces, self.value("housing_coefficient"), self.to_face[1])
+            down = (above - floor[places] - self.across * lost[places]) / self.onto
+            faces[places] = floor[places] - self.across * down
+        return down, lost
 
     @staticmethod
     def _chain(temperatures: Array, conductances: Array, inflow: float) -> Array:

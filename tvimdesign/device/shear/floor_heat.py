@@ -228,7 +228,6 @@ def plate_faces(rotor_thickness: Scalar, pad_depth: Scalar, structure_conductivi
 
 @quantities.helper()
 def below_lips(
-    lip_height: Scalar,
     lip_over: tuple[Scalar, ...],
     edge_length: Scalar,
     running_clearance: Scalar,

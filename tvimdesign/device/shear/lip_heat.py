@@ -1,8 +1,8 @@
 """Heat that the rotor plate's lips take from the layer they touch, and pass to the plate they stand on.
 
-A lip is a body without a state: layer and pads heat it at its side, and it gives all of that to the plate's edge. Its
-heat capacity is in the plate beside the arcs (`layer_heat.rotor_beside`), which its lower face heats and cools as well
-(`floor_heat.below_lips`).
+A lip is a body without a state: layer and pads heat it at its side and its lower edge, the floor heats or cools its
+lower face (`floor_heat.below_lips`), and it gives all of that to the plate's edge. Its heat capacity is in the plate
+beside the arcs (`layer_heat.rotor_beside`).
 """
 
 from __future__ import annotations
@@ -72,9 +72,13 @@ def lip_ways(
 
 
 @quantities.helper()
-def lip_faces(lip_height: Scalar, rotor_thickness: Scalar, lip_over: tuple[Scalar, ...]) -> tuple[Scalar, ...]:
+def lip_faces(
+    melt_lip: str, lip_height: Scalar, rotor_thickness: Scalar, lip_over: tuple[Scalar, ...]
+) -> tuple[Scalar, ...]:
     """How much warmer lips' lower faces are than the plate above them, over each body of the strip, over how much
-    warmer their sides are than the plate's edge [1] (`slab_faces.beyond_constriction`)."""
+    warmer their sides are than the plate's edge [1] (`slab_faces.beyond_constriction`); nothing without lips."""
+    if melt_lip == NO_LIP:
+        return (0.0,) * len(STRIP)
     depth = lip_height + rotor_thickness
     share, begin, found = lip_height / depth, 0.0, []
     for covered in lip_over:
@@ -85,20 +89,21 @@ def lip_faces(lip_height: Scalar, rotor_thickness: Scalar, lip_over: tuple[Scala
 
 @quantities.helper()
 def lip_root(
+    melt_lip: str,
     rotor_beside: tuple[Lump, ...],
-    plate_to_edge: Scalar,
-    lip_ways: tuple[Scalar, ...],
     lip_height: Scalar,
     beside_area: Scalar,
     rotor_thickness: Scalar,
     edge_length: Scalar,
     structure_conductivity: Scalar,
-) -> tuple[Means, Means]:
-    """Places whose mean is the strip's temperature at the arcs' edge: what lips begin from, and its mean over the depth.
+) -> tuple[Means, Means] | None:
+    """Places whose mean is the strip's temperature at the arcs' edge: what lips begin from, and its mean in depth.
 
     The latter lies on the way from above the arcs to the first body beside them. What heat through a lip's side and
     through the plate crowd less for one another (`lumps.constriction`) is a resistance below zero before that.
     """
+    if melt_lip == NO_LIP:
+        return None
     share = lip_height / (lip_height + rotor_thickness)
     together = lumps.constriction(share) * share / (1.0 - share)
     way = WAYS[0] * beside_area / edge_length / (rotor_thickness + lip_height)
@@ -116,7 +121,7 @@ def lip(
     air_beside: tuple[Scalar, Scalar],
     below_lips: tuple[Scalar, ...],
     lip_faces: tuple[Scalar, ...],
-    lip_root: tuple[Means, Means],
+    lip_root: tuple[Means, Means] | None,
     lip_height: Scalar,
     edge_length: Scalar,
     rotor_thickness: Scalar,
@@ -128,7 +133,7 @@ def lip(
     spreads as from a share of the end of a slab that is as deep as plate and lip together (`lumps.constriction`). Its
     lower face meets the floor (`lip_faces`).
     """
-    if cold_end is None:
+    if cold_end is None or lip_root is None:
         return None
     share = lip_height / (lip_height + rotor_thickness)
     onto = lumps.constriction(share) / (1.0 - share)

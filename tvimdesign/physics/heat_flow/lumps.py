@@ -76,8 +76,8 @@ class Lump(NamedTuple):
 
 
 Place = tuple[str, int]
-"""Where a link ends: `ambient`, `cold`, `hot`, `legs` between these (their half next to hot is 1, to cold 2), a `spreader`, `layer` or `plate` of the column, the plate's first cell as
-its `face`, or a body `beside` or `around`, and which."""
+"""Where a link ends: `ambient`, `cold`, `hot`, a `spreader` on that, `legs` (their half next to hot is 1, to cold 2),
+`layer` or `plate` of the column, the plate's first cell as its `face`, or a body `beside` or `around`, and which."""
 
 
 class Slope(NamedTuple):

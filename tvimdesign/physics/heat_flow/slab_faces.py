@@ -1,4 +1,4 @@
-"""Faces of a slab that is one body: what heat through one face, or through a part of it, makes of another's temperature.
+"""Faces of a slab that is one body: what heat through one face, or a part of it, makes of another's temperature.
 
 By separation of variables (Carslaw and Jaeger, Conduction of Heat in Solids, ch. V) and Fourier's parabola of a slab
 that is heated evenly (ch. III).

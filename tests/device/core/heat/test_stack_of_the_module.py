@@ -93,13 +93,28 @@ def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack: heat.
     # A side of the pads conducts with 6 W/m K in its plane; its edge of 0.75 mm touches the wall with 150 W/m2 K, and
     # behind that is the way to the first body of the floor.
     edge = TO_EDGE / (6.0 * 0.75e-3) + 1.0 / (150.0 * 0.75e-3) + TO_FIRST * REST / EDGE / (0.24 * 0.75e-3)
-    # Half of that comes from the side itself, half from the mean of the legs between the sides.
-    for side, place in (("hot", 7), ("cold", 0)):
-        for first in (side, "legs"):
-            found = between(stack, (first, 0), ("around", place)).conductance
-            assert found == pytest.approx(0.5 * EDGE / edge, rel=1e-9)
-    down = 0.24 * LAST * REST / (0.5 * PAD + WEB / 3.0)
-    assert between(stack, ("around", 2), ("around", 5)).conductance == pytest.approx(down, rel=1e-9)
+    # A twelfth of the pads is a side, so a sixth of their half; the rest of that is half of the legs.
+    for side, half, place in (("hot", 1, 7), ("cold", 2, 0)):
+        for first, share in (((side, 0), 1.0 / 6.0), (("legs", half), 5.0 / 6.0)):
+            found = between(stack, first, ("around", place)).conductance
+            assert found == pytest.approx(share * EDGE / edge, rel=1e-9)
+    area = LAST * REST
+    onto, across = (0.5 * PAD + WEB / 3.0) / (0.24 * area), WEB / 6.0 / (0.24 * area)
+    assert taken(stack, ("around", 2), 5) == pytest.approx(heat_into_slab(stack, 5, onto, across), rel=1e-9)
+
+
+def taken(stack: heat.Stack, above: lumps.Place, body: int) -> float:
+    """What a place gives to a body below it a kelvin colder, and the air as cold as that [W/K]."""
+    below = (("around", body), ("ambient", 0))
+    return float(sum(between(stack, above, place).conductance for place in below))
+
+
+def heat_into_slab(stack: heat.Stack, body: int, onto: float, across: float) -> float:
+    """The same by its two faces: 1 = onto q + across p of the upper one, p = U (0 - across q) of the lower."""
+    surface = stack.around[body].surface
+    outside = surface.area * lumps.surface_coefficient(surface, stack.ambient, stack.ambient)
+    matrix = np.array([[onto, across], [outside * across, 1.0]])
+    return float(np.linalg.solve(matrix, [1.0, 0.0])[0])
 
 
 def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.Stack) -> None:
@@ -110,8 +125,11 @@ def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.
     waves = np.arange(1, 4001) * np.pi
     reach = waves * width / WEB
     above_mean = np.sum(2.0 / waves**2 * (1.0 - (1.0 - np.exp(-2.0 * reach)) / (2.0 * reach)))
-    onto = between(stack, ("cold", 0), ("around", 6)).conductance
-    assert 0.24 * ledges / WEB / onto == pytest.approx(above_mean, rel=1e-3)
+    # The lower face is colder than the mean by the same terms with alternating signs.
+    signs = -((-1.0) ** np.arange(1, 4001))
+    below_mean = np.sum(signs * 2.0 / waves**2 * (1.0 - (1.0 - np.exp(-2.0 * reach)) / (2.0 * reach)))
+    onto, across = (mean * WEB / (0.24 * ledges) for mean in (above_mean, below_mean))
+    assert taken(stack, ("cold", 0), 6) == pytest.approx(heat_into_slab(stack, 6, onto, across), rel=1e-3)
     to_root = between(stack, ("around", 6), ("around", 3)).conductance
     beyond = TO_FIRST * REST / EDGE
     assert to_root == pytest.approx(0.24 * WEB * EDGE / (width / 3.0 + beyond), rel=1e-9)
