@@ -11,6 +11,7 @@ import pytest
 from support import ROOT
 
 from tvimdesign.device import table_for
+from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.heat_flow.conduction import Conductivities, mean_conductivity
 from tvimdesign.physics.heat_flow.lip import warm_lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, Place
@@ -142,3 +143,18 @@ def test_a_lip_that_has_no_room_has_finite_numbers_and_a_rule_that_says_so(thick
     assert one["melt_lip_margin"] < 0.0
     assert all(np.isfinite(value) for value in one["cold_end"])
     assert one["cold_end"].near > 0.0
+
+
+def test_a_stack_s_layer_gives_to_its_lip_as_its_phase_conducts() -> None:
+    one = found("stack")
+    stack = one["stack"]
+    for celsius, phase in ((90.0, "melt"), (40.0, "solid")):
+        state = heat.initial_state(stack, CELLS, celsius + 273.15)
+        edge = 2 + CELLS + stack.plate_cells
+        state[edge] -= 0.05
+        now = heat.profile(state, stack)
+        mean = 0.5 * (one["pcl_conductivity_solid"] + one["pcl_conductivity_melt"])
+        excess = celsius + 273.15 - now.lip.temperature
+        assert excess > 1.0
+        given_heat = stack.lip.slices * one[f"pcl_conductivity_{phase}"] / mean * excess
+        assert np.sum(now.lip.from_layer) == pytest.approx(given_heat, rel=2e-3)

@@ -100,3 +100,11 @@ def test_heat_that_the_current_makes_is_stored() -> None:
     rates, step = heat.rates(state, stack, CURRENT), 1e-3
     ends = [heat.stored_energy(state + sign * step * rates, stack) for sign in (-1.0, 1.0)]
     assert (ends[1] - ends[0]) / (2.0 * step) == pytest.approx(POWER, rel=1e-6)
+
+
+def test_halves_of_the_legs_are_as_warm_as_their_parabola() -> None:
+    hot, middle, cold = 380.0, 352.0, 300.0
+    way = (np.arange(4000) + 0.5) / 4000
+    parabola = hot + way * (4.0 * middle - 3.0 * hot - cold) + way**2 * (2.0 * hot + 2.0 * cold - 4.0 * middle)
+    expected = np.mean(parabola), np.mean(parabola[:2000]), np.mean(parabola[2000:])
+    assert peltier.legs_temperatures(hot, middle, cold) == pytest.approx(expected, rel=1e-6)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from another_stack import AnotherStack, value_of
+from another_stack import FLOOR, AnotherStack, value_of
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from support import fine
@@ -56,7 +56,9 @@ def test_what_holds_the_layer_is_what_the_air_takes(
     cold, outer = seen[0], seen[4 + model.cells + int(value("rotor_cells")) - 1]
     beside = seen[4 + model.cells + int(value("rotor_cells")) :]
     lost = np.sum(another.strips * another._flux(beside[:4], value("rotor_coefficient"), another.to_face[0]))
-    lost += np.sum(another.below * another._flux(beside[-9:], value("housing_coefficient"), another.to_face[1]))
+    seen_by_another = another.everywhere(0.0)
+    seen_by_another[0], seen_by_another[FLOOR] = cold, beside[-9:]
+    lost += np.sum(another._through(seen_by_another)[1])
     lost += _plate_loss(another, outer, 0.5 * value("rotor_thickness") / value("rotor_cells"))
     if sink:
         lost += value("sink_area") * another._flux(beside[4], value("sink_coefficient"))
