@@ -33,8 +33,8 @@ class Simulator:
     ) -> Cycle:
         """Simulate all phases with samples enough to draw each, however short it is.
 
-        A first simulation finds out how long they take, and seeks nothing else: so the same inputs have the same samples,
-        and every value that is told of them is the same, whoever asks.
+        A first simulation finds out how long they take, and seeks nothing else: so the same inputs have the same
+        samples, and every value that is told of them is the same, whoever asks.
         """
         found = self.run(inputs, current_profiles, wanted=())
         ends = {name: found.values[phase.phase.ends] for name, phase in self.model.phases.items()}
