@@ -6,6 +6,7 @@ import re
 import tomllib
 
 import yaml
+from packaging.requirements import Requirement
 from support import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
@@ -23,12 +24,26 @@ def _split(needed: str) -> tuple[str, str]:
 
 def test_the_recipe_needs_what_the_package_needs() -> None:
     project = PROJECT["project"]
-    wanted = {OF_CONDA.get(name, name): versions for name, versions in map(_split, project["dependencies"])}
+    everywhere = [needed for needed in project["dependencies"] if ";" not in needed]  # conda builds for Macs itself
+    wanted = {OF_CONDA.get(name, name): versions for name, versions in map(_split, everywhere)}
     run = dict(map(_split, RECIPE["requirements"]["run"]))
     assert run == {**wanted, "python": project["requires-python"]}
     host = dict(map(_split, RECIPE["requirements"]["host"]))
     built_with = dict(map(_split, PROJECT["build-system"]["requires"]))
     assert host == {**built_with, "python": project["requires-python"], "pip": ""}
+
+
+def test_what_pip_takes_on_an_intel_mac_has_a_wheel_there() -> None:
+    (needed,) = (Requirement(one) for one in PROJECT["project"]["dependencies"] if ";" in one)
+    assert needed.name == "llvmlite"
+    assert needed.specifier.contains("0.45.1")
+    assert not needed.specifier.contains("0.46.0")
+    macs = {machine: {"sys_platform": "darwin", "platform_machine": machine} for machine in ("x86_64", "arm64")}
+    assert needed.marker
+    assert {machine: needed.marker.evaluate(where) for machine, where in macs.items()} == {
+        "x86_64": True,
+        "arm64": False,
+    }
 
 
 def test_the_version_is_one() -> None:

@@ -51,3 +51,18 @@ def test_a_worker_stays_with_cells_of_its_kind_and_cells_of_a_dead_one_are_tried
     assert [len(left.next(1)) for _ in range(3)] == [1, 1, 1]
     assert left.next(1) == []
     assert len(left) == 0
+
+
+def test_own_records_are_found_by_a_worker_that_began_in_another_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = "mode: shear\ncatalog: records\nsolver: {cells: 6}\nsweep: {over: {spring_material: [own]}}\n"
+    own = "title: Own\nbased_on: music_wire\nvalues: {stress_relief_temperature: {value: 250, unit: degC, "
+    (tmp_path / "records/spring_materials").mkdir(parents=True)
+    (tmp_path / "records/spring_materials/own.yaml").write_text(f"{own}status: datasheet, source: a sheet}}}}\n")
+    (tmp_path / "study.yaml").write_text(study)
+    monkeypatch.chdir(tmp_path)
+    asked = plan(Path("study.yaml"))
+    job = Job.of(asked)
+    monkeypatch.chdir("/")
+    assert CellAnswers(job).answer(Cell("key", asked.points.texts(0))).status == "evaluated"
