@@ -211,3 +211,15 @@ def test_an_arc_has_its_span_and_its_middle() -> None:
 def cut_in_half() -> cq.Solid:
     whole = cq.Solid.makeCylinder(5, 3)
     return whole.intersect(cq.Solid.makeBox(10, 20, 10, cq.Vector(-10, -10, -1))).Solids()[0]
+
+
+def test_the_tip_of_a_drilled_hole_does_not_open_the_mesh() -> None:
+    """A cone that stands apart from an axis of its plate has a triangle of no size at its tip."""
+    tip = cq.Solid.makeCone(1.25, 0.0, 0.75, cq.Vector(4.907, -4.856, 2.0), cq.Vector(0, 0, -1))
+    drilled = cq.Workplane().box(20.0, 20.0, 8.0).val().cut(
+        cq.Solid.makeCylinder(1.25, 2.0, cq.Vector(4.907, -4.856, 2.0)), tip
+    )  # fmt: skip
+    mesh, worst = printed_mesh("drilled", drilled.Solids()[0])
+    assert mesh.is_watertight
+    assert mesh.volume == pytest.approx(drilled.Volume(), rel=1e-3)
+    assert worst < 0.05

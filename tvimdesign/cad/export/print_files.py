@@ -74,10 +74,15 @@ def printed_mesh(name: str, solid: cq.Solid) -> tuple[trimesh.Trimesh, float]:
 
 
 def closed(name: str, mesh: Mesh) -> trimesh.Trimesh:
-    """Return a mesh with its vertices merged; raises GeometryError where it does not enclose a body."""
+    """Return a mesh with its vertices merged; raises GeometryError where it does not enclose a body.
+
+    At the tip of a cone a triangle may have two corners at one place: it is left out.
+    """
     for digits in _DIGITS:
         body = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
         body.merge_vertices(digits_vertex=digits, merge_norm=True, merge_tex=True)
+        corners = body.faces
+        body.update_faces(np.all(corners != np.roll(corners, 1, axis=1), axis=1))
         if body.is_watertight and body.volume > 0.0:
             return body
     raise GeometryError(f"{name}: its triangle mesh is not watertight; the STEP file is sound, print from that")
