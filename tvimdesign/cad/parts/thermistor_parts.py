@@ -41,10 +41,11 @@ def standing(dims: Dimensions) -> cq.Shape:
 
 
 def hole_at_end(dims: Dimensions) -> list[cq.Shape]:
-    """The hole in the floor below such a bead; none without."""
+    """The hole below such a bead, through the floor and the sill of the vane; none without."""
     if not dims.thermistor_diameter:
         return []
-    return [cylinder(0.5 * dims.thermistor_seat_diameter, -dims.floor_thickness, 0, _at_end(dims))]
+    ends = (-dims.floor_thickness, dims.running_clearance)
+    return [cylinder(0.5 * dims.thermistor_seat_diameter, *ends, _at_end(dims))]
 
 
 def _at_end(dims: Dimensions) -> tuple[float, float]:
