@@ -159,6 +159,8 @@ def _joint(records: Sequence[Sine], known: Values, *, together: bool) -> list[Pa
 def _record(block: Block, end: str) -> Sine:
     time, angle, torque = series_of(block, ["time", "angle", "torque"], _MOST_SAMPLES)
     omega = _frequency(time, angle)
+    if not omega**2 > 0.0:
+        raise InputError(f"{block.file}: {time[-1] - time[0]:.3g} s is no time of a motion; look at the unit of time")
     if omega * (time[-1] - time[0]) < 2.0 * np.pi:
         raise InputError(f"{block.file}: the record holds less than one period")
     start: Array = np.linalg.lstsq(_harmonics(time - time[0], omega), angle, rcond=None)[0].astype(np.float64)
