@@ -17,6 +17,7 @@ LINER = {"liner_material": "peek", "liner_thickness": 0.8e-3}
 LINED = [
     pytest.param("shear", {**LINER, "key_count": 0.0}, id="arcs"),
     pytest.param("shear", {**LINER, "key_count": 0.0, "corner_radius": 1e-3}, id="arcs with a mill's corners"),
+    pytest.param("shear", {**LINER, "key_count": 0.0, "melt_lip": "rings"}, id="arcs between lips"),
     pytest.param("compression", {**LINER, "vane_thickness": 9e-3}, id="vanes", marks=pytest.mark.slow),
 ]
 
@@ -36,8 +37,8 @@ def _wider(design: Design) -> float:
     inner, outer, span, slip = (
         design.values[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span", "slip_clearance")
     )
-    longer = 1.0 + 2.0 * slip / inner / span
-    return longer * ((outer + slip) ** 2 - (inner - slip) ** 2) / (outer**2 - inner**2)
+    shorter = 1.0 - 2.0 * slip / inner / span
+    return (outer**2 - inner**2) / ((outer - slip) ** 2 - (inner + slip) ** 2) / shorter
 
 
 @pytest.mark.parametrize(("mode", "changes"), LINED)

@@ -21,15 +21,17 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
 
 
 def _on_arc(dims: Dimensions) -> cq.Shape:
-    """The liner above an arc that is centred on the x axis, flush with the rotor plate."""
-    return _over_arc(dims, (dims.pcl_inner_radius, dims.pcl_outer_radius), dims.arc_span, dims.liner_thickness)
+    """The liner above an arc that is centred on the x axis, flush with the rotor plate: it goes in between the lips."""
+    slip = dims.slip_clearance
+    radii = (dims.pcl_inner_radius + slip, dims.pcl_outer_radius - slip)
+    return _over_arc(dims, radii, dims.liner_span, dims.liner_thickness)
 
 
 def recesses_over_arc(dims: Dimensions) -> list[cq.Shape]:
     """What the rotor plate lacks above such an arc; nothing without a liner."""
     if not dims.liner_depth:
         return []
-    return [_over_arc(dims, (dims.pocket_inner_radius, dims.pocket_outer_radius), dims.pocket_span, dims.liner_depth)]
+    return [_over_arc(dims, (dims.pcl_inner_radius, dims.pcl_outer_radius), dims.arc_span, dims.liner_depth)]
 
 
 def _over_arc(dims: Dimensions, radii: tuple[float, float], span: float, depth: float) -> cq.Shape:

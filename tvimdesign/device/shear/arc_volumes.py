@@ -68,7 +68,7 @@ def pocket_section(
     pocket_outer_radius: Scalar,
     corner_radius: Scalar,
 ) -> Section:
-    """Plan view of all pockets for pads, and of all recesses for liners."""
+    """Plan view of all pockets for pads."""
     return _rounded_sector(pocket_span, pocket_inner_radius, pocket_outer_radius, corner_radius).times(arc_count)
 
 
@@ -132,16 +132,32 @@ def housing_volume(housing_moments: Section) -> Scalar:
     return housing_moments.area
 
 
-@quantities.helper(requires=WITH_LINER, default=NOTHING)
-def liner_moments(pad_section: Section, liner_thickness: Scalar) -> Section:
-    """Volume of all liners and its polar moment about the axis; a liner has the outline of a pad."""
-    return pad_section.times(liner_thickness)
+@quantities.output("deg", requires=WITH_LINER)
+def liner_span(arc_span: Scalar, slip_clearance: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+    """Angle a liner covers: at the arc's inner radius its recess is a slip clearance longer at each end; zero
+    without."""
+    return arc_span - 2.0 * slip_clearance / pcl_inner_radius
 
 
 @quantities.helper(requires=WITH_LINER, default=NOTHING)
-def liner_recess(pocket_section: Section, liner_depth: Scalar) -> Section:
-    """Volume of the recesses for the liners and its polar moment about the axis."""
-    return pocket_section.times(liner_depth)
+def liner_moments(
+    arc_count: Scalar,
+    liner_span: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    slip_clearance: Scalar,
+    corner_radius: Scalar,
+    liner_thickness: Scalar,
+) -> Section:
+    """Volume of all liners and its polar moment about the axis; a liner goes into its recess with a slip clearance."""
+    inner, outer = pcl_inner_radius + slip_clearance, pcl_outer_radius - slip_clearance
+    return _rounded_sector(liner_span, inner, outer, corner_radius).times(arc_count * liner_thickness)
+
+
+@quantities.helper(requires=WITH_LINER, default=NOTHING)
+def liner_recess(pad_section: Section, liner_depth: Scalar) -> Section:
+    """Volume of the recesses for the liners, which have the outline of the PCL, and its polar moment about the axis."""
+    return pad_section.times(liner_depth)
 
 
 @quantities.helper()
