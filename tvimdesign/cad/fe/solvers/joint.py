@@ -95,6 +95,9 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
         youngs = values["spreader_youngs_modulus"] * 1e-6
         shear["spreader"] = values.get("spreader_shear_modulus", youngs / 2e-6 / (1 + METAL)) * 1e-6
         poisson["spreader"] = youngs / 2 / shear["spreader"] - 1
+    if "liner" in mesh.GetMaterials():
+        poisson["liner"] = values["liner_poissons_ratio"]
+        shear["liner"] = values["liner_youngs_modulus"] * 1e-6 / 2 / (1 + poisson["liner"])
     mu = mesh.MaterialCF({**shear, "rotor": structure, "housing": structure})
     return mu, elastic.lame_of(mu, mesh.MaterialCF(poisson))
 

@@ -57,6 +57,10 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
     journal = mm["pcl_inner_radius"] - 0.3 if blocks else far
     rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
     rigid = not blocks and mm["spreader_depth"] > 0.0
+    # A liner fills its recess here, the film and the gap at its edges, both of adhesive, with it.
+    liners = [] if blocks or not mm.get("liner_depth") else sectors(mm, bottom, bottom + mm["liner_depth"])
+    for liner in liners:
+        rotor -= liner
     if blocks:
         heaters = [*folder.glob("peltier_pad_*.step"), *folder.glob("spreader_*.step")]
         housing = _ring_housing(read("housing"), mm, [read(path.stem) for path in sorted(heaters)])
@@ -65,6 +69,7 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
     kinds = _pressed(folder, mm, pressed) if blocks else _sheared(folder, mm)
     found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
     found += [(read(name), label, size) for name, label, size in kinds]
+    found += [(liner, "liner", SIZES["layer"]) for liner in liners]
     if rigid:
         found += [(one, "spreader", SIZES["layer"]) for one in sectors(mm, -mm["spreader_depth"], 0.0)]
     elif not blocks:

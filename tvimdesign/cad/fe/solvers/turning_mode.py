@@ -57,5 +57,5 @@ def _density(mesh: Any, values: dict[str, float]) -> Any:
     """Of every material [kg/mm^3]."""
     structure = values["structure_density"]
     kinds = {"rotor": structure, "housing": structure, "pcl": values["pcl_density"], "pad": values["peltier_density"]}
-    kinds["spreader"] = values.get("spreader_density", 0.0)
+    kinds |= {name: values.get(f"{name}_density", 0.0) for name in ("spreader", "liner")}
     return mesh.MaterialCF({name: density * 1e-9 for name, density in kinds.items()})
