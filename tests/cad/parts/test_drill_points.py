@@ -42,7 +42,9 @@ def test_volumes_and_inertias_of_milled_parts_count_their_points(changes: dict[s
     drawn = drawn_parts(dims)
     counted = {"rotor": cones(drawn["rotor"]), "housing": cones(drawn["housing"])}
     assert len(counted["rotor"]) == 5 + dims.count("dowels_fitted")
-    assert len(counted["housing"]) == (dims.count("spring_count") if dims.cover_height else 0)
+    # The cover's screws, and the marks beside the adjusters.
+    drilled = [bool(dims.cover_height), bool(dims.scale_mark_radius)]
+    assert len(counted["housing"]) == sum(drilled) * dims.count("spring_count")
     for kind in ("adjuster", "motor_hub", "motor_housing"):
         assert kind not in drawn or cones(drawn[kind]), kind
     assert [check.text for check in size_checks(design, place(dims, drawn)) if not check.ok] == []

@@ -13,13 +13,13 @@ from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 
 
-def test_dots_are_fifteen_degrees_apart_beside_the_coils_and_each_pocket_has_its_mark() -> None:
+def test_dots_are_thirty_degrees_apart_beside_the_coils_and_each_pocket_has_its_mark() -> None:
     dims = dimensions(design_of("scale", BEARINGS))
     is_dot = 0.5 * dims.scale_dot_diameter
     dots = [one for one in holes(drawn_part(dims, "adjuster")) if one.radius == pytest.approx(is_dot)]
     tang = atan2(*reversed(installed_coil(dims).tang_position))
     turns = sorted(round((degrees(atan2(one.y, one.x) - tang) % 360.0), 6) for one in dots)
-    assert turns == pytest.approx([15.0 * index for index in range(2, 23)])
+    assert turns == pytest.approx([30.0 * index for index in range(2, 11)])
     assert min(hypot(one.x, one.y) for one in dots) > 0.5 * (dims.coil_diameter + dims.wire_diameter)
     assert all(one.top == pytest.approx(0.0) and one.bottom == pytest.approx(-0.4) for one in dots)
     marks = [one for one in holes(drawn_part(dims, "housing")) if one.radius == pytest.approx(is_dot)]

@@ -1,5 +1,6 @@
 """Closed forms of core, plate, floor, vanes and link against FE of the drawn parts in validation/."""
 
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
 
@@ -80,7 +81,16 @@ BORED = [name for name in (*SHEAR, *SPREAD) if "link_screw_hole" in SHIPPED[name
 """What the holes in a core are is known of the optima of today alone."""
 
 
-@pytest.mark.parametrize("name", [*BORED, *BLOCKS])
+def beyond(names: Iterable[str], **why: str) -> list[Any]:
+    """The modules of a test, those of which the form misses FE marked with the reason: each is told in README.md."""
+    return [
+        pytest.param(name, marks=[pytest.mark.xfail(strict=True, reason=why[name.partition(",")[0]])]
+                     if name.partition(",")[0] in why and name.endswith("shipped") else [])
+        for name in names
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", beyond([*BORED, *BLOCKS], elbow_machined="a fillet of 1.06 mm lowers the peak"))
 def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
     # A mean over the first millimetre above the sharp corner, per newton metre.
     mm, _, _ = read(SHIPPED[name])
@@ -273,7 +283,9 @@ def spread_lap(case: dict[str, Any]) -> annular_lap.AnnularLap:
     return annular_lap.annular_lap(layer, 1.0 / plate, 1.0 / (metal + modules + floor), radii)
 
 
-@pytest.mark.parametrize("name", SPREAD)
+@pytest.mark.parametrize(
+    "name", beyond(SPREAD, driven_joint="a fillet of 1.5 mm on a core of 7.4 mm", elbow_machined="its liner")
+)
 def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(SHIPPED[name])
     whole, over_thickness = above_arcs(mm, shear)
@@ -282,7 +294,7 @@ def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name: str) -> None:
     assert structure.series(inside(mm, shear), 1.0 / above) == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.04)
 
 
-@pytest.mark.parametrize("name", SPREAD)
+@pytest.mark.parametrize("name", beyond(SPREAD, elbow_machined="its liner"))
 def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -> None:
     case = SHIPPED[name]
     mm, _, _ = read(case)
@@ -294,7 +306,7 @@ def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -
     assert (rises[0] > rises[1]) == (found["edge_inner"] > found["edge_outer"])
 
 
-@pytest.mark.parametrize("name", SPREAD)
+@pytest.mark.parametrize("name", beyond(SPREAD, ankle="feet of 4.2 mm radius: 10 % too soft"))
 def test_the_floor_below_rigid_modules_is_as_stiff_as_in_fe(name: str) -> None:
     case = SHIPPED[name]
     mm, youngs, shear = read(case)

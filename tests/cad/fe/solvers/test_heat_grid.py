@@ -23,6 +23,7 @@ ARC = {
     "rotor_bottom_level": 3.0, "rotor_top_level": 7.0, "link_bottom_level": 14.5, "rotor_radius": 31.2,
     "housing_inner_radius": 51.3, "housing_outer_radius": 54.3,
     "window_ledge": 2.0, "arc_span": 1.4, "arc_count": 4.0, "spring_count": 4.0,
+    "pocket_inner_radius": 17.35, "pocket_outer_radius": 29.75, "pocket_span": 1.4 + 2.0 * 0.05 / 17.4,
     "pad_depth": 3.7, "spreader_depth": 0.5, "floor_thickness": 6.5,
     "tile_radius": 22.7, "tiles_per_arc": 1.0, "tile_pitch": 1.04, "peltier_length": 20.0, "peltier_width": 10.0,
 }  # fmt: skip
