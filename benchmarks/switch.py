@@ -65,13 +65,11 @@ OF_EDGES = (
     "plate_to_edge",
     "uneven_sideways",
     "cold_end",
-    "lip_arms",
     "edge_length",
 )
 OF_COLUMNS = (
     "air_beside",
     "cold_end",
-    "lip_arms",
     "plate_slenderness",
     "pcl_area",
     "edge_length",
