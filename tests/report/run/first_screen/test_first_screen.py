@@ -48,7 +48,7 @@ require:
 """
 COOL = """mode: shear
 module:
-  {process: machine_6061, target_temperature: 75 degC, pcl_thickness: 3 mm, response_criterion: mean, current: 1.9 A,
+  {process: machine_6061, target_temperature: 75 degC, pcl_thickness: 3 mm, response_criterion: mean, current: 1.8 A,
    link_screw_length: 9 mm}
 operating_points: {hot: {temperature: 75 degC}}
 """
