@@ -13,7 +13,7 @@ import pytest
 @pytest.mark.parametrize("lack", machine.LACKS, ids=lambda lack: lack.name)
 def test_a_run_is_done_or_ends_in_one_line(lack: machine.Lack, tmp_path: Path) -> None:
     if lack.mount and not machine.mounts():
-        pytest.skip("`unshare -rm` fails here")  # a system may forbid it to its users; only these two need a disk
+        pytest.skip("`unshare -rm` fails here: a system may forbid it; only these two need a disk of their own")
     assert machine.faults_of(lack, tmp_path) == []
 
 

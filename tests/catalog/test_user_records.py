@@ -365,7 +365,7 @@ def test_a_folder_that_is_a_link_is_told_with_where_it_leads(tmp_path: Path) -> 
         Catalog(tmp_path / "own")
 
 
-@pytest.mark.skipif(not hasattr(os, "getuid"), reason="folders have no owner here")
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="Windows: no folder has a numbered owner that could be another")
 @pytest.mark.parametrize("folder", [".", "peltiers"])
 def test_another_user_s_folder_is_told_and_refused_where_anybody_writes_it(
     folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

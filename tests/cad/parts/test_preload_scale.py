@@ -9,7 +9,7 @@ from cad_designs import BEARINGS, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.geometry.dimensions import dimensions
-from tvimdesign.cad.geometry.features import holes
+from tvimdesign.cad.geometry.features import Cylinder, holes
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 
 
@@ -28,6 +28,6 @@ def test_dots_are_thirty_degrees_apart_beside_the_coils_and_each_pocket_has_its_
         assert (degrees(atan2(y, x) - azimuth) + 180.0) % 360.0 - 180.0 > 0.0
 
 
-def _in_order(marks: list) -> list[tuple[float, float]]:  # type: ignore[type-arg]
+def _in_order(marks: list[Cylinder]) -> list[tuple[float, float]]:
     """Their places, counted around the axis."""
     return sorted(((one.x, one.y) for one in marks), key=lambda at: atan2(at[1], at[0]) % 6.283185307179586)

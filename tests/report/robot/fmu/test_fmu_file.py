@@ -73,7 +73,7 @@ time.sleep(60)
 """
 
 
-@pytest.mark.skipif(not hasattr(os, "killpg"), reason="there are no groups of processes")
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
 def test_an_interrupt_ends_all_that_a_compiler_started_and_its_files_are_beside_the_fmu(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -107,7 +107,7 @@ compiled({"one.c": ""}, ".so", Path(sys.argv[1]))
 """
 
 
-@pytest.mark.skipif(not hasattr(os, "killpg"), reason="there are no groups of processes")
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
 def test_all_that_a_compiler_started_ends_with_a_command_that_is_killed(tmp_path: Path) -> None:
     told = tmp_path / "told"
     (tmp_path / "cc.py").write_text(COMPILER)
