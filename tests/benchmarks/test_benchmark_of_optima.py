@@ -54,13 +54,6 @@ def others(reference: Reference) -> list[np.ndarray]:
     return [reference.begin, *reference.random_starts(2)]
 
 
-behind = pytest.mark.xfail(
-    strict=True,
-    reason="written by hand before pockets had a clearance, feet a fillet and floors two faces (2026-11-25)",
-)
-
-
-@behind
 def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> None:
     constant = ("soft_reach", "stiff_reach", "key_width_margin", "key_pitch_margin", "hub_recess_margin", *SEAT)
     kept = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in constant]
@@ -76,7 +69,7 @@ def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> N
     assert ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
 
 
-@behind
+@pytest.mark.xfail(strict=True, reason="heat by hand is of before floors had two faces, 1.3 % early")
 def test_the_switch_written_by_hand_is_the_tables(reference: Reference) -> None:
     rows, _ = equations_by_hand(reference.begin)
     assert rows[2] == pytest.approx(lsoda(1e-9)(reference, reference.begin), rel=2e-5)
