@@ -255,11 +255,14 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     free += (to_screws - both) * BY_SCREWS / (1.0 - BY_SCREWS) + (to_dowels - both) * BY_DOWELS / (1.0 - BY_DOWELS)
     inner, far = INNER + LEDGE, outer - LEDGE
     opened, cut = span - 2.0 * LEDGE / INNER, 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0))
+    beside_corner = (5.0 / 6.0 - 0.25 * PI) / (1.0 - 0.25 * PI) * CORNER
+    cut_polar = 2.0 * corner(CORNER, far, 1.0) * ((far - beside_corner) ** 2 + beside_corner**2)
+    cut_polar += 2.0 * corner(CORNER, inner, -1.0) * ((inner + beside_corner) ** 2 + beside_corner**2)
     windows = ARCS * (0.5 * opened * (far**2 - inner**2) - cut)
     fringe = 1.0 - 1.9 * G_PAD / (BULK_PAD + 7.0 / 3.0 * G_PAD)
     across, along = 0.25 * PI * (far - inner) / PAD, 0.5 * math.log(2.0) * opened * middle / PAD / fringe
     slack = math.log(math.cosh(across)) / across * math.log(math.cosh(along)) / along
-    held = polar - slack * ARCS * (0.25 * opened * (far**4 - inner**4) - cut * middle**2)
+    held = polar - slack * ARCS * (0.25 * opened * (far**4 - inner**4) - cut_polar)
     left = 0.5 * outer**8 * (INNER**-2 - outer**-2) - outer**4 * (outer**2 - INNER**2) + (outer**6 - INNER**6) / 6.0
     left *= 2.0 / (outer**4 - INNER**4) ** 2
     driven = math.sqrt(ARCS * span / (2.0 * PI))
@@ -366,8 +369,8 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     bears = 0.5 * PI * ACROSS_LAYERS / math.sqrt(3.0) * CORE**3 / worst / HOLDING_SAFETY
     bears = min(min(BOND, SHEAR_YIELD) * polar / outer, bears, LINK_HOLDS) / (SPRINGS * r)
     bent, sheared = bears * FOOT * (tilt + 2.0) / 6.0 * BOSS / section, bears / (PI * (BOSS**2 - hole**2))
-    pulled = ACROSS_LAYERS / math.sqrt(bent**2 + 3.0 * sheared**2)
-    pressed = YIELD_COLD / math.sqrt((bent + FOOT_CLAMP) ** 2 + 3.0 * sheared**2)
+    pulled = ACROSS_LAYERS / math.sqrt(bent**2 + 3.0 * sheared**2 + 1e6)
+    pressed = YIELD_COLD / math.sqrt((bent + FOOT_CLAMP) ** 2 + 3.0 * sheared**2 + 1e6)
     g[19] = 1.0 - min(pulled, pressed) / HOLDING_SAFETY
     g[20] = 1.0 - MELT_STRAIN * t / (outer * STROKE)
     g[21] = -(r - reach - rotor - RADIAL) / 0.01
