@@ -42,8 +42,11 @@ OF_LAYER = CONDUCTS + LINKS + 3
 FALLING = 2.0 * (1.0 - (np.arange(CELLS) + 0.5) / CELLS) / CELLS
 """Where the switch's numbers have the bodies' heat capacities and surfaces; plate to its edge, and what differs from
 its mean; hot sides to the corner, either side to its wall, cold ones to the ledges, hot ones to the plate's edge; the
-links. The legs between the sides give both walls as much as a side. Last the share of what passes the layer's free side
-that its cells give in the hot sides' place, falling evenly over their depth."""
+links. Then the share of what passes the layer's free side that its cells give in the hot sides' place, falling evenly
+over their depth; last what bodies above the floor's faces and cold sides, and those below, lose to the air besides."""
+ABOVE_FACES, BELOW_FACES, OVER, UNDER = OF_LAYER + 1, OF_LAYER + 5, np.array([4, 5, 6]), np.array([7, 8, 9, 10])
+OF_LEGS_EDGE = 5.0
+"""What half of the legs gives a wall over what a side does: five sixths of half a pad's height for one."""
 LEGS, OF_SIDE, OF_LEGS = BODIES, 2.0 / 9.0, 5.0 / 9.0
 """Place of the legs' middle in the border; shares of the pads' heat capacity. Temperatures are on a parabola."""
 SEEBECK, RESISTANCE, CONDUCTANCE = 0.025, 3.0, 0.12
@@ -122,6 +125,15 @@ def loss(kelvin: float, air: float, behind: float) -> tuple[float, float]:
 
 
 @njit(cache=True)
+def to_air(bodies: Array, q: Array, gain: Array) -> None:
+    """Take what the floor's bodies lose to the air besides, as a face is not as warm as its body's mean."""
+    for i in range(3):
+        gain[OVER[i]] -= q[ABOVE_FACES + i] * (bodies[OVER[i]] - AMBIENT)
+    for i in range(4):
+        gain[UNDER[i]] -= q[BELOW_FACES + i] * (bodies[UNDER[i]] - AMBIENT)
+
+
+@njit(cache=True)
 def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     """Rates of all states; returns the temperature that the far face is below its last cell [K]."""
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], OF_SIDE * q[4], q[5]
@@ -131,22 +143,28 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     through = CONDUCTANCE * scale * (warm[1] - warm[0])
     lost, _ = loss(warm[0], OPEN_AIR, 0.0)
     above = 8.0 / 3.0 * CONDUCTANCE * scale * (bodies[LEGS] - 0.5 * (warm[0] + warm[1]))
-    legs = (warm[0] + 4.0 * bodies[LEGS] + warm[1]) / 6.0
-    of_legs = to_side * (2.0 * legs - bodies[COLD_WALL] - bodies[CORNER])
+    legs, apart = (warm[0] + 4.0 * bodies[LEGS] + warm[1]) / 6.0, 0.25 * (warm[1] - warm[0])
+    by_legs = OF_LEGS_EDGE * to_side
+    lower, upper = by_legs * (legs - apart - bodies[COLD_WALL]), by_legs * (legs + apart - bodies[CORNER])
+    of_legs, tilt = lower + upper, 0.25 * (upper - lower)
     gain[:] = 0.0
     gain[COLD_WALL], gain[LEDGE] = to_side * (warm[0] - bodies[COLD_WALL]), to_ledge * (warm[0] - bodies[LEDGE])
     gain[CORNER], gain[0] = to_corner * (warm[1] - bodies[CORNER]), up * (warm[1] - bodies[0])
-    cooled, made = gain[COLD_WALL] + gain[LEDGE], (joule - of_legs) / 6.0 + above
-    f[0] = (made + through - carried * warm[0] - windows * lost - cooled) / capacity
+    cooled, made = (
+        gain[COLD_WALL] + gain[LEDGE] + q[ABOVE_FACES + 3] * (warm[0] - AMBIENT),
+        (joule - of_legs) / 6.0 + above,
+    )
+    f[0] = (made + tilt + through - carried * warm[0] - windows * lost - cooled) / capacity
     half, contact = 0.5 * thick / CELLS / area, 1.0 / (CONTACT * area)
     flow, _, _, _ = to_wall(2, warm[1], half, contact, p)
     flow = -flow
-    f[1] = (made - through + carried * warm[1] - flow - gain[CORNER] - gain[0]) / capacity
+    f[1] = (made - tilt - through + carried * warm[1] - flow - gain[CORNER] - gain[0]) / capacity
     side = q[OF_LAYER] * ((to_corner - to_side) * (warm[1] - bodies[CORNER]) + gain[0])
     f[1] += side / capacity
     gain[LEGS] = (2.0 / 3.0 * (joule - of_legs) - 2.0 * above) / (OF_LEGS * q[4])
-    gain[COLD_WALL] += to_side * (legs - bodies[COLD_WALL])
-    gain[CORNER] += to_side * (legs - bodies[CORNER])
+    gain[COLD_WALL] += lower
+    gain[CORNER] += upper
+    to_air(bodies, q, gain)
     mass = RHO_PCL * area * thick / CELLS
     first, plate = 2 + CELLS, WITHIN / area
     across, _, _, within = to_wall(first - 1, warm[first], half, contact + plate, p)
@@ -184,13 +202,18 @@ def of_bodies(bodies: Array, q: Array, among: Array) -> None:
     """Slopes of the rates of bodies and legs by their temperatures and the plate's mean."""
     to_edge, _, to_corner, to_side, to_ledge, up = q[EDGES : EDGES + 6]
     among[0, 0], among[0, BODIES + 1] = -to_edge - up, to_edge
+    by_legs = OF_LEGS_EDGE * to_side
     among[COLD_WALL, COLD_WALL], among[LEDGE, LEDGE], among[CORNER, CORNER] = (
-        -2.0 * to_side, -to_ledge, -to_corner - to_side
+        -to_side - by_legs, -to_ledge, -to_corner - by_legs
     )  # fmt: skip
-    among[COLD_WALL, LEGS] = among[CORNER, LEGS] = 2.0 / 3.0 * to_side
+    among[COLD_WALL, LEGS] = among[CORNER, LEGS] = 2.0 / 3.0 * by_legs
     legs, own = among[LEGS], OF_LEGS * q[4]
-    legs[COLD_WALL] = legs[CORNER] = 2.0 / 3.0 * to_side / own
-    legs[LEGS] = -(16.0 / 3.0 * CONDUCTANCE * q[3] + 8.0 / 9.0 * to_side) / own
+    legs[COLD_WALL] = legs[CORNER] = 2.0 / 3.0 * by_legs / own
+    legs[LEGS] = -(16.0 / 3.0 * CONDUCTANCE * q[3] + 8.0 / 9.0 * by_legs) / own
+    for i in range(3):
+        among[OVER[i], OVER[i]] -= q[ABOVE_FACES + i]
+    for i in range(4):
+        among[UNDER[i], UNDER[i]] -= q[BELOW_FACES + i]
     for n in range(LINKS):
         a, b = JOINED[n]
         by_one, by_other = q[CONDUCTS + n], q[CONDUCTS + n]
@@ -229,17 +252,19 @@ def jacobian(y: Array, q: Array, p: Array, a: Array) -> None:
     current, area, thick, scale, capacity, windows = q[0], q[1], q[2], q[3], OF_SIDE * q[4], q[5]
     to_edge, uneven, to_corner, to_side, to_ledge, up = q[EDGES : EDGES + 6]
     warm = p[0]
-    carried, through, of_legs = SEEBECK * current * scale, CONDUCTANCE * scale, to_side / 6.0
+    carried, through, of_legs = SEEBECK * current * scale, CONDUCTANCE * scale, OF_LEGS_EDGE * to_side
     _, steep = loss(warm[0], OPEN_AIR, 0.0)
     a[:] = 0.0
     had, given = a[3 : 3 + TOUCH], a[3 + TOUCH : 3 + 2 * TOUCH]
-    within = 7.0 / 3.0 * through + of_legs / 3.0
-    a[1, 0] = -(carried + within + windows * steep + to_side + to_ledge) / capacity
-    a[2, 0] = a[0, 1] = -(through + of_legs) / 3.0 / capacity
+    within = 7.0 / 3.0 * through + 13.0 / 72.0 * of_legs
+    a[1, 0] = -(carried + within + windows * steep + to_side + to_ledge + q[ABOVE_FACES + 3]) / capacity
+    a[2, 0] = a[0, 1] = (5.0 / 72.0 * of_legs - through / 3.0) / capacity
     a[1, 1] = (carried - within - to_corner - up) / capacity
-    had[0, 1], had[1, 0], had[2, 0], had[3, 1] = up, to_side + of_legs, to_ledge, to_corner + of_legs
-    had[1, 1] = had[3, 0] = of_legs
-    had[4, 0] = had[4, 1] = 8.0 / 3.0 * through - 4.0 / 3.0 * of_legs
+    had[0, 1], had[1, 0], had[2, 0], had[3, 1] = (
+        up, to_side + 5.0 / 12.0 * of_legs, to_ledge, to_corner + 5.0 / 12.0 * of_legs
+    )  # fmt: skip
+    had[1, 1] = had[3, 0] = -of_legs / 12.0
+    had[4, 0] = had[4, 1] = 8.0 / 3.0 * through - 2.0 / 9.0 * of_legs
     given[:, :2] = had[:, :2]
     had[:, :2] /= capacity
     given[0] /= q[CAPACITIES]

@@ -58,7 +58,7 @@ HOUSING_AIR = 5.0
 BLACK, AMBIENT, ZETA_3 = 5.670374419e-8, 295.15, 1.2020569032
 
 SPRINGS = 4.0
-OUTPUTS, RESIDUALS, HEAT = 3, 46, 60
+OUTPUTS, RESIDUALS, HEAT = 3, 46, 68
 """Rows: volume [m^3], mass [kg], nothing yet; then every limit's residual, kept where <= 0, in the order of the study
 and the table, without the rules on impedance and keys that no design of this problem can break. HEAT numbers for the
 switch.
@@ -121,11 +121,11 @@ def beside(area: float, windows: float, rotor: float, inside: float, t: float, e
         heat[10 + i], heat[23 + i] = own[i] * edge * PAD * per_volume * (1.0 if i else 0.5), 0.0
         heat[13 + i], heat[26 + i] = own[i] * edge * web * per_volume, own[i] * edge
     heat[16], heat[29], heat[17], heat[30] = ledge * web * per_volume, ledge, heat[10], 0.0
-    # plate to its edge, and what differs over its depth from its mean; pads into the floor, half of it from their legs
+    # plate to its edge, and what differs over its depth from its mean; a side of the pads, a sixth of half their height
     sheet = K_PETG * ROTOR * edge
     heat[32], heat[33] = sheet / (over + half), sheet / (over + ROTOR / PI)
     side = 0.5 * PAD * edge
-    heat[35] = 0.5 / (way / (K_PAD * side) + 1.0 / (PAD_EDGE * side) + half / (K_PETG * side))
+    heat[35] = 1.0 / 6.0 / (way / (K_PAD * side) + 1.0 / (PAD_EDGE * side) + half / (K_PETG * side))
     # the layer's side: through the end of the gap to the floor's corner, and to the plate
     grey = EMISSIVITY / (2.0 - EMISSIVITY)
     crosswise = K_AIR + t * grey * BLACK * (MOLTEN**2 + AMBIENT**2) * (MOLTEN + AMBIENT)
@@ -162,6 +162,21 @@ def beside(area: float, windows: float, rotor: float, inside: float, t: float, e
     for i in range(3):
         heat[49 + i] = K_PETG * own[i] * edge / ((0.5 if i else 0.25) * PAD + web / 3.0)
     heat[52] = lower / (slim * web / 3.0 + half)
+    # what is above a slab that cools below warms its lower face less than its mean: three of the floor, and the ledges
+    air = HOUSING_AIR + 4.0 * EMISSIVITY * BLACK * AMBIENT**3
+    turned = 0.0
+    for i in range(1, 4):
+        turned += (-1.0) ** (i + 1) * math.exp(-2.0 * i * PI * slim) / i**3
+    for i in range(4):
+        if i < 3:
+            place, through, less = 49 + i, 26 + i, web / 6.0 / (K_PETG * own[i] * edge)
+        else:
+            place, through = 36, 29
+            less = (1.0 / (6.0 * slim) - (0.75 * ZETA_3 - turned) / (PI**3 * slim**2)) / (K_PETG * edge)
+        crossed = less * heat[through] * air / (1.0 + air * web / (3.0 * K_PETG))
+        whole = 1.0 / heat[place] - less * crossed
+        heat[place], heat[60 + i] = (1.0 + crossed) / whole, -crossed / whole
+        heat[64 + i] = (1.0 + crossed) * crossed / whole
     heat[40] = 1.0 / (math.log(INNER / CORE) / (2.0 * PI * K_PETG * ROTOR) + BEYOND * wide / sheet)
     walls = (ROTOR / 3.0 + 0.5 * PAD) / K_PETG
     share = 1.0 / (1.0 + walls * (K_AIR / t + 4.0 * grey * BLACK * AMBIENT**3))

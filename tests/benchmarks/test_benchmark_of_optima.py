@@ -69,7 +69,6 @@ def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> N
     assert ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
 
 
-@pytest.mark.xfail(strict=True, reason="heat by hand is of before floors had two faces, 1.3 % early")
 def test_the_switch_written_by_hand_is_the_tables(reference: Reference) -> None:
     rows, _ = equations_by_hand(reference.begin)
     assert rows[2] == pytest.approx(lsoda(1e-9)(reference, reference.begin), rel=2e-5)
