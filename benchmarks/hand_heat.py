@@ -125,12 +125,15 @@ def loss(kelvin: float, air: float, behind: float) -> tuple[float, float]:
 
 
 @njit(cache=True)
-def to_air(bodies: Array, q: Array, gain: Array) -> None:
-    """Take what the floor's bodies lose to the air besides, as a face is not as warm as its body's mean."""
+def lose(bodies: Array, q: Array, gain: Array) -> None:
+    """Rates of the bodies from what they gain: less what they lose to the air, by faces not as warm as their means."""
     for i in range(3):
         gain[OVER[i]] -= q[ABOVE_FACES + i] * (bodies[OVER[i]] - AMBIENT)
     for i in range(4):
         gain[UNDER[i]] -= q[BELOW_FACES + i] * (bodies[UNDER[i]] - AMBIENT)
+    for k in range(BODIES):
+        lost, _ = loss(bodies[k], PARTS_AIR, BEHIND[k])
+        gain[k] = (gain[k] - q[SURFACES + k] * lost) / q[CAPACITIES + k]
 
 
 @njit(cache=True)
@@ -164,7 +167,6 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
     gain[LEGS] = (2.0 / 3.0 * (joule - of_legs) - 2.0 * above) / (OF_LEGS * q[4])
     gain[COLD_WALL] += lower
     gain[CORNER] += upper
-    to_air(bodies, q, gain)
     mass = RHO_PCL * area * thick / CELLS
     first, plate = 2 + CELLS, WITHIN / area
     across, _, _, within = to_wall(first - 1, warm[first], half, contact + plate, p)
@@ -191,9 +193,7 @@ def rates(y: Array, q: Array, p: Array, f: Array) -> float:
             passed += q[CONDUCTS + n + 3] * BLACK * (one**4 - other**4)
         gain[a] -= passed
         gain[b] += passed
-    for k in range(BODIES):
-        lost, _ = loss(bodies[k], PARTS_AIR, BEHIND[k])
-        gain[k] = (gain[k] - q[SURFACES + k] * lost) / q[CAPACITIES + k]
+    lose(bodies, q, gain)
     return across * within
 
 
