@@ -21,7 +21,7 @@ LENGTHS = (
     "arc_count", "arc_span", "floor_web", "pcl_thickness", "peltier_thickness", "window_ledge", "vane_count",
     "vane_height", "vane_thickness", "block_height", "block_width", "slot_web", "housing_vane_thickness",
     "flange_bore_radius", "flange_outer_radius", "spreader_depth",
-    "block_depth", "slot_count", "adjuster_radius", "adjuster_thickness", "slip_clearance",
+    "block_depth", "slot_count", "liner_thickness", "liner_depth", "adjuster_radius", "adjuster_thickness", "slip_clearance",
     "tile_radius", "heater_count", "peltier_length", "peltier_width",
     "link_screw_hole", "link_screw_depth", "link_bolt_circle_radius",
     "link_dowel_count", "link_dowel_diameter", "link_dowel_depth", "link_dowel_circle_radius",
@@ -52,10 +52,7 @@ class Row(NamedTuple):
         ]
 
 
-BEYOND = {
-    ("driven_joint", "plate"), ("elbow_machined", "core_stress"), ("elbow_machined", "edge_traction"),
-    ("elbow_machined", "plate_stress"),
-}  # fmt: skip
+BEYOND = {("driven_joint", "plate"), ("elbow_machined", "edge_traction"), ("elbow_machined", "plate_stress")}
 """Studies and quantities beyond the tenth, each with the figure in README.md."""
 LEFT_OUT: set[str] = set()
 """Shipped studies not in the table: those of which a part misses the tenth, with the reason in README.md."""
@@ -93,6 +90,8 @@ def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], 
         case["pad_bulk_modulus"] = values["peltier_bulk_modulus"] * 1e-9
     if mm.get("spreader_depth") and inputs["mode"] == "shear":
         case["spreader_shear_modulus"] = values["spreader_shear_modulus"] * 1e-9
+    if mm.get("liner_depth") and inputs["mode"] == "shear":
+        case["liner_shear_modulus"] = values["liner_youngs_modulus"] * 0.5e-9 / (1.0 + values["liner_poissons_ratio"])
     table, given_here = table_for(inputs["mode"]), {**given(read_study(ROOT / f"studies/{study}.yaml")), **varied}
     frozen = float(table.evaluate(given_here, ["frozen_shear_modulus"])["frozen_shear_modulus"])
     return case | {"frozen_shear_modulus": float(f"{frozen * 1e-9:.4g}")}

@@ -26,8 +26,8 @@ from ngsolve import (
 
 STRETCH = 2.0
 """Length along an edge over which its highest stress is a mean [mm]."""
-PEAKS = 1.44
-"""Fillet [mm] from which on the model has the peak along it, not the mean over a millimetre of a sharp foot."""
+PEAKS = 1.0
+"""Fillet [mm] from which on its peak is read. The mean over a millimetre above a sharp foot would lie inside it."""
 ASIDE = 0.01
 """How far within the surface it is read [mm]."""
 
