@@ -28,6 +28,7 @@ E_PETG, NU_PETG, RHO_PETG, K_PETG, C_PETG, ACROSS_LAYERS = 2.1e9, 0.38, 1270.0, 
 G_PETG = E_PETG / (2.0 * (1.0 + NU_PETG))
 LOSS = 0.03 + 0.01  # of PETG and of what is clamped
 SHAFT_ENTRY, BORE_ENTRY, PLATE_ENTRY, BORED_PLATE, ROCKING = 0.1, 0.15, 0.38, 0.2, 0.34
+FILLET_SHORTENS, FILLET_GIVES = 0.48, 0.12
 CORE_FOOT, BORED_FOOT, NEAR_FOOT, HOLDING_SAFETY = 0.796, 1.41, 0.25, 1.25
 FILLET, LEAST_FILLET, FILLETED_FOOT, SLIP = 1.5e-3, 1e-4, 1.10, 0.2e-3
 YIELD_COLD, FOOT_CLAMP = 47.5e6, 55e6 * 25.0 / 104.0  # in a foot under its screw
@@ -267,6 +268,7 @@ def measure(x: Array, rows: Array, heat: Array) -> None:
     to_screws, to_dowels = min(link_deep, free + BORE_ENTRY * CORE), min(dowel_deep, free + BORE_ENTRY * CORE)
     both = min(to_screws, to_dowels)
     free += SHAFT_ENTRY * CORE + both * (BY_SCREWS + BY_DOWELS) / (1.0 - BY_SCREWS - BY_DOWELS)
+    free += (FILLET_GIVES - FILLET_SHORTENS) * fillet  # the plate's share too: both are lengths of the core
     free += (to_screws - both) * BY_SCREWS / (1.0 - BY_SCREWS) + (to_dowels - both) * BY_DOWELS / (1.0 - BY_DOWELS)
     inner, far = INNER + LEDGE, outer - LEDGE
     opened, cut = span - 2.0 * LEDGE / INNER, 2.0 * (corner(CORNER, far, 1.0) + corner(CORNER, inner, -1.0))

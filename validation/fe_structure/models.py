@@ -22,7 +22,7 @@ LENGTHS = (
     "vane_height", "vane_thickness", "block_height", "block_width", "slot_web", "housing_vane_thickness",
     "flange_bore_radius", "flange_outer_radius", "spreader_depth",
     "block_depth", "slot_count", "liner_thickness", "liner_depth",
-    "adjuster_radius", "adjuster_thickness", "slip_clearance",
+    "adjuster_radius", "adjuster_thickness", "slip_clearance", "foot_fillet",
     "tile_radius", "heater_count", "peltier_length", "peltier_width",
     "link_screw_hole", "link_screw_depth", "link_bolt_circle_radius",
     "link_dowel_count", "link_dowel_diameter", "link_dowel_depth", "link_dowel_circle_radius",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 from math import pi
 
 import numpy as np
 import pytest
+from support import ROOT
 
 from tvimdesign.physics.bodies.shapes import fillet_at_foot
 from tvimdesign.physics.solids import structure
@@ -55,3 +57,24 @@ def test_a_fillet_has_the_volume_and_polar_moment_that_are_counted() -> None:
     found = fillet_at_foot(radius, fillet)
     assert found.area == pytest.approx(np.trapezoid(2.0 * pi * r * high, r), rel=1e-6)
     assert found.polar == pytest.approx(np.trapezoid(2.0 * pi * r**3 * high, r), rel=1e-6)
+
+
+with (ROOT / "validation/fe_structure/fillets.csv").open(newline="") as file:
+    TURNED = [{name: float(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
+
+
+@pytest.mark.parametrize(
+    "row", TURNED, ids=lambda row: "-".join(f"{row[name]:g}" for name in ("radius", "plate", "fillet"))
+)
+def test_a_fillet_makes_core_and_plate_as_much_stiffer_and_softer_as_finite_elements_say(row: dict[str, float]) -> None:
+    none, modulus = structure.Bores(0.0, 0.0, 1.0), 1e9
+    radius, plate, fillet = (row[name] * MM for name in ("radius", "plate", "fillet"))
+    per_length = 1.0 / structure.shaft_stiffness(modulus, radius, 1.0)
+
+    def gives(q: float) -> tuple[float, float]:
+        core = structure.bored_shaft_stiffness(modulus, radius, 1.5 * radius, none, none, q)
+        return 1.0 / core, 1.0 / structure.plate_stiffness(modulus, plate, radius, 4.0 * radius, 0.0, q)
+
+    core, around = ((now - then) / per_length / fillet for now, then in zip(gives(fillet), gives(0.0), strict=True))
+    assert -core == pytest.approx(row["bar_shorter"], abs=0.11)
+    assert around == pytest.approx(row["plate_longer"], abs=0.06)

@@ -67,6 +67,10 @@ SHAFT_ENTRY = 0.10
 """Length over radius by which the way into the plate lengthens a core; calibrated to validation/fe_structure."""
 BORE_ENTRY = 0.15
 """Length over radius by which holes that go on into the plate weaken that way; calibrated likewise."""
+FILLET_SHORTENS, FILLET_GIVES = 0.48, 0.12
+"""Of a fillet's radius at the core's foot: how much shorter the core is by it, and how much core the plate gives more
+for it, as the torque enters further out but over the fillet's own ring. Torsion of a round bar on a plate by numbers
+(validation/fe_structure/fillets.csv), radii of 6 to 12 mm on 3 to 5 mm: 0.38 to 0.58 and 0.07 to 0.14."""
 
 
 class Bores(NamedTuple):
@@ -80,11 +84,13 @@ class Bores(NamedTuple):
     """Radius of the circle they stand on [m]."""
 
 
-def bored_shaft_stiffness(modulus: Any, radius: Any, length: Any, first: Bores, second: Bores) -> Any:
-    """Round bar with two sets of holes from its upper end, standing on a plate [N*m/rad].
+def bored_shaft_stiffness(
+    modulus: Any, radius: Any, length: Any, first: Bores, second: Bores, fillet: Any = 0.0
+) -> Any:
+    """Round bar with two sets of holes from its upper end, standing on a plate with a fillet q around it [N*m/rad].
 
-    G pi r^4/2 over L + sum l w/(1 - w) + 0.10 r, summed over the length l that both sets reach and that only one does,
-    down to 0.15 r below the plate's face. FE of cores as drawn: within 7 %.
+    G pi r^4/2 over L + sum l w/(1 - w) + 0.10 r - 0.48 q, summed over the length l that both sets reach and that only
+    one does, down to 0.15 r below the plate's face. FE of cores as drawn: within 7 %.
     """
     deep = [np.fmin(bores.depth, length + BORE_ENTRY * radius) for bores in (first, second)]
     both = np.fmin(*deep)
@@ -94,7 +100,7 @@ def bored_shaft_stiffness(modulus: Any, radius: Any, length: Any, first: Bores, 
         (deep[1] - both, second.weakening),
     ]
     longer = sum(reach * weakening / (1.0 - weakening) for reach, weakening in stretches) + SHAFT_ENTRY * radius
-    return shaft_stiffness(modulus, radius, length + longer)
+    return shaft_stiffness(modulus, radius, length + longer - FILLET_SHORTENS * fillet)
 
 
 FOOT_MEAN = 1e-3
@@ -190,14 +196,18 @@ BORED_ENTRY = 0.2
 validation/fe_structure."""
 
 
-def plate_stiffness(modulus: Any, thickness: Any, core_radius: Any, inner_radius: Any, felt: Any = 0.0) -> Any:
+def plate_stiffness(
+    modulus: Any, thickness: Any, core_radius: Any, inner_radius: Any, felt: Any = 0.0, fillet: Any = 0.0
+) -> Any:
     """Plate turned by a core that stands on it, out to the inner edge of what it drives [N*m/rad].
 
-    1/K = ((1 + 0.38 (h/a)^2 + 0.2 w)/a^2 - 1/b^2)/(4 pi G h): the torque spreads over the plate's thickness as it
-    enters, and goes around holes on its way, w of `felt_at_foot`.
+    1/K = ((1 + 0.38 (h/a)^2 + 0.2 w)/a^2 - 1/b^2)/(4 pi G h) + 0.12 q/(G J): the torque spreads over the plate's
+    thickness as it enters, goes around holes on its way, w of `felt_at_foot`, and out through a fillet q around the
+    core, J the core's polar moment.
     """
     entry = 1.0 + PLATE_ENTRY * (thickness / core_radius) ** 2 + BORED_ENTRY * felt
-    return ring_stiffness(modulus, thickness, core_radius / np.sqrt(entry), inner_radius)
+    around = ring_stiffness(modulus, thickness, core_radius / np.sqrt(entry), inner_radius)
+    return 1.0 / (1.0 / around + FILLET_GIVES * fillet / shaft_stiffness(modulus, core_radius, 1.0))
 
 
 def covered_ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, outer_radius: Any, covered: Any) -> Any:

@@ -54,11 +54,12 @@ def core_stiffness(
     rotor_top_level: Scalar,
     core_screw_bores: structure.Bores,
     core_dowel_bores: structure.Bores,
+    foot_fillet: Scalar,
 ) -> Scalar:
     """Torsional stiffness of the core between rotor plate and output link."""
     length = link_bottom_level - rotor_top_level
     return structure.bored_shaft_stiffness(
-        structure_shear_modulus, core_radius, length, core_screw_bores, core_dowel_bores
+        structure_shear_modulus, core_radius, length, core_screw_bores, core_dowel_bores, foot_fillet
     )
 
 
@@ -73,11 +74,14 @@ def plate_stiffness(
     core_dowel_bores: structure.Bores,
     pcl_inner_radius: Scalar,
     over_arcs_compliance: Scalar,
+    foot_fillet: Scalar,
 ) -> Scalar:
     """Torsional stiffness of the rotor plate from the core to where the PCL takes the torque over."""
     length = link_bottom_level - rotor_top_level
     felt = structure.felt_at_foot(core_radius, length, core_screw_bores, core_dowel_bores)
-    inside = structure.plate_stiffness(structure_shear_modulus, rotor_thickness, core_radius, pcl_inner_radius, felt)
+    inside = structure.plate_stiffness(
+        structure_shear_modulus, rotor_thickness, core_radius, pcl_inner_radius, felt, foot_fillet
+    )
     return 1.0 / (1.0 / inside + over_arcs_compliance)
 
 

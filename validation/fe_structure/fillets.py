@@ -1,0 +1,81 @@
+"""FE of a round bar turned on a plate, with a fillet around its foot; solves the rows of fillets.csv anew.
+
+    FE/bin/python validation/fe_structure/fillets.py
+
+FE/bin/python has netgen-mesher and ngsolve. The plate is four times as wide as the bar and held at its rim; the bar's
+end turns by one. The twist w(r, z) of a body of revolution is found from div(r^3 grad w) = 0 (Timoshenko and Goodier,
+torsion of shafts of varying diameter), with a shear modulus of 1 and displacements of the fourth order. Energy above
+the plate's face and within it, over the torque squared, is the compliance of bar and plate; each less that of a bar
+with a sharp foot, in lengths of the bar and over the fillet's radius, is what the table tells.
+"""
+
+from __future__ import annotations
+
+import csv
+from itertools import product
+from math import pi
+from pathlib import Path
+
+from netgen.geom2d import SplineGeometry
+from ngsolve import H1, BilinearForm, GridFunction, IfPos, Integrate, Mesh, dx, grad, x
+
+TABLE = Path(__file__).with_name("fillets.csv")
+RADII, PLATES, FILLETS = (6.0, 7.5, 9.0, 12.0), (3.0, 4.0, 5.0), (0.5, 1.0, 1.5, 2.0)
+LONG, WIDE = 1.5, 4.0
+"""Length of the bar and radius of the plate, over the bar's radius."""
+
+
+def meshed(radius: float, plate: float, fillet: float) -> Mesh:
+    """Half section: the plate below z = 0, the bar and its fillet above, fine at the foot."""
+    outline, end, rim = SplineGeometry(), LONG * radius, WIDE * radius
+    below, corner, outer = (outline.AppendPoint(*at) for at in ((0, -plate), (rim, -plate), (rim, 0)))
+    foot, middle = outline.AppendPoint(radius + fillet, 0), outline.AppendPoint(0, 0)
+    top, centre = outline.AppendPoint(radius, end), outline.AppendPoint(0, end)
+    for ends, name in (((below, corner), "free"), ((corner, outer), "rim"), ((outer, foot), "free")):
+        outline.Append(["line", *ends], bc=name, leftdomain=1)
+    above = foot
+    if fillet:
+        above = outline.AppendPoint(radius, fillet)
+        curve = ["spline3", foot, outline.AppendPoint(radius, 0), above]
+        outline.Append(curve, bc="free", leftdomain=2, maxh=fillet / 12)
+    for ends, name in (((above, top), "free"), ((top, centre), "turned"), ((centre, middle), "axis")):
+        outline.Append(["line", *ends], bc=name, leftdomain=2)
+    outline.Append(["line", middle, below], bc="axis", leftdomain=1)
+    fine = radius / (25 if fillet else 60)
+    outline.Append(["line", middle, foot], bc="face", leftdomain=2, rightdomain=1, maxh=fine)
+    mesh = Mesh(outline.GenerateMesh(maxh=0.25))
+    mesh.Curve(4)
+    return mesh
+
+
+def compliances(radius: float, plate: float, fillet: float) -> tuple[float, float]:
+    """What the bar gives and what the plate gives from the bar's radius on, in lengths of the bar."""
+    mesh = meshed(radius, plate, fillet)
+    space = H1(mesh, order=4, dirichlet="turned|rim")
+    twist, test = space.TnT()
+    form = BilinearForm(2 * pi * x**3 * grad(twist) * grad(test) * dx).Assemble()
+    found = GridFunction(space)
+    found.Set(1.0, definedon=mesh.Boundaries("turned"))
+    found.vec.data -= form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * (form.mat * found.vec).Evaluate()
+    density, inside = 2 * pi * x**3 * grad(found) * grad(found), IfPos(radius + 1e-6 - x, 1, 0)
+    bar, ring = (Integrate(share * density, mesh, order=12) for share in (inside, 1 - inside))
+    torque, polar = bar + ring, 0.5 * pi * radius**4
+    return bar * polar / torque**2, ring * polar / torque**2
+
+
+def main() -> None:
+    """Solve all rows and write the table."""
+    rows = []
+    for radius, plate in product(RADII, PLATES):
+        sharp = compliances(radius, plate, 0.0)
+        for fillet in FILLETS:
+            bar, ring = (now - then for now, then in zip(compliances(radius, plate, fillet), sharp, strict=True))
+            rows.append((radius, plate, fillet, f"{-bar / fillet:.3f}", f"{ring / fillet:.3f}"))
+    with TABLE.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(
+            [("radius", "plate", "fillet", "bar_shorter", "plate_longer"), *rows]
+        )
+
+
+if __name__ == "__main__":
+    main()
