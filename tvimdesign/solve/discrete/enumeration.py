@@ -18,7 +18,7 @@ from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.study import Study
 
 BLOCK = 16
-"""Combinations of a block: a second or so."""
+"""Combinations of a block: tenths of a second where arithmetic rules them out, up to a minute where each has a design."""
 
 
 class Block(NamedTuple):
