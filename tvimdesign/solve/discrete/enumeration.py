@@ -18,7 +18,7 @@ from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.study import Study
 
 BLOCK = 16
-"""Combinations of a block: tenths of a second where arithmetic rules them out, up to a minute where each has a design."""
+"""Combinations of a block: tenths of a second where arithmetic rules them out, up to a minute where not."""
 
 
 class Block(NamedTuple):
