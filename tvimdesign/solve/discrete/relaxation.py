@@ -11,8 +11,8 @@ import numpy as np
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
-from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.infeasibility.wide_search import designs_all_over
+from tvimdesign.solve.infeasibility.feasibility_screen import NOWHERE, FeasibilityScreen
+from tvimdesign.solve.infeasibility.wide_search import designs_all_over, least_broken
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
@@ -21,7 +21,7 @@ from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentO
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN, NO_MODULE
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 
 _CLOSE = 0.02
@@ -216,7 +216,24 @@ class Relaxation:
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
+        if all(status == NO_MODULE for status in statuses):
+            return self._from_elsewhere(ends)
         return None, all(status == NO_DESIGN for status in statuses)
+
+    def _from_elsewhere(self, ends: Mapping[str, Ends]) -> tuple[Run | None, bool]:
+        """The best design within some ends where no run could begin, from where differential evolution leads; and
+        where there is none, whether that is certain: no module at all, or none that keeps the arithmetic limits.
+        """
+        if self.sizes.mixtures or self.optimizer.deadline.passed:
+            return None, False
+        seed = self.optimizer.study.solver.seed
+        begin, worst = least_broken(self.optimizer, self._screen, seed, ends)
+        if self.optimizer.deadline.passed:
+            return None, False
+        if worst >= NOWHERE or self._screened(ends, [begin]):
+            return None, True
+        run = self._solved(ends, begin=begin)
+        return (run, True) if run.start.converged else (None, run.start.status == NO_DESIGN)
 
     def closest(self, box: Box) -> Run:
         """A run for one combination whether there is a design or not."""
