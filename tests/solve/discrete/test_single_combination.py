@@ -76,7 +76,8 @@ def test_where_no_run_can_begin_differential_evolution_finds_a_module_to_begin_a
     endings = beginning_nowhere(relaxation, monkeypatch, near)
     found, certain = relaxation.best_within(((1, 1),), None)
     assert certain
-    assert found is not None and found.start.converged
+    assert found is not None
+    assert found.start.converged
     assert found.start.end["coil_count"] == pytest.approx(4.0)
     assert len(endings) == 2
 
