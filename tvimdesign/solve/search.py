@@ -53,7 +53,8 @@ def optimize(
     """
     trees: list[Relaxation] = []
     try:
-        return _optimize(study, progress, reference, keep, objectives, trees, enumerate_all)
+        deadline = Deadline(study.solver.time_limit)
+        return _optimize(study, progress, reference, keep, objectives, trees, deadline, enumerate_all)
     except (KeyboardInterrupt, Exception) as error:
         if isinstance(error, KeyboardInterrupt) or interrupt_came():  # a library raises something else for one
             raise SearchInterrupted(best_so_far(study, trees)) from error
@@ -67,10 +68,10 @@ def _optimize(
     keep: Keep,
     objectives: Sequence[str],
     trees: list[Relaxation],
+    deadline: Deadline,
     enumerate_all: Enumerate,
 ) -> Solution:
-    """The same; `trees` are filled with the problems of the search."""
-    deadline = Deadline(study.solver.time_limit)
+    """The same up to a deadline; `trees` are filled with the problems of the search."""
     refuse_unreachable(study)
     sizes, families = discrete_sizes(study, study.table), families_of(study)
     refuse_too_many(families, sizes)
@@ -81,23 +82,25 @@ def _optimize(
         listed = any(relaxation.sizes.names for relaxation in trees)
         hopeless = all(relaxation.hopeless() for relaxation in trees)
         free = _free_runs(trees, 1 if hopeless else None, deadline)
+        in_time = _in_time(study, free, deadline)
         search = BranchAndBound(trees, study.solver.alternatives, helper)
-        if helper is not None:
+        if helper is not None and in_time is None:
             helper.begin(trees)
-        if listed:
+        if listed and in_time is None:
             search.run()
     choosing: Choosing | None = None
-    if listed:
+    found = free
+    if listed and in_time is None:
         begin = Begin(study, reference, objectives, trees)
         choosing, found = _choose(search, building.exact(), combinations, begin, enumerate_all)
-    else:
-        found = free
-        choosing = _chosen(free, combinations, study.solver) if combinations > 1 else None
-    relaxation, run = min(found, key=lambda one: order(one[1]))
-    if not deadline.passed and (in_time := ending_in_time(study, relaxation.optimizer, run)):
+        in_time = _in_time(study, found, deadline)
+    elif combinations > 1:
+        choosing = _chosen(free, combinations, study.solver)
+    if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
-        return _optimize(in_time, progress, reference, keep, objectives, trees, enumerate_all)
+        return _optimize(in_time, progress, reference, keep, objectives, trees, deadline, enumerate_all)
+    relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if listed else [])]
     nominal = run
     if study.robust and not deadline.passed:
@@ -140,6 +143,12 @@ def _status(solution: Solution, *, no_combination: bool) -> str:
     if solution.conflict_set:
         return "infeasible: this design breaks its limits least"
     return NO_COMBINATION if no_combination else solution.status
+
+
+def _in_time(study: Study, found: Sequence[tuple[Relaxation, Run]], deadline: Deadline) -> Study | None:
+    """The study with limits on times where the best of some designs ends beyond the horizon, and time is left."""
+    relaxation, run = min(found, key=lambda one: order(one[1]))
+    return None if deadline.passed else ending_in_time(study, relaxation.optimizer, run)
 
 
 def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
