@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
+import time
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -11,8 +14,9 @@ import numpy as np
 import pytest
 from choosing import LISTED, listed
 from local_cluster import LocalCluster, answered_on
-from support import Command
+from support import ROOT, Command, environment
 
+from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.report.output.shared_folder import CellsAsked
 from tvimdesign.report.run.shared_proof import ProofAnswers, ProofWork, proof_asked, prove_part
 from tvimdesign.solve.discrete.enumeration import BLOCK, Begin, blocks_of, solved
@@ -158,6 +162,26 @@ def test_what_has_nothing_to_share_says_so(tvimdesign: Command, tmp_path: Path) 
     plain.write_text("mode: shear\n")
     said = tvimdesign("run", plain, *WORDS, "--prove", "--shard", "1/2", "--out", tmp_path / "out")
     assert (said.returncode, "lists no sizes" in said.stderr) == (2, True)
+
+
+@pytest.mark.slow
+def test_a_run_killed_between_two_blocks_goes_on_with_the_first(
+    tvimdesign: Command, study_file: Path, expected: dict[str, bytes], tmp_path: Path, begin: Begin
+) -> None:
+    out, columns = tmp_path / "out", proof_asked(begin).work.columns
+    words = ["run", str(study_file), *WORDS, "--workers", "1", "--out", str(out)]
+    process = subprocess.Popen([sys.executable, "-m", "tvimdesign", *words], env=environment(), cwd=ROOT)
+    try:
+        while process.poll() is None and not len(Shards(out, columns)):
+            time.sleep(0.02)
+    finally:
+        end_process_tree(process.pid)
+        process.wait()
+    assert len(Shards(out, columns)) == 1
+    done = tvimdesign(*words, "--resume")
+    assert done.returncode == 0, done.stderr
+    assert "block 1 of 1" in done.stderr
+    assert _files(out) == expected
 
 
 @pytest.mark.slow
