@@ -89,7 +89,8 @@ def moved_by_noise(slopes: Array, rho: float) -> Array:
     size = np.sqrt(np.diag(square))
     size[size == 0.0] = 1.0
     more, directions = np.linalg.eigh((slopes.T @ before + before.T @ slopes - 2.0 * square) / np.outer(size, size))
-    return square + np.asarray(np.outer(size, size) * ((directions * np.maximum(more, 0.0)) @ directions.T))
+    wider = np.outer(size, size) * ((directions * np.maximum(more, 0.0)) @ directions.T)
+    return np.asarray(square + wider)
 
 
 def _products(one: Series) -> tuple[Array, Array, Array]:
