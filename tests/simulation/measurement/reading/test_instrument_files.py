@@ -126,7 +126,8 @@ def test_netzsch_with_its_header_and_decimal_comma(tmp_path: Path) -> None:
 
 def test_netzsch_of_an_sta_padded_with_a_blank_line_under_its_headings(tmp_path: Path) -> None:
     text = (
-        "#EXPORTTYPE: ;DATA ALL ;;;\n#DECIMAL:    ;COMMA    ;;;\n#SEPARATOR:  ;SEMICOLON;;;\n#SAMPLE MASS /mg: ;22,160;;;\n"
+        "#EXPORTTYPE: ;DATA ALL ;;;\n#DECIMAL:    ;COMMA    ;;;\n#SEPARATOR:  ;SEMICOLON;;;\n"
+        "#SAMPLE MASS /mg: ;22,160;;;\n"
         "#RANGE: ;30,0°C/5,0(K/min)/1520,0°C;;;\n##Temp./°C;Time/min;DSC/(mW/mg);Mass/%;Segment\n\n"
         "29,958;0;7,67E-02;99,99772;1\n30,458;0,1;7,70E-02;99,99770;1\n30,958;0,2;7,75E-02;99,99771;1\n"
     )
