@@ -106,6 +106,14 @@ def test_channels_that_err_alike_are_taken_together() -> None:
     assert following(many[:1], ALONE, 8.0).by_chance > 1e-3
 
 
+def test_a_misfit_that_is_no_noise_widens_by_fourteen_at_most() -> None:
+    slopes = table(200)
+    bent = fit_of(slopes, np.linspace(-1.0, 1.0, 200) ** 3)[1]
+    told = following([Series(bent, slopes)], ALONE, 198.0)
+    assert told.rho == 0.99
+    assert told.by_chance < 1e-6
+
+
 def test_few_values_or_none_that_err_count_as_independent() -> None:
     slopes = table(9)
     assert following([Series(noise_of(9, 0.9, 1), slopes)], ALONE, 7.0) is INDEPENDENT

@@ -25,6 +25,8 @@ from tvimdesign.simulation.measurement.fitting.problem import Array
 
 FEWEST = 10
 """Values below which nothing of their correlation can be told: they count as independent."""
+_MOST_ALIKE = 0.99
+"""Largest coefficient that is counted: beyond it the equations are wrong, and no interval says by how much."""
 _POINTS = 200
 _RHO = np.sin(np.pi * ((np.arange(_POINTS) + 0.5) / _POINTS - 0.5))
 """Coefficients in equal steps of their arc sine, in which the reference prior is even."""
@@ -71,7 +73,7 @@ def following(series: Sequence[Series], others: Array, freedom: float) -> Follow
     likelihood = -0.5 * (ends * np.log1p(-(at**2)) + logarithm + freedom * np.log(left))[:-1]
     chance = np.exp(likelihood - np.max(likelihood))
     chance /= np.sum(chance)
-    rho = max(float(np.tanh(chance @ np.arctanh(_RHO))), 0.0)
+    rho = float(np.clip(np.tanh(chance @ np.arctanh(_RHO)), 0.0, _MOST_ALIKE))
     with_it = _left_and_logarithm(squares, others / np.outer(size, size)[:-1, :-1], np.array([rho]))[0]
     return Following(rho, float(np.sum(chance[_RHO <= 0.0])), float(with_it[0] / left[-1]))
 
