@@ -21,7 +21,7 @@ from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentO
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN, NO_MODULE
+from tvimdesign.solve.optimizer.statuses import FEASIBLE, NO_DESIGN, NO_MODULE
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 
 _CLOSE = 0.02
@@ -330,6 +330,6 @@ class Relaxation:
         return run
 
 
-def order(run: Run) -> tuple[bool, float]:
-    """Converged runs first, the best of them first."""
-    return (not run.start.converged, run.start.objective)
+def order(run: Run) -> tuple[bool, bool, float]:
+    """Converged runs first, then those that know a design that keeps every limit; the best of each first."""
+    return (not run.start.converged, run.start.status != FEASIBLE, run.start.objective)

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+from tvimdesign.solve.optimizer.statuses import FEASIBLE, NO_DESIGN
 
 _FIRST, _WIDEST, _NARROWEST = 0.05, 0.5, 2e-3
 """Half the width of a box, as a share of each range: of the first one, the most, and the least worth a run."""
@@ -89,5 +89,5 @@ class BoxSearch:
             return found
         if held:
             found = self._solved(self._within, best.inputs, best.unknowns)
-            best.start = replace(best.start, status="Feasible_Point_Found", converged=False)
+            best.start = replace(best.start, status=FEASIBLE, converged=False)
         return found if found.start.converged else replace(best, within=self._within)
