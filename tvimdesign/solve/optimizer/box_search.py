@@ -8,7 +8,7 @@ Source: A. Conn, N. Gould, P. Toint, Trust-Region Methods (2000), sections 6.1 a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
@@ -27,9 +27,14 @@ _AT_A_SIDE = 1e-4
 class BoxSearch:
     """Searches from points, with some free numbers within ends of their own."""
 
-    def __init__(self, optimizer: Optimizer, within: Mapping[str, Ends] | None = None) -> None:
-        """Nothing is solved yet."""
-        self._optimizer, self._within = optimizer, dict(within or {})
+    def __init__(
+        self,
+        optimizer: Optimizer,
+        within: Mapping[str, Ends] | None = None,
+        leads_away: Callable[[Run], bool] = lambda _: False,
+    ) -> None:
+        """Nothing is solved yet; a search ends at an optimum of a box that `leads_away`, and tells that."""
+        self._optimizer, self._within, self._leads_away = optimizer, dict(within or {}), leads_away
         self.runs: list[Run] = []
         """What each run of the solver came to."""
 
@@ -46,6 +51,8 @@ class BoxSearch:
                 best = run if run.start.converged else None
                 inputs, unknowns, width = run.inputs, run.unknowns, min(width * _WIDER, _WIDEST)
                 held = self._held(run, box)
+                if best and self._leads_away(best):
+                    return best
             else:
                 width *= _NARROWER
             if not held or width < _NARROWEST or self._optimizer.deadline.passed:
