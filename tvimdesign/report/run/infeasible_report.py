@@ -12,7 +12,7 @@ from tvimdesign.report.output.results_format import Conflict, Optimum, SideEntry
 from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
 from tvimdesign.solve.nlp.solution import ConflictSet, Side, Start
-from tvimdesign.solve.optimizer.statuses import meaning
+from tvimdesign.solve.optimizer.statuses import FEASIBLE, meaning
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 
@@ -20,7 +20,9 @@ def complaint(answer: StudyResult, table: Table) -> str:
     """What to say where no design was found: what cannot hold together, what is broken least, and what to do."""
     solution = answer.solution
     conflict_set = solution.conflict_set if solution else None
-    lines = [f"{answer.design.name}: no design found that keeps every limit ({answer.design.status})."]
+    kept = solution is not None and solution.feasible and meaning(FEASIBLE).words in answer.design.status
+    missed = "no design known to be the best one" if kept else "no design found that keeps every limit"
+    lines = [f"{answer.design.name}: {missed} ({answer.design.status})."]
     if conflict_set:
         lines += conflict_in_words(conflict_set)
     between = solution.choosing.between if solution and solution.choosing and not solution.choosing.best else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
@@ -21,7 +21,7 @@ from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentO
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN, NO_MODULE
+from tvimdesign.solve.optimizer.statuses import FEASIBLE, NO_DESIGN, NO_MODULE
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 
 _CLOSE = 0.02
@@ -97,15 +97,19 @@ class Relaxation:
             optima = [run.start for run in runs if run.start.converged]
             if self.optimizer.deadline.passed or any(map(same_optimum, optima, optima[1:])):
                 break
-            run = self._in_boxes({}, begin)
+            run = self._in_boxes({}, begin, self._late)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
-            if ending_in_time(self.optimizer.study, self.optimizer, run):  # the search begins again, with a limit
+            if self._late(run):  # the whole search begins again, with a limit
                 break
         self.found_in_boxes = any(run.start.converged for run in runs)
         if self.found_in_boxes:
             self._take(runs)
         return runs
+
+    def _late(self, run: Run) -> bool:
+        """Whether a design's switch ends beyond the horizon."""
+        return ending_in_time(self.optimizer.study, self.optimizer, run) is not None
 
     def from_other_records(self, others: Iterable[Relaxation]) -> list[Run]:
         """A run from the best optimum with other records, where no start came to one with these.
@@ -312,9 +316,11 @@ class Relaxation:
         self.work.count(run.start, warm=True)
         return run
 
-    def _in_boxes(self, ends: Mapping[str, Ends], begin: Array) -> Run:
-        """A search in boxes, where no start came to an optimum."""
-        run = BoxSearch(self.optimizer, ends).run(begin)
+    def _in_boxes(
+        self, ends: Mapping[str, Ends], begin: Array, leads_away: Callable[[Run], bool] = lambda _: False
+    ) -> Run:
+        """A search in boxes, where no start came to an optimum; it ends where it leads away."""
+        run = BoxSearch(self.optimizer, ends, leads_away).run(begin)
         self.work.count(run.start, warm=False)
         return run
 
@@ -330,6 +336,7 @@ class Relaxation:
         return run
 
 
-def order(run: Run) -> tuple[bool, float]:
-    """Converged runs first, the best of them first."""
-    return (not run.start.converged, run.start.objective)
+def order(run: Run) -> tuple[bool, bool, float]:
+    """Converged runs first, then those that know a design that keeps every limit; the best of each first."""
+    failed = not run.start.converged
+    return (failed, failed and run.start.status != FEASIBLE, run.start.objective)

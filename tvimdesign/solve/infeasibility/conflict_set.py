@@ -21,6 +21,7 @@ from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constrai
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.nlp.solver_run import Array, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import FEASIBLE
 
 _HEAVY = 100.0
 """What breaking a rule of the machine costs against a requirement of the study, or a limit that is to hold."""
@@ -48,7 +49,7 @@ def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progre
         run = optimizer.solve(begin=least.run.inputs, unknowns=least.run.unknowns)
         if not run.start.converged:
             run = least.run
-            run.start = replace(run.start, status="Feasible_Point_Found", converged=False)
+            run.start = replace(run.start, status=FEASIBLE, converged=False)
         return ConflictSearch(run, None)
     progress("looking for the smallest set of limits that conflict")
     members, ends = _conflicting(elastic, least)

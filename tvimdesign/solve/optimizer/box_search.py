@@ -8,12 +8,12 @@ Source: A. Conn, N. Gould, P. Toint, Trust-Region Methods (2000), sections 6.1 a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+from tvimdesign.solve.optimizer.statuses import FEASIBLE, NO_DESIGN
 
 _FIRST, _WIDEST, _NARROWEST = 0.05, 0.5, 2e-3
 """Half the width of a box, as a share of each range: of the first one, the most, and the least worth a run."""
@@ -27,9 +27,14 @@ _AT_A_SIDE = 1e-4
 class BoxSearch:
     """Searches from points, with some free numbers within ends of their own."""
 
-    def __init__(self, optimizer: Optimizer, within: Mapping[str, Ends] | None = None) -> None:
-        """Nothing is solved yet."""
-        self._optimizer, self._within = optimizer, dict(within or {})
+    def __init__(
+        self,
+        optimizer: Optimizer,
+        within: Mapping[str, Ends] | None = None,
+        leads_away: Callable[[Run], bool] = lambda _: False,
+    ) -> None:
+        """Nothing is solved yet; a search ends at an optimum of a box that `leads_away`, and tells that."""
+        self._optimizer, self._within, self._leads_away = optimizer, dict(within or {}), leads_away
         self.runs: list[Run] = []
         """What each run of the solver came to."""
 
@@ -46,6 +51,8 @@ class BoxSearch:
                 best = run if run.start.converged else None
                 inputs, unknowns, width = run.inputs, run.unknowns, min(width * _WIDER, _WIDEST)
                 held = self._held(run, box)
+                if best and self._leads_away(best):
+                    return best
             else:
                 width *= _NARROWER
             if not held or width < _NARROWEST or self._optimizer.deadline.passed:
@@ -89,5 +96,5 @@ class BoxSearch:
             return found
         if held:
             found = self._solved(self._within, best.inputs, best.unknowns)
-            best.start = replace(best.start, status="Feasible_Point_Found", converged=False)
+            best.start = replace(best.start, status=FEASIBLE, converged=False)
         return found if found.start.converged else replace(best, within=self._within)
