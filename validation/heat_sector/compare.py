@@ -125,11 +125,12 @@ class Judge:
         found, count = self.found, self.found.count
         cold, hot, core = self._mean(state, "cold"), self._mean(state, "hot"), float(state[count])
         if self.sheared:
-            cells, widths = shear.columns(found, "plate")
-            within = found.middle[0][cells[:, 0]] < found.x[found.i[found.cells("layer")]].max()
-            slices = widths[within] @ state[cells[within]] / np.sum(widths[within])
+            end = found.x[found.i[found.cells("layer")] + 1].max()
+            cells, widths = shear.columns(found, "plate", high=end)
+            slices = widths @ state[cells]
             depths = found.dy[cells[0]]
-            edge = float(depths @ state[cells[~within][0]] / np.sum(depths))
+            beside = shear.columns(found, "plate", low=end)[0][0]
+            edge = float(found.dy[beside] @ state[beside] / np.sum(found.dy[beside]))
         else:
             cells, heights = shear.columns(found, "vane")
             slices = np.array([found.dy[column] @ state[column] / np.sum(found.dy[column]) for column in cells])[::-1]

@@ -89,6 +89,13 @@ class Case:
     lip_height: float = 0.0
     """Of the plate's lip along the layer's edge; none where it is zero."""
     lip_width: float = 0.0
+    liner_depth: float = 0.0
+    """Of the recess for a liner in the plate above the layer, its film of adhesive in it; none where it is zero."""
+    liner_conductivity: float = 0.0
+    liner_heat_capacity: float = 0.0
+    """Per volume, with that of the film, which counts none."""
+    liner_bond: float = 0.0
+    """Conductance of the film, which is around the liner too [W/m2 K]."""
 
 
 def case_of(table: Table, values: Mapping[str, Any]) -> Case:
@@ -96,7 +103,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     v = values
     wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
               "housing_ring", "peltier_mass", "pcl_depth", "sink", "heated_area", "heater_strings",
-              "spreader_depth", "melt_lip_height")  # fmt: skip
+              "spreader_depth", "melt_lip_height", "liner_depth")  # fmt: skip
     found = table.evaluate(v, wanted)
     area, edge, melting = found["pcl_area"], found["edge_length"], found["pcl_melting"]
     core, housing = found["core_and_link"], found["around_pads"][-1]
@@ -110,6 +117,14 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     lip = {}
     if v["melt_lip"] != "none":
         lip = {"lip_height": found["melt_lip_height"], "lip_width": v["rotor_rim"]}
+    lined = {}
+    if v["liner_material"] != "none":
+        deep, film = found["liner_depth"], v["liner_film"]
+        held = v["liner_density"] * v["liner_specific_heat"] * v["liner_thickness"] / deep
+        lined = {
+            "liner_depth": deep, "liner_conductivity": v["liner_conductivity"] * deep / v["liner_thickness"],
+            "liner_heat_capacity": held, "liner_bond": v["liner_film_conductivity"] / film,
+        }  # fmt: skip
     if found["sink"] is not None:
         cooled = {
             "sink_conductance": found["sink"].conductance / edge, "sink_capacity": found["sink"].capacity / edge,
@@ -137,7 +152,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         ledge=v["window_ledge"], core_conductance=core.conductance / edge,
         core_capacity=core.capacity / edge, housing_conductance=found["housing_ring"] / edge,
         housing_capacity=housing.capacity / edge, housing_surface=housing.surface.area / edge,
-        **spread, **cooled, **lip,
+        **spread, **cooled, **lip, **lined,
     )  # fmt: skip
 
 
@@ -151,7 +166,7 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
 
     def what(a: float, b: float) -> str | None:
         if b > top:
-            return "plate"
+            return "liner" if a < w and b < top + c.liner_depth else "plate"
         if b > 0.0:
             return "layer" if a < w else beside(a, b)
         if a > w:
@@ -173,6 +188,9 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
         frozenset(("hot", "layer")): c.hot_contact, frozenset(("layer", "plate")): c.rotor_contact,
         frozenset(("layer", "lip")): c.rotor_contact,
     }  # fmt: skip
+    if c.liner_depth:
+        contacts[frozenset(("layer", "liner"))] = c.rotor_contact
+        contacts[frozenset(("liner", "plate"))] = c.liner_bond
     if c.spreader_depth:
         contacts[frozenset(("spreader", "layer"))] = c.hot_contact
         contacts[frozenset(("spreader", "hot"))] = c.spreader_contact
@@ -207,9 +225,10 @@ def _grid(c: Case, slot: float, fine: float) -> tuple[Array, Array]:
         low = min(low, 0.5 * tip)
         layer = [(low, tip, 8, 0.75), (tip, 0.5 * (tip + top), 12, 1.3), (0.5 * (tip + top), top, 8, 1.0)]
     cold, spreader = hot - c.pad_depth, [(hot, 0.0, 5, 1.0)] if c.spreader_depth else []
+    liner = [(top, top + c.liner_depth, 12, 1.0)] if c.liner_depth else []
     y = lines((-c.floor_depth, cold, 9, 0.75), (cold, cold + film, 2, 1.5), (cold + film, hot - film, 6, 1.0),
-              (hot - film, hot, 4, 0.6), *spreader, (0.0, low, 8, 1.5), *layer,
-              (top, top + c.plate_depth, 8, 1.15), fine=fine)  # fmt: skip
+              (hot - film, hot, 4, 0.6), *spreader, (0.0, low, 8, 1.5), *layer, *liner,
+              (top + c.liner_depth, top + c.plate_depth, 8, 1.15), fine=fine)  # fmt: skip
     return x, y
 
 
@@ -224,6 +243,8 @@ def _materials(c: Case) -> dict[str, Material]:
              "air": Material(c.air_conductivity, c.air_conductivity, 0.0, c.gap * shine),
              "below lip": Material(c.air_conductivity, c.air_conductivity, 0.0, (c.gap - c.lip_height) * shine),
              "slot": Material(c.air_conductivity, c.air_conductivity, 0.0)}  # fmt: skip
+    if c.liner_depth:
+        found["liner"] = Material(c.liner_conductivity, c.liner_conductivity, c.liner_heat_capacity)
     if c.spreader_depth:
         sheet = Material(c.spreader_conductivity, c.spreader_conductivity, c.spreader_heat_capacity)
         still = Material(c.air_conductivity, c.air_conductivity, 0.0, c.pad_depth * shine)
@@ -247,9 +268,13 @@ def _borders(found: Plane, c: Case) -> None:
         found.meets(name, "right", coefficient, body=body)
 
 
-def columns(found: Plane, name: str) -> tuple[Array, Array]:
-    """Cells of a material by column, from below, and the columns' shares of its width."""
+def columns(found: Plane, name: str, low: float = -np.inf, high: float = np.inf) -> tuple[Array, Array]:
+    """Cells of a material between two places by column, from below, and the columns' shares of their width.
+
+    A plate's columns above the layer are shorter where a liner lies in it.
+    """
     own = found.cells(name)
+    own = own[(found.middle[0][own] > low) & (found.middle[0][own] < high)]
     places, first = np.unique(found.i[own], return_index=True)
     widths = found.dx[own][first]
     return np.array([own[found.i[own] == i] for i in places]), widths / np.sum(widths)
