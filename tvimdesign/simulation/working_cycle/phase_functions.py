@@ -140,11 +140,11 @@ class PhaseFunctions:
         slices = each.map(count)(temperatures.T, ca.repmat(known, 1, count))
 
         columns = count // self._cells
-        means = [ca.sum2(part) / self._cells for part in ca.horzsplit(slices, self._cells)]
+        sums: list[Any] = [ca.sum2(part) for part in ca.horzsplit(slices, self._cells)]
         of_columns = ca.SX.sym("compliances", 2, columns)
         pairs = [tuple(symbols(column)) for column in ca.horzsplit(of_columns)]
         (found,) = self._instant_with(["layer_moduli"], column_compliances=pairs)
-        return ca.Function("layer_moduli", [ca.vec(of_columns)], [ca.vertcat(*found)])(ca.vertcat(*means))
+        return ca.Function("layer_moduli", [ca.vec(of_columns)], [ca.vertcat(*found)])(ca.vertcat(*sums) / self._cells)
 
     def _instant_with(self, wanted: Sequence[str], **held: Any) -> list[Any]:
         """Quantities of an instant with some others held at symbols of their own."""
