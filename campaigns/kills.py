@@ -1,6 +1,7 @@
 """Ends commands at random moments by SIGINT, SIGTERM and SIGKILL, and looks at what is left.
 
     python campaigns/kills.py [--tries 20] [--seed 1] [--jobs 2] [--commands run front ...] [--out FILE]
+                              [--fe-python PATH]
 
 After each: no process left two seconds later, no temporary folder, every file whole, the manifest says what happened,
 a front or a sweep that is resumed ends in the same bytes as one that ran through, and an explorer has kept what it said
@@ -57,8 +58,11 @@ COMMANDS = {
     "sweep": ["sweep", _STUDY, "--set", _OVER, "--workers", "2", "--no-plots"],
     "compare": ["compare", str(SMALL), str(ROOT / "campaigns/small_compression.yaml"), "--points", "0"],
     "explorer": ["explore", str(SMALL), "--no-open"],
+    "verify": ["verify", str(ROOT / "cad/paper_shear"), "--no-pictures"],
 }
 """What is ended; each gets `--out`."""
+NEEDS_FE = "verify"
+"""The command that is ended only where a Python with finite elements is named: `--fe-python`."""
 SERVES = "explorer"
 """The command that does not end by itself; it is ended within these seconds of the processor."""
 _SERVED = 12.0
@@ -329,9 +333,13 @@ def main() -> int:
     parser.add_argument("--tries", type=int, default=20, help="of each command")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2, help="tries at once")
-    parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), default=list(COMMANDS))
+    parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), help="all that the machine has the tools for")
     parser.add_argument("--out", type=Path, help="file that tries are appended to")
+    parser.add_argument("--fe-python", type=Path, help=f"a Python that has netgen and ngsolve, for {NEEDS_FE}")
     asked = parser.parse_args()
+    asked.commands = asked.commands or [name for name in COMMANDS if name != NEEDS_FE or asked.fe_python]
+    if asked.fe_python:
+        COMMANDS[NEEDS_FE] += ["--fe-python", str(asked.fe_python)]
     with tempfile.TemporaryDirectory(prefix="kills-") as folder:
         every = campaign(asked, Path(folder))
     every = [one for one in every if one["command"] in asked.commands]

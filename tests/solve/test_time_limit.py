@@ -122,6 +122,14 @@ def test_a_search_in_time_says_nothing_of_it() -> None:
     assert dataclasses.asdict(solution.starts[0])["converged"]
 
 
+def test_what_others_solve_meanwhile_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = clock_until("others", monkeypatch)
+    limit = deadline.Deadline(300.0)
+    with limit.paused():
+        clock.say("others")
+    assert (limit.remaining, limit.passed) == (300.0, False)
+
+
 def test_the_limit_is_a_time() -> None:
     assert read_study_text(SEARCHED).solver.time_limit == 300.0
     with pytest.raises(StudyError, match=r"solver\.time_limit: '60': say the unit"):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from tvimdesign.base.interrupts import interrupt_came
 from tvimdesign.solve.best_so_far import SearchInterrupted, best_so_far
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
-from tvimdesign.solve.discrete.enumeration import enumerate_all
+from tvimdesign.solve.discrete.enumeration import Begin, Block, Enumerate, SolvedBlock, enumerated_here
 from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
@@ -42,17 +42,19 @@ def optimize(
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
     objectives: Sequence[str] = (),
+    enumerate_all: Enumerate = enumerated_here,
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
 
     `reference` are the values the minimised outputs are divided by: those of the study's start unless given.
     `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
     that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
-    has the best design so far.
+    has the best design so far. Where the study asks that every combination be solved, `enumerate_all` does that.
     """
     trees: list[Relaxation] = []
     try:
-        return _optimize(study, progress, reference, keep, objectives, trees)
+        deadline = Deadline(study.solver.time_limit)
+        return _optimize(study, progress, reference, keep, objectives, trees, deadline, enumerate_all)
     except (KeyboardInterrupt, Exception) as error:
         if isinstance(error, KeyboardInterrupt) or interrupt_came():  # a library raises something else for one
             raise SearchInterrupted(best_so_far(study, trees)) from error
@@ -66,9 +68,10 @@ def _optimize(
     keep: Keep,
     objectives: Sequence[str],
     trees: list[Relaxation],
+    deadline: Deadline,
+    enumerate_all: Enumerate,
 ) -> Solution:
-    """The same; `trees` are filled with the problems of the search."""
-    deadline = Deadline(study.solver.time_limit)
+    """The same up to a deadline; `trees` are filled with the problems of the search."""
     refuse_unreachable(study)
     sizes, families = discrete_sizes(study, study.table), families_of(study)
     refuse_too_many(families, sizes)
@@ -79,22 +82,25 @@ def _optimize(
         listed = any(relaxation.sizes.names for relaxation in trees)
         hopeless = all(relaxation.hopeless() for relaxation in trees)
         free = _free_runs(trees, 1 if hopeless else None, deadline)
+        in_time = _in_time(study, free, deadline)
         search = BranchAndBound(trees, study.solver.alternatives, helper)
-        if helper is not None:
+        if helper is not None and in_time is None:
             helper.begin(trees)
-        if listed:
+        if listed and in_time is None:
             search.run()
     choosing: Choosing | None = None
-    if listed:
-        choosing, found = _choose(search, building.exact(), combinations, study.solver)
-    else:
-        found = free
-        choosing = _chosen(free, combinations, study.solver) if combinations > 1 else None
-    relaxation, run = min(found, key=lambda one: order(one[1]))
-    if not deadline.passed and (in_time := ending_in_time(study, relaxation.optimizer, run)):
+    found = free
+    if listed and in_time is None:
+        begin = Begin(study, reference, objectives, trees)
+        choosing, found = _choose(search, building.exact(), combinations, begin, enumerate_all)
+        in_time = _in_time(study, found, deadline)
+    elif combinations > 1:
+        choosing = _chosen(free, combinations, study.solver)
+    if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
-        return _optimize(in_time, progress, reference, keep, objectives, trees)
+        return _optimize(in_time, progress, reference, keep, objectives, trees, deadline, enumerate_all)
+    relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if listed else [])]
     nominal = run
     if study.robust and not deadline.passed:
@@ -137,6 +143,12 @@ def _status(solution: Solution, *, no_combination: bool) -> str:
     if solution.conflict_set:
         return "infeasible: this design breaks its limits least"
     return NO_COMBINATION if no_combination else solution.status
+
+
+def _in_time(study: Study, found: Sequence[tuple[Relaxation, Run]], deadline: Deadline) -> Study | None:
+    """The study with limits on times where the best of some designs ends beyond the horizon, and time is left."""
+    relaxation, run = min(found, key=lambda one: order(one[1]))
+    return None if deadline.passed else ending_in_time(study, relaxation.optimizer, run)
 
 
 def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
@@ -197,15 +209,16 @@ def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline
 
 
 def _choose(
-    search: BranchAndBound, exact: ExactCombinations, combinations: int, asked: SolverOptions
+    search: BranchAndBound, exact: ExactCombinations, combinations: int, begin: Begin, enumerate_all: Enumerate
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
     """The best combinations that branch and bound found, and where that is asked for by solving all."""
-    trees = search.trees
+    trees, asked = begin.trees, begin.study.solver
     stopped = trees[0].optimizer.deadline.met
     found, proof = dict(search.found), SolverEffort()
     pruned, improved = search.pruned, 0.0
     if asked.prove and not stopped:
-        found, pruned = _each(trees, search.found, proof), 0
+        found, proof = _each(search.found, enumerate_all(begin))
+        pruned = 0
         improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))
     told = [(trees[place], found[place, box]) for place, box in ranked]
@@ -259,17 +272,16 @@ def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverO
     )  # fmt: skip
 
 
-def _each(trees: Sequence[Relaxation], known: _Found, work: SolverEffort) -> _Found:
-    """Designs of all combinations that have one; the better of two where one is known from a search."""
-    every = dict(known)
-    for relaxation in trees:
-        own, relaxation.work = relaxation.work, work
-        for box, run in enumerate_all(relaxation).items():
-            key = (relaxation.place, box)
+def _each(known: _Found, blocks: Iterable[tuple[Block, SolvedBlock]]) -> tuple[_Found, SolverEffort]:
+    """Designs of all combinations that have one, the better of two where one is known; and what the blocks took."""
+    every, work = dict(known), SolverEffort()
+    for block, (runs, took) in blocks:
+        work = SolverEffort.total([work, took])
+        for box, run in runs.items():
+            key = (block.place, box)
             if key not in every or order(run) < order(every[key]):
                 every[key] = run
-        relaxation.work = own
-    return every
+    return every, work
 
 
 def _improvement(found: _Found, every: _Found) -> float:

@@ -16,7 +16,7 @@ from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
-from tvimdesign.solve.discrete.enumeration import enumerate_all
+from tvimdesign.solve.discrete.enumeration import Begin, enumerated_here
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.solution import Choosing, Solution, SolverEffort
@@ -143,7 +143,8 @@ def test_every_combination_is_as_good_as_solved_alone_and_cold(
     relaxation.optimizer.progress = said.append
     each = {
         tuple(low for low, _ in relaxation.sizes.ends(box).values()): run.start.objective
-        for box, run in enumerate_all(relaxation).items()
+        for _, block in enumerated_here(Begin(listed(), None, (), [relaxation]))
+        for box, run in block.runs.items()
     }
     assert set(each) == set(alone)
     for sizes, objective in alone.items():

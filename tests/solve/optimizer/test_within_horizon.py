@@ -6,6 +6,11 @@ import numpy as np
 import pytest
 
 from tvimdesign.solve import search
+from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
+from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.nlp.deadline import Deadline
+from tvimdesign.solve.nlp.solution import SolverEffort
+from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.within_horizon import LATEST
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
@@ -42,3 +47,30 @@ def test_a_time_that_is_limited_already_is_left_as_it_is() -> None:
     found = optimize(study, said.append)
     assert found.values["response_time"] == pytest.approx(300.0, rel=2e-3)
     assert not any("horizon" in word for word in said)
+
+
+LISTED = STUDY.replace("}\nmin", ", pcl_thickness: {from: 0.8 mm, to: 1.2 mm, step: 0.4 mm}}\nmin")
+
+
+def test_a_search_that_goes_beyond_the_horizon_begins_again_before_it_looks_through_lists(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A random study (20264018) was through its 60 s with the lists of a switch that never ends."""
+    deadlines: list[Deadline] = []
+    monkeypatch.setattr(search, "Deadline", lambda seconds: deadlines.append(Deadline(seconds)) or deadlines[-1])
+    said: list[str] = []
+    found = optimize(read_study_text(LISTED, "test"), said.append)
+    assert found.status == "optimal"
+    assert found.values["response_time"] <= LATEST * HORIZON * (1.0 + 2e-3)
+    again = next(place for place, words in enumerate(said) if "beyond `horizon`" in words)
+    assert not any("combinations solved" in words for words in said[:again])
+    assert any("combinations solved" in words for words in said[again:])
+    assert len(deadlines) == 1  # the study's time limit is that of both
+
+
+def test_boxes_that_lead_beyond_the_horizon_are_not_gone_on_with() -> None:
+    study = read_study_text(STUDY, "test")
+    relaxation = Relaxation(0, Optimizer(study), {}, discrete_sizes(study, study.table), SolverEffort())
+    runs = relaxation.from_all_over()
+    assert [run.start.converged for run in runs] == [True]
+    assert max(runs[0].ends.values()) > LATEST * HORIZON

@@ -12,6 +12,7 @@ import numpy as np
 from tvimdesign.base.record import Record
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
@@ -249,7 +250,7 @@ def housing_vane_holding_torque(
 
 _PARTS = (
     "block_holding_torque", "heater_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque",
-    "core_holding_torque", *LINK_PARTS, "bearing_holding_torque",
+    *CORE_PARTS, *LINK_PARTS, "bearing_holding_torque",
 )  # fmt: skip
 
 

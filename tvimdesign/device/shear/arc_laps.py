@@ -14,7 +14,7 @@ from tvimdesign.device.core.impedance.joint_impedance import quantities as share
 from tvimdesign.device.fixtures.liner import WITH_LINER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import annular_lap, shear_lag
+from tvimdesign.physics.layers import annular_lap, shear_lag, sheet_in_recess
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
@@ -188,6 +188,33 @@ def under_arcs_compliance(heater_form: str, under_tiles_compliance: Scalar, unde
     return under_pads_compliance if heater_form == CUT else under_tiles_compliance
 
 
+@quantities.helper(requires=WITH_LINER, default=1.0)
+def liner_rim_rise(
+    lap_on_spreader: annular_lap.AnnularLap | None,
+    lap_of_arcs: tuple[Scalar, Scalar, Scalar],
+    liner_give: Scalar,
+    liner_thickness: Scalar,
+    frozen_shear_modulus: Scalar,
+    pcl_thickness: Scalar,
+    pcl_inner_radius: Scalar,
+    pcl_outer_radius: Scalar,
+    arc_count: Scalar,
+    arc_span: Scalar,
+    layer_polar_moment: Scalar,
+) -> Scalar:
+    """Traction along the rims of the arcs over that without walls around the liners [1].
+
+    The adhesive that fills the gap around a liner holds it on the walls of its recess, so that it gives less below the
+    layer's rims. What these bear more, all of the layer bears less.
+    """
+    on_tiles = lap_on_spreader is not None
+    others = pcl_thickness / frozen_shear_modulus if on_tiles else 1.0 / lap_of_arcs[0] - liner_give
+    held, inner, outer = liner_give / others, pcl_inner_radius, pcl_outer_radius
+    rims = arc_count * (arc_span * (inner**3 + outer**3) + 2.0 / 3.0 * (outer**3 - inner**3))  # of r^2, all around
+    more = liner_thickness * sheet_in_recess.rim_width(held) * rims / layer_polar_moment
+    return sheet_in_recess.rim_rise(held, pcl_thickness / liner_thickness) / (1.0 + more)
+
+
 @quantities.output("1")
 def layer_edge_rise(
     lap_on_spreader: annular_lap.AnnularLap | None,
@@ -196,13 +223,15 @@ def layer_edge_rise(
     pcl_outer_radius: Scalar,
     layer_polar_moment: Scalar,
     held_polar_moment: Scalar,
+    liner_rim_rise: Scalar,
 ) -> Scalar:
     """Highest traction of the frozen layer along the rims of its arcs over T r/J at the outer, a mean over a thickness.
 
     Plate and floor stretch, so that the torque leaves at the outer rim, and what is above the windows bears little. On
-    a spreader that is stiffer than the plate it leaves at the inner rim.
+    a spreader that is stiffer than the plate it leaves at the inner rim. Beside the walls around a liner it is higher.
     """
     if lap_on_spreader is not None:
-        return np.fmax(*annular_lap.edge_rises(lap_on_spreader))
+        return liner_rim_rise * np.fmax(*annular_lap.edge_rises(lap_on_spreader))
     held = held_polar_moment / layer_polar_moment
-    return shear_lag.arc_edge_rise(*lap_of_arcs, (pcl_inner_radius, pcl_outer_radius), held)
+    radii = pcl_inner_radius, pcl_outer_radius
+    return liner_rim_rise * shear_lag.arc_edge_rise(*lap_of_arcs, radii, held)

@@ -7,6 +7,7 @@ import numpy as np
 from tvimdesign.base.record import Record
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.fixtures.bearing import with_bearings
 from tvimdesign.device.fixtures.dowels import LINK_PARTS
@@ -211,7 +212,7 @@ def layer_holding_torque(
     return layer.torque_at_traction(traction, layer_polar_moment, pcl_outer_radius)
 
 
-_PARTS = ("layer_holding_torque", "core_holding_torque", *LINK_PARTS, "bearing_holding_torque")
+_PARTS = ("layer_holding_torque", *CORE_PARTS, *LINK_PARTS, "bearing_holding_torque")
 
 
 @quantities.output("N*m", headline=True, least_of=_PARTS)

@@ -90,7 +90,8 @@ class ResultsFolder:
         self.path.mkdir(parents=True, exist_ok=True)
         if not any(self.path.iterdir()):
             return
-        if resume and (self.path / MANIFEST).exists() and not (self.path / self._progress).is_dir():
+        goes_on = any(folder.is_dir() for folder in (self.path / self._progress, *self._kept))
+        if resume and (self.path / MANIFEST).exists() and not goes_on:
             raise InputError(f"{self.path}: there is nothing to resume in it; --overwrite to do it again")
         if (
             not (overwrite or resume)
@@ -99,7 +100,7 @@ class ResultsFolder:
         ):
             raise InputError(
                 f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder; "
-                "--resume goes on with a front or a sweep that was stopped"
+                "--resume goes on with a front or a sweep that was stopped, or with what --prove does"
             )
         for target in self._earlier():
             if resume and (target.parent == self.path / self._progress or set(self._kept) & set(target.parents)):

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 
 from rich.markup import escape
 
-from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, TvimError
+from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
 from tvimdesign.base.extras import how_to_install
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.study import read_tree
 from tvimdesign.study.design import read_design, write_design
 from tvimdesign.study.tree import tree_of_file
+from tvimdesign.sweep.run_sweep import Where
 
 if TYPE_CHECKING:
     from tvimdesign.report.figures.plot_process import PlotProcess
@@ -25,19 +26,29 @@ if TYPE_CHECKING:
     from tvimdesign.report.run.first_screen.run_screen import RunScreen
     from tvimdesign.report.run.parts_of_design import PartsAhead
     from tvimdesign.solve.result import Designed
+    from tvimdesign.solve.search import Search
+    from tvimdesign.study import Study
     from tvimdesign.study.design import Design
 
 
 def run_study(
     path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
     resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (),
+    where: Where | None = None,
 ) -> None:  # fmt: skip
-    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
+    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done.
+
+    `where` says who solves the combinations of what is listed, where all are solved; this process unless given, or the
+    run goes on with another one.
+    """
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
+    place = _place_of_proof(where, proves=prove or study.solver.prove, resume=resume)
     without = how_to_install("cad") if cad and study.write.cad else ""
     with ExitStack() as stack:
-        folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
+        folder = _claimed(stack, out, study, place, overwrite=overwrite, resume=resume, as_json=as_json)
+        if folder is None:
+            return
         # Begun before what solves and reports is loaded here: both take their time to load as much.
         making = stack.enter_context(_parts_ahead()) if cad and study.write.cad and not without else None
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
@@ -58,6 +69,7 @@ def run_study(
                 prove=prove,
                 sensitivities=sensitivities,
                 folder=folder,
+                search=_search(folder, place, progress),
                 early=best.note,
                 designed=_asked_of_design(making, folder, screen),
             )
@@ -81,6 +93,35 @@ def run_study(
         finish(folder, answered)
     _say_last(answered, folder.path, failures, without if found.found else "", as_json=as_json)
     _end_as(answered)
+
+
+def _place_of_proof(where: Where | None, *, proves: bool, resume: bool) -> Where | None:
+    """Who solves combinations as cells that the folder keeps; nobody where this process solves them, or none does."""
+    if where and not proves:
+        raise InputError("--shard, --scheduler and --workers share out what --prove solves: say --prove as well")
+    return where or (Where() if proves and resume else None)
+
+
+def _claimed(
+    stack: ExitStack, out: Path, study: Study, where: Where | None, *, overwrite: bool, resume: bool, as_json: bool
+) -> ResultsFolder | None:
+    """The folder of this run; none where another job writes the answer."""
+    if where is None:
+        return stack.enter_context(ResultsFolder(out, overwrite, resume))
+    from tvimdesign.report.run.answered_study import proving
+    from tvimdesign.report.run.shared_proof import claimed
+
+    return claimed(stack, out, proving(study), where, overwrite=overwrite, resume=resume, as_json=as_json)
+
+
+def _search(folder: ResultsFolder, where: Where | None, progress: Progress) -> Search:
+    if where is None:
+        from tvimdesign.solve.search import optimize
+
+        return optimize
+    from tvimdesign.report.run.shared_proof import proved_in
+
+    return proved_in(folder.path, where, progress)
 
 
 def _parts_ahead() -> PartsAhead:

@@ -104,15 +104,16 @@ class Sizes:
 
     def each(self) -> Iterator[Box]:
         """Every combination once, each a neighbour of the one before: to and fro along one number after another."""
-        places: list[tuple[int, ...]] = [()]
-        for count in self.shape:
-            there = range(count)
-            places = [
-                (*before, place)
-                for turn, before in enumerate(places)
-                for place in (there if turn % 2 == 0 else reversed(there))
-            ]
-        return (tuple((place, place) for place in combination) for combination in places)
+        return map(self.combination, range(self.count))
+
+    def combination(self, number: int) -> Box:
+        """The combination that is so far, from 0, on that way."""
+        places, rest = [], number
+        for count in reversed(self.shape):
+            turn, place = divmod(rest, count)
+            places.append(place if turn % 2 == 0 else count - 1 - place)
+            rest = turn
+        return tuple((place, place) for place in reversed(places))
 
     def nearest(self, values: Mapping[str, float], box: Box) -> Box:
         """The combination in a box whose sizes are nearest to some values."""

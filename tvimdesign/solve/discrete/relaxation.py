@@ -9,10 +9,10 @@ from itertools import islice
 
 import numpy as np
 
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
+from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
-from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.infeasibility.wide_search import designs_all_over
+from tvimdesign.solve.infeasibility.feasibility_screen import NOWHERE, FeasibilityScreen
+from tvimdesign.solve.infeasibility.wide_search import designs_all_over, least_broken
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
@@ -21,7 +21,8 @@ from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentO
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.starting_points import FEW
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN, NO_MODULE
+from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 
 _CLOSE = 0.02
 """Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
@@ -99,6 +100,8 @@ class Relaxation:
             run = self._in_boxes({}, begin)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
+            if ending_in_time(self.optimizer.study, self.optimizer, run):  # the search begins again, with a limit
+                break
         self.found_in_boxes = any(run.start.converged for run in runs)
         if self.found_in_boxes:
             self._take(runs)
@@ -190,7 +193,9 @@ class Relaxation:
         """The best design within a box, warm from a run nearby; and where there is none, whether that is certain.
 
         Certain means that limits which depend on no switch cannot be kept, or that searches from the run nearby and
-        from every free optimum all came to points where nothing brings the limits nearer.
+        from every free optimum all came to points where nothing brings the limits nearer. A warm run that is over
+        before it came to such a point leaves a box of several combinations to be divided; of a single one the search
+        that begins afresh where it began tells more.
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, near)
@@ -202,7 +207,8 @@ class Relaxation:
             run = self._beside(ends, near, begins[0])
             if run.start.converged:
                 return run, True
-            statuses.append(run.start.status)
+            if not is_one(box):
+                statuses.append(run.start.status)
         if close and self._screened(ends, begins):
             return None, True
         for begin in begins[:-1] if self.found_in_boxes else begins:
@@ -210,7 +216,24 @@ class Relaxation:
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
+        if all(status == NO_MODULE for status in statuses):
+            return self._from_elsewhere(ends)
         return None, all(status == NO_DESIGN for status in statuses)
+
+    def _from_elsewhere(self, ends: Mapping[str, Ends]) -> tuple[Run | None, bool]:
+        """The best design within some ends where no run could begin, from where differential evolution leads; and
+        where there is none, whether that is certain: no module at all, or none that keeps the arithmetic limits.
+        """
+        if self.sizes.mixtures or self.optimizer.deadline.passed:
+            return None, False
+        seed = self.optimizer.study.solver.seed
+        begin, worst = least_broken(self.optimizer, self._screen, seed, ends)
+        if self.optimizer.deadline.passed:
+            return None, False
+        if worst >= NOWHERE or self._screened(ends, [begin]):
+            return None, True
+        run = self._solved(ends, begin=begin)
+        return (run, True) if run.start.converged else (None, run.start.status == NO_DESIGN)
 
     def closest(self, box: Box) -> Run:
         """A run for one combination whether there is a design or not."""

@@ -21,37 +21,16 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import PARENT, follow_parent, start_child
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task, answer
-from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes
-from tvimdesign.solve.discrete.record_families import families_of
+from tvimdesign.solve.discrete.discrete_choices import Box
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.discrete.trees import Trees
+from tvimdesign.solve.discrete.sent_trees import Asked, Begun
 from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solution import SolverEffort
-from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.study import Study
 
 WORTH = 1000
 """Combinations from which on a second process is started: it takes seconds to build its problems."""
 _LOST = (OSError, EOFError, pickle.UnpicklingError)
-
-
-class _Asked(NamedTuple):
-    """What the problems are built from."""
-
-    study: str
-    reference: dict[str, float] | None
-    objectives: Sequence[str]
-    seconds: float
-    """Until the time is over."""
-
-
-class _Found(NamedTuple):
-    """What the starts of one tree came to."""
-
-    sizes: Sizes
-    optima: list[Run]
-    ends: list[Run]
-    found_in_boxes: bool
 
 
 class _Heard(NamedTuple):
@@ -69,7 +48,7 @@ class TwoProcesses:
     that has died leaves this one to answer all.
     """
 
-    def __init__(self, asked: _Asked) -> None:
+    def __init__(self, asked: Asked) -> None:
         """Start it, and let it build its problems."""
         self._trees: Sequence[Relaxation] = ()
         self._alive = True
@@ -100,7 +79,7 @@ class TwoProcesses:
     def begin(self, trees: Sequence[Relaxation]) -> None:
         """Say what the starts came to; tasks are of these trees from now on."""
         self._trees = trees
-        self._write([_Found(tree.sizes, tree.optima, tree.ends, tree.found_in_boxes) for tree in trees])
+        self._write(Begun.of(trees))
         threading.Thread(target=self._hand_on, daemon=True).start()
 
     def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
@@ -174,7 +153,7 @@ def second_process(
     """A second process where it is worth one; not in a child of ours, as that shares the processors with others."""
     if combinations < WORTH or (os.cpu_count() or 1) < 2 or PARENT in os.environ:
         return contextlib.nullcontext()
-    return TwoProcesses(_Asked(study.model_dump_json(), reference, list(objectives), deadline.remaining))
+    return TwoProcesses(Asked(study.model_dump_json(), reference, list(objectives), deadline.remaining))
 
 
 def main() -> None:
@@ -183,9 +162,10 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     heard, told = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not stand among the answers
-    trees = _built(pickle.load(heard))
-    for tree, (sizes, optima, ends, found_in_boxes) in zip(trees, pickle.load(heard), strict=True):
-        tree.sizes, tree.optima, tree.ends, tree.found_in_boxes = sizes, optima, ends, found_in_boxes
+    asked: Asked = pickle.load(heard)
+    trees = asked.built()
+    for tree, begun in zip(trees, pickle.load(heard), strict=True):
+        begun.take(tree)
     with contextlib.suppress(EOFError):
         while True:
             task: Task = pickle.load(heard)
@@ -193,13 +173,6 @@ def main() -> None:
             pickle.dump((found, trees[task.place].work), told)
             told.flush()
             trees[task.place].work = SolverEffort()
-
-
-def _built(asked: _Asked) -> list[Relaxation]:
-    study = Study.model_validate_json(asked.study)
-    sizes, families = discrete_sizes(study, study.table), families_of(study)
-    deadline = Deadline(asked.seconds)
-    return Trees(study, asked.reference, lambda _: None, asked.objectives, deadline, sizes).of(families)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
-_NO_MODULE = 1e3
+NOWHERE = 1e3
+"""What a point counts as breaking a limit by at which there is no module."""
 
 Array = NDArray[np.float64]
 
@@ -52,7 +53,7 @@ class FeasibilityScreen:
         """The most by which designs break a limit, a column of the free numbers' unknowns each."""
         residuals = np.asarray(self._at(unknowns)).reshape(self._count, np.shape(unknowns)[1])  # there may be no limit
         worst: Array = np.max(residuals, axis=0, initial=-1.0)
-        return np.nan_to_num(worst, nan=_NO_MODULE, posinf=_NO_MODULE)
+        return np.nan_to_num(worst, nan=NOWHERE, posinf=NOWHERE)
 
     def _residuals(self, unknowns: Any) -> Any:
         """Those of the arithmetic limits at the free numbers' unknowns; margins for what spreads are left out."""

@@ -7,14 +7,14 @@ Source: R. Storn, K. Price, Differential evolution, Journal of Global Optimizati
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.nlp.solver_run import Array
+from tvimdesign.solve.nlp.solver_run import Array, Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 _DRAWN, _DESIGNS = 12, 3
@@ -56,10 +56,20 @@ def _broken(optimizer: Optimizer, inputs: Array) -> float:
 
 def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> Array | None:
     """The first design of a differential evolution that keeps the limits."""
+    inputs, worst = least_broken(optimizer, screen, seed, {})
+    return inputs if worst < 0.0 else None
+
+
+def least_broken(
+    optimizer: Optimizer, screen: FeasibilityScreen, seed: int, within: Mapping[str, Ends]
+) -> tuple[Array, float]:
+    """Where a differential evolution ends, some numbers within ends of their own: the inputs, and the most by which
+    they break an arithmetic limit. It ends at the first design that keeps them all.
+    """
     from scipy.optimize import Bounds, OptimizeResult, differential_evolution  # a search that ends well needs no scipy
 
     count = len(optimizer.free)
-    lower, upper = (ends[:count] for ends in optimizer.vector.bounds({}))
+    lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
 
     def look(intermediate_result: OptimizeResult) -> None:
         raise_pending()
@@ -73,9 +83,7 @@ def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> A
         worst, Bounds(lower, upper), maxiter=_GENERATIONS, popsize=_EACH, seed=seed,
         polish=False, tol=0.0, updating="deferred", vectorized=True, callback=look,
     )  # fmt: skip
-    if not found.fun < 0.0:
-        return None
     inputs: Array = optimizer.model.start.copy()
     for free, unknown in zip(optimizer.free, found.x, strict=True):
         inputs[optimizer.model.index[free.name]] = free.to_value(unknown)
-    return inputs
+    return inputs, float(found.fun)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import os
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 CLOCK = "TVIMDESIGN_CLOCK"
 """The environment's word for what time limits count: `processor`, or the time of day where nothing is said."""
@@ -44,3 +46,12 @@ class Deadline:
         """Whether the time is over; who asks leaves something undone then."""
         self.met = self.met or self.remaining == 0.0
         return self.met
+
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        """Do not count what is done meanwhile."""
+        began = _now()
+        try:
+            yield
+        finally:
+            self._end += _now() - began

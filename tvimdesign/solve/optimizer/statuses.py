@@ -16,6 +16,9 @@ NO_COMBINATION = "infeasible: nothing that is listed goes together"
 NO_DESIGN = "Infeasible_Problem_Detected"
 """IPOPT's word for a point from which no step brings the limits nearer."""
 
+NO_MODULE = "Invalid_Number_Detected"
+"""IPOPT's word for a point at which there is no module: an output is no number there."""
+
 
 class Meaning(NamedTuple):
     """What a status says, and the next step; the step is empty where there is nothing to do."""

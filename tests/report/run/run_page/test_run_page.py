@@ -14,7 +14,7 @@ import pytest
 import sample_pages
 from support import ROOT, Command
 
-from tvimdesign.page.blocks import Grid
+from tvimdesign.page.blocks import Facts, Grid
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.first_screen.screen import Told
@@ -105,6 +105,14 @@ def test_where_nobody_asked_how_sure_it_is_the_page_says_who_tells(answered: Ans
     said = assumptions_section(answered, {}).blocks[0]
     assert "tvimdesign tolerate" in str(said)
     assert all("Yield" not in str(block) for block in glance(answered, Told()))
+
+
+def test_the_page_tells_what_a_measurement_bought_before_and_after(answered: AnsweredStudy) -> None:
+    one = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0}}
+    told = {"intervals": {"stiffening_rate": one}, "unmeasured": [{"name": "peltier_seebeck", "status": "measured"}],
+            "tolerances": "usual", "parts_yield": None, "ranges_hold": None}  # fmt: skip
+    (facts,) = [block for block in glance(answered, Told(uncertainty=told)) if isinstance(block, Facts)]
+    assert dict(facts.rows)["Measured"] == "peltier_seebeck: stiffening_rate 90 to 120 s, before 40 to 240"
 
 
 @pytest.mark.slow

@@ -38,7 +38,8 @@ def test_degrees_of_freedom_where_no_part_has_a_variance() -> None:
 
 def test_the_covariance_of_a_weighted_mean_is_that_of_meier() -> None:
     # Meier, Biometrics 9 (1953) 59: 1/W (1 + 4 sum w/W (1 - w/W)/f), w = n/s^2, W = sum w.
-    shape = np.array([-1.4, -0.8, -0.4, -0.1, 0.1, 0.4, 0.8, 1.4])
+    # In an order in which neighbours are not alike.
+    shape = np.array([-1.4, 1.4, -0.8, 0.8, -0.4, 0.4, -0.1, 0.1])
     residuals = Residuals(mean_of([TRUTH + 0.1 * shape, TRUTH + 0.3 * np.concatenate([shape, shape])]))
     best = robust_fit(residuals, np.array([TRUTH]))
     known = spread(residuals, best)

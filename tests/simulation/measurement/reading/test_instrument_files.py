@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.reading.data_file import Block, read_data_file
 
 SWEEP = [(100.0, 2.0e4, 1.5e4), (10.0, 5.0e3, 9.0e3), (1.0, 4.0e2, 1.6e3)]
@@ -121,6 +122,25 @@ def test_netzsch_with_its_header_and_decimal_comma(tmp_path: Path) -> None:
     assert found.values("time")[1] == pytest.approx(91.1 * 60.0)
     assert found.values("specific_heat_flow")[0] == pytest.approx(-87.19357)
     assert found.number("sample_mass") == pytest.approx(4.98e-6)
+
+
+def test_netzsch_of_an_sta_padded_with_a_blank_line_under_its_headings(tmp_path: Path) -> None:
+    text = (
+        "#EXPORTTYPE: ;DATA ALL ;;;\n#DECIMAL:    ;COMMA    ;;;\n#SEPARATOR:  ;SEMICOLON;;;\n"
+        "#SAMPLE MASS /mg: ;22,160;;;\n"
+        "#RANGE: ;30,0°C/5,0(K/min)/1520,0°C;;;\n##Temp./°C;Time/min;DSC/(mW/mg);Mass/%;Segment\n\n"
+        "29,958;0;7,67E-02;99,99772;1\n30,458;0,1;7,70E-02;99,99770;1\n30,958;0,2;7,75E-02;99,99771;1\n"
+    )
+    (found,) = blocks(tmp_path, "sta.csv", text.encode("latin-1"))
+    assert found.lines == (8, 10)
+    assert found.values("temperature") - 273.15 == pytest.approx([29.958, 30.458, 30.958])
+    assert found.values("specific_heat_flow") == pytest.approx([76.7, 77.0, 77.5])
+    assert found.number("sample_mass") == pytest.approx(22.16e-6)
+
+
+def test_numbers_after_a_blank_line_take_no_sentence_for_headings(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"x.csv:3: numbers without a row of headings above them"):
+        blocks(tmp_path, "x.csv", "measured on;a rainy day\n\n1;2\n2;3\n")
 
 
 @pytest.mark.parametrize(

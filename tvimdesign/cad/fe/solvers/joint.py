@@ -124,7 +124,7 @@ class Held:
         dilated = lame * Trace(elastic.strain_of(u)) * Trace(elastic.strain_of(v))
         # Pads hardly change their volume, and whole tetrahedra of theirs would lock: one point of each is asked, or
         # four of a cubic one.
-        others, few = mesh.Materials("pcl|rotor|housing|spreader"), {TET: IntegrationRule(TET, order - 1)}
+        others, few = mesh.Materials("pcl|rotor|housing|spreader|liner"), {TET: IntegrationRule(TET, order - 1)}
         worked = sheared * dx + dilated * dx(definedon=others) + dilated * dx("pad", intrules=few)
         self.form = BilinearForm(worked, symmetric=True).Assemble()
         self.inverse = self.form.mat.Inverse(self.space.FreeDofs(), "sparsecholesky")

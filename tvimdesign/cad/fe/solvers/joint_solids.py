@@ -57,10 +57,12 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
     journal = mm["pcl_inner_radius"] - 0.3 if blocks else far
     rotor = read("rotor") - tube(0, journal, -far, bottom) - tube(mm["pin_radius"] - mm["pin_diameter"], far, top, far)
     rigid = not blocks and mm["spreader_depth"] > 0.0
-    # A liner fills its recess here, the film and the gap at its edges, both of adhesive, with it.
-    liners = [] if blocks or not mm.get("liner_depth") else sectors(mm, bottom, bottom + mm["liner_depth"])
-    for liner in liners:
-        rotor -= liner
+    # A liner fills its recess here, the film and the gap at its edges, both of adhesive, with it. Validation asks too
+    # what it does with a gap that is empty.
+    lined, recess = not blocks and bool(mm.get("liner_depth")), (bottom, bottom + mm.get("liner_depth", 0.0))
+    liners = sectors(mm, *recess) if lined else []
+    for hollow in sectors(mm, *recess, wider=mm.get("liner_gap", 0.0)) if lined else []:
+        rotor -= hollow
     if blocks:
         heaters = [*folder.glob("peltier_pad_*.step"), *folder.glob("spreader_*.step")]
         housing = _ring_housing(read("housing"), mm, [read(path.stem) for path in sorted(heaters)])

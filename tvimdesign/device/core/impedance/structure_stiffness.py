@@ -171,16 +171,44 @@ def joint_damping_at_link(stiffness_beyond_link: tuple[Scalar, Scalar], frequenc
     return stiffness_beyond_link[1] / (2.0 * np.pi * frequency)
 
 
+@quantities.helper()
+def core_shear_yield(cold_layer_strength: Scalar) -> Scalar:
+    """Shear stress at which the core yields across its layers, cold [Pa]."""
+    return structure.shear_yield(cold_layer_strength)
+
+
 @quantities.output("N*m")
+def core_foot_holding_torque(
+    core_shear_yield: Scalar, core_radius: Scalar, core_foot_rise: Scalar, holding_safety: Scalar
+) -> Scalar:
+    """Torque the core bears at its foot, by `holding_safety` below yield."""
+    return structure.bored_shaft_torque(core_shear_yield, core_radius, core_foot_rise) / holding_safety
+
+
+@quantities.output("N*m")
+def core_screws_holding_torque(
+    core_shear_yield: Scalar, core_radius: Scalar, core_screw_bores: structure.Bores, holding_safety: Scalar
+) -> Scalar:
+    """Torque the core bears beside the holes of the link screws, by `holding_safety` below yield."""
+    return structure.bored_shaft_torque(core_shear_yield, core_radius, 1.0, core_screw_bores) / holding_safety
+
+
+@quantities.output("N*m")
+def core_dowels_holding_torque(
+    core_shear_yield: Scalar, core_radius: Scalar, core_dowel_bores: structure.Bores, holding_safety: Scalar
+) -> Scalar:
+    """Torque the core bears beside the holes of the dowel pins, by `holding_safety` below yield."""
+    return structure.bored_shaft_torque(core_shear_yield, core_radius, 1.0, core_dowel_bores) / holding_safety
+
+
+CORE_PARTS = ("core_foot_holding_torque", "core_screws_holding_torque", "core_dowels_holding_torque")
+"""What `core_holding_torque` is the least of. A limit on it is one on each: where the least changes from one to another
+it has a kink, and IPOPT goes from side to side of it until its iterations are over."""
+
+
+@quantities.output("N*m", least_of=CORE_PARTS)
 def core_holding_torque(
-    cold_layer_strength: Scalar,
-    core_radius: Scalar,
-    core_screw_bores: structure.Bores,
-    core_dowel_bores: structure.Bores,
-    core_foot_rise: Scalar,
-    holding_safety: Scalar,
+    core_foot_holding_torque: Scalar, core_screws_holding_torque: Scalar, core_dowels_holding_torque: Scalar
 ) -> Scalar:
     """Torque the core bears at its foot and beside its holes, by `holding_safety` below yield."""
-    shear = structure.shear_yield(cold_layer_strength)
-    holes = core_screw_bores, core_dowel_bores
-    return structure.bored_shaft_torque(shear, core_radius, core_foot_rise, *holes) / holding_safety
+    return np.fmin(core_foot_holding_torque, np.fmin(core_screws_holding_torque, core_dowels_holding_torque))

@@ -41,6 +41,7 @@ class Fit:
     noise: tuple[float, ...]
     """Standard deviation of each channel, in SI or as a share."""
     autocorrelation: tuple[float, ...]
+    """Of each channel's noise from one value to the next, as the intervals count it."""
     words: tuple[str, ...]
 
     def value(self, name: str) -> float:
@@ -72,7 +73,7 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
     return Fit(
         problem, tuple(parameters), _derived(residuals, best, known), correlation(known.covariance),
         tuple(residuals.predicted(best.inner)), tuple(map(float, best.noise)),
-        tuple(map(float, known.autocorrelation)), tuple(words),
+        tuple(one.rho for one in known.follows), tuple(words),
     )  # fmt: skip
 
 

@@ -1,11 +1,10 @@
 """How sure parameters are: covariance, profile of the likelihood, and which of them the data cannot tell apart.
 
 Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed., ch. 7 (covariance of M-estimates in regression); [B] Bates
-and Watts, Nonlinear Regression Analysis and Its Applications, ch. 6 (profiles); [Bay] Bayley and Hammersley, J. R.
-Statist. Soc. Suppl. 8 (1946) 184 (how many independent values a series of correlated ones is worth); [KR] Kenward and
-Roger, Biometrics 53 (1997) 983 (covariance where the weights are estimated); [S] Satterthwaite, Biometrics Bull. 2
-(1946) 110, as in the GUM (JCGM 100:2008, G.4) (degrees of freedom of a sum of estimated variances); [R] the same, 4.3.7
-(variance of what is known to lie between two ends).
+and Watts, Nonlinear Regression Analysis and Its Applications, ch. 6 (profiles); [KR] Kenward and Roger, Biometrics 53
+(1997) 983 (covariance where the weights are estimated); [S] Satterthwaite, Biometrics Bull. 2 (1946) 110, as in the GUM
+(JCGM 100:2008, G.4) (degrees of freedom of a sum of estimated variances); [R] the same, 4.3.7 (variance of what is
+known to lie between two ends).
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy.special import stdtrit
@@ -28,14 +27,19 @@ from tvimdesign.simulation.measurement.fitting.robust_fit import (
     solved,
     weights_of,
 )
+from tvimdesign.simulation.measurement.fitting.serial_correlation import (
+    INDEPENDENT,
+    Following,
+    Series,
+    following,
+    moved_by_noise,
+)
 
 CONFIDENCE = 0.95
 _SMALLEST = 1e-7
 """Singular value over the largest, of derivatives by numbers scaled alike, below which a direction changes nothing."""
 _PART = 0.2
 """Part of such a direction from which on a parameter is among those it moves."""
-_MOST_ALIKE, _TURNS = 0.99, 60
-"""Largest autocorrelation, and steps to the one that explains the residuals'."""
 _TRIES = 12
 _NEAR = 0.03
 """Share to which the loss at an interval's end is what it shall be: 1.5 % of the interval."""
@@ -53,8 +57,8 @@ class Spread:
     """What the noise of each group of channels that err alike gives to the covariance; last, nuisances' bounds."""
     freedom: tuple[float, ...]
     """Degrees of freedom of each group's noise; of bounds, infinite."""
-    autocorrelation: Array
-    """Of each channel's residuals from one to the next."""
+    follows: tuple[Following, ...]
+    """How far the noise of each channel follows itself."""
     slack: Array
     """Covariance over that of the loss's own curvature, for each number."""
 
@@ -84,7 +88,7 @@ def effective_freedom(variances: Sequence[float], freedom: Sequence[float]) -> f
 
 
 def spread(residuals: Residuals, fit: RobustFit) -> Spread:
-    """Covariance H^-1 M H^-1 of the robust fit [H], M widened where residuals follow one another [Bay].
+    """Covariance H^-1 M H^-1 of the robust fit [H], M by noise that may follow itself (`serial_correlation`).
 
     The weight of each group of channels is estimated, and errs: the covariance is widened for it [KR].
     """
@@ -92,20 +96,24 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
     z = residuals.at(fit.inner) * weights
     jacobian = residuals.jacobian(fit.inner) * weights[:, None]
     taken = parameters_of(residuals, fit.inner, fit.noise)
-    follows = np.array([_autocorrelation(z[part], one) for part, one in zip(residuals.parts, taken, strict=True)])
-    wider = _worth(follows)
-    groups = [
-        _group([(z[residuals.parts[i]], jacobian[residuals.parts[i]]) for i in alike], wider[alike], taken[alike])
-        for alike in residuals.groups
-    ]
     within = np.diag([_box(one) for one in residuals.problem.parameters])
+    everything = within + jacobian.T @ jacobian
+    groups = [
+        _group([(z[part], jacobian[part]) for part in (residuals.parts[i] for i in alike)], everything,
+               float(np.sum(taken[alike])))
+        for alike in residuals.groups
+    ]  # fmt: skip
     inverse, directions = _inverse(np.sum([within, *(group.curvature for group in groups)], axis=0))
     given = [inverse @ group.moved @ inverse for group in groups]
     parts, freedom = [*given, inverse @ within @ inverse], [*(group.freedom for group in groups), np.inf]
     covariance = np.sum(parts, axis=0) + 2.0 * _of_weights(groups, given, inverse)
     own = np.diag(inverse)
     slack = np.divide(np.diag(covariance), own, out=np.ones(len(own)), where=own > 0.0)
-    return Spread(covariance, directions, tuple(parts), tuple(freedom), follows, slack)
+    follows = [INDEPENDENT] * len(residuals.parts)
+    for alike, group in zip(residuals.groups, groups, strict=True):
+        for i in alike:
+            follows[i] = group.follows
+    return Spread(covariance, directions, tuple(parts), tuple(freedom), tuple(follows), slack)
 
 
 def _box(one: Parameter) -> float:
@@ -121,23 +129,25 @@ class _Group(NamedTuple):
     curvature: Array
     moved: Array
     freedom: float
+    follows: Following
 
 
-def _group(channels: Sequence[tuple[Array, Array]], wider: Array, taken: Array) -> _Group:
-    """From each channel's residuals over their noise with their derivatives, `wider` as by [Bay] for each."""
+def _group(channels: Sequence[tuple[Array, Array]], everything: Array, taken: float) -> _Group:
+    """From each channel's residuals over their noise with their derivatives, and how many parameters they determine.
+
+    `everything` is the curvature of the sum of squares of all data.
+    """
     z = np.concatenate([one for one, _ in channels])
-    squares = [slopes.T @ slopes for _, slopes in channels]
     pull, slope = influence(z)
-    sizes = np.array([len(one) for one, _ in channels])
-    left = max(1.0 - float(np.sum(_lost(taken, wider, sizes))) / len(z), 0.05)
-    mean = float(np.mean(slope))
+    mean, left = float(np.mean(slope)), max(1.0 - taken / len(z), 0.05)
     few = 1.0 + (1.0 - left) * float(np.var(slope)) / mean**2  # [H], correction for few data
-    following = np.sum([one * square for one, square in zip(wider, squares, strict=True)], axis=0)
-    worth = float(np.sum(sizes / wider))
-    return _Group(
-        mean * np.sum(squares, axis=0), few**2 * float(np.mean(pull**2)) / left * following,
-        max(worth - float(np.sum(taken)), 1.0),
-    )  # fmt: skip
+    squares = np.sum([slopes.T @ slopes for _, slopes in channels], axis=0)
+    freedom = max(len(z) - taken, 1.0)
+    series = [Series(influence(one)[0], slopes) for one, slopes in channels]
+    follows = following(series, everything - squares, freedom)
+    moved = np.sum([moved_by_noise(slopes, follows.rho) for _, slopes in channels], axis=0)
+    size = few**2 * float(np.mean(pull**2)) / left * follows.wider
+    return _Group(mean * squares, size * moved, freedom, follows)
 
 
 def _of_weights(groups: Sequence[_Group], given: Sequence[Array], inverse: Array) -> Array:
@@ -152,35 +162,6 @@ def _of_weights(groups: Sequence[_Group], given: Sequence[Array], inverse: Array
         shared = part @ group.curvature @ inverse
         added += 2.0 / group.freedom * (part - 0.5 * (shared + shared.T))
     return added
-
-
-def _autocorrelation(z: Array, taken: float) -> float:
-    """Of the noise, from one value to the next; 0 where that of the residuals may be by chance.
-
-    Residuals tell too little of it: each of the `taken` parameters follows the noise where it is slow. It takes as much
-    from the sum of squares as from that of neighbours' products, w = (1 + rho)/(1 - rho) of the noise's variance
-    [Bay]. So r = (n rho - p w)/(n - p w), solved for rho.
-    """
-    if len(z) < 10:
-        return 0.0
-    seen = float(np.sum(z[1:] * z[:-1]) / np.sum(z**2)) if np.any(z) else 0.0
-    if seen <= 3.0 / np.sqrt(len(z)):
-        return 0.0
-    rho = seen = min(seen, _MOST_ALIKE)
-    for _ in range(_TURNS):
-        share = float(_lost(taken, _worth(rho), len(z))) / len(z)
-        rho = min(seen + (1.0 - seen) * share, _MOST_ALIKE)
-    return rho
-
-
-def _worth(rho: Any) -> Any:
-    """How many values of a series in which neighbours are correlated are worth one that stands alone [Bay]."""
-    return (1.0 + rho) / (1.0 - rho)
-
-
-def _lost(taken: Any, wider: Any, size: Any) -> Any:
-    """Squares that parameters take from the residuals of a series, in variances of its noise; half of them at most."""
-    return np.minimum(taken * wider, np.maximum(taken, 0.5 * size))
 
 
 def _inverse(matrix: Array) -> tuple[Array, tuple[Array, ...]]:

@@ -12,6 +12,8 @@ from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, 
 CLOSE = 0.95
 """Correlation from which on two parameters are named together."""
 _FOLLOW = 0.5
+_CHANCE = 0.05
+"""Correlation from which on it is named, and the probability that it is none up to which it is sure."""
 _SAME = 0.05
 """Share to which parameters must change alike for their ratios to be what is known."""
 
@@ -29,15 +31,25 @@ def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
         named = [i for i in moved if not problem.parameters[i].nuisance]
         said += [_free(problem.parameters, direction, named, inner)] if named else []
     said += _correlated(problem.parameters, correlation(known.covariance), undetermined)
-    following = [(rho, channel.name) for channel, rho in zip(problem.channels, known.autocorrelation, strict=True)]
-    rho, name = max(following)
-    if rho > _FOLLOW:
-        wider = np.sqrt((1.0 + rho) / (1.0 - rho))
-        said.append(
-            f"Residuals follow one another, most those of {name} (correlation {rho:.2f}): the equations leave "
-            f"something out, or the instrument smooths. What these data say counts as {wider:.1f} times less sure."
-        )
-    return said
+    return said + _following(problem, known)
+
+
+def _following(problem: Problem, known: Spread) -> list[str]:
+    """Whether residuals follow one another, or are so few that nobody can tell."""
+    most = max(range(len(known.follows)), key=lambda i: known.follows[i].rho)
+    rho, name = known.follows[most].rho, problem.channels[most].name
+    wider = np.sqrt((1.0 + rho) / (1.0 - rho))
+    if rho <= _FOLLOW:
+        return []
+    if known.follows[most].by_chance > _CHANCE:
+        return [
+            f"The residuals of {name} are too few to tell whether they follow one another (correlation {rho:.2f}, if "
+            f"they do): what they say counts as {wider:.1f} times less sure. Give more rows."
+        ]
+    return [
+        f"Residuals follow one another, most those of {name} (correlation {rho:.2f}): the equations leave something "
+        f"out, or the instrument smooths. What these data say counts as {wider:.1f} times less sure."
+    ]
 
 
 def correlation(covariance: Array) -> Array:

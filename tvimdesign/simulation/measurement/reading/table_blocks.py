@@ -137,9 +137,15 @@ def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> tuple[list[He
 
 
 def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
-    """The rows with several cells and no number right above some numbers, nearest first."""
+    """The rows with several cells and no number right above some numbers, nearest first.
+
+    A blank line may stand between them and the numbers, as in NETZSCH's exports, where they name quantities.
+    """
     above: list[Row] = []
     at = begin - 1
+    blank = at > 0 and sheet.rows[at].empty
+    if blank and sum(bool(heading(cell).quantity) for cell in sheet.rows[at - 1].cells) >= _LEAST_NUMBERS:
+        at -= 1
     while at >= 0 and len(above) < _HEADING_ROWS and _may_head(sheet.rows[at], sheet):
         above += [sheet.rows[at]] if sheet.rows[at].filled > 1 else []
         at -= 1
