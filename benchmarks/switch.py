@@ -100,9 +100,8 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
         now = heat.profile(state, stack)
         warm = layer_columns.layer_temperatures(now, stack, layer_columns.edge_drops(now, stack, **edges), **columns)
         slices = polymer.moduli(now.cells, now.fractions, omega, rheology)
-        moduli = thermal_stack.layer_moduli(
-            stack, slices, warm, layer_columns.across(of["cold_end"]).shares, rheology, numbers["frequency@hot"]
-        )
+        side_by_side = thermal_stack.column_compliances(stack, warm, rheology, numbers["frequency@hot"])
+        moduli = thermal_stack.layer_moduli(stack, slices, side_by_side, layer_columns.across(of["cold_end"]).shares)
         support = warm_structure.in_series(parts, warm_structure.parts_now(now), law, numbers["clamped_loss_factor"])
         stiffness = thermal_stack.layer_stiffness_now(moduli, moment, numbers["pcl_thickness"])
         branch = thermal_stack.branch_now(stiffness, support)

@@ -18,36 +18,39 @@ def series_modulus(storage: Any, loss: Any) -> tuple[Any, Any]:
 
     Takes the slices' moduli as arrays. A thin molten slice therefore softens the layer long before all of it is hot.
     """
+    return reciprocal(*mean_compliance(storage, loss))
+
+
+def mean_compliance(storage: Any, loss: Any) -> tuple[Any, Any]:
+    """Mean storage and loss compliance [1/Pa] of slices with these moduli, arrays [Pa]."""
+    real, imaginary = reciprocal(storage, loss)
+    return np.mean(real), np.mean(imaginary)
+
+
+def reciprocal(storage: Any, loss: Any) -> tuple[Any, Any]:
+    """Compliances J', J'' [1/Pa] of moduli G', G'' [Pa], J' - i J'' = 1/(G' + i G''), or moduli of compliances."""
     square = storage**2 + loss**2
-    real, imaginary = np.mean(storage / square), np.mean(loss / square)
-    square = real**2 + imaginary**2
-    return real / square, imaginary / square
+    return storage / square, loss / square
 
 
-def side_by_side(columns: Sequence[tuple[Any, Any]], shares: Sequence[float]) -> tuple[Any, Any]:
-    """Storage and loss modulus [Pa] of columns of a layer that are sheared alike: the mean by their shares of it."""
+def side_by_side(compliances: Sequence[tuple[Any, Any]], shares: Sequence[float]) -> tuple[Any, Any]:
+    """Storage and loss modulus [Pa] of columns of a layer that are sheared alike: the mean by their shares of it.
+
+    Each column is given by its compliance [1/Pa].
+    """
+    found = [reciprocal(*column) for column in compliances]
     storage, loss = (
-        sum(share * one for share, one in zip(shares, parts, strict=True)) for parts in zip(*columns, strict=True)
+        sum(share * one for share, one in zip(shares, parts, strict=True)) for parts in zip(*found, strict=True)
     )
     return storage, loss
 
 
-def melting_modulus(
-    columns: Sequence[Any],
-    shares: Sequence[float],
-    melting: polymer.Melting,
-    angular_frequency: Any,
-    rheology: polymer.AnyRheology,
+def melting_compliance(
+    temperatures: Any, melting: polymer.Melting, angular_frequency: Any, rheology: polymer.AnyRheology
 ) -> tuple[Any, Any]:
-    """Storage and loss modulus [Pa] of a layer that melts: columns side by side by their shares, of slices in series.
-
-    `columns` holds the temperatures [K] of each column's slices, which are on the melting curve there.
-    """
-    found = []
-    for temperatures in columns:
-        fractions = polymer.fraction_at(temperatures, melting)
-        found.append(series_modulus(*polymer.moduli(temperatures, fractions, angular_frequency, rheology)))
-    return side_by_side(found, shares)
+    """Mean compliance [1/Pa] of slices at some temperatures [K] that are on the melting curve."""
+    fractions = polymer.fraction_at(temperatures, melting)
+    return mean_compliance(*polymer.moduli(temperatures, fractions, angular_frequency, rheology))
 
 
 def series_stiffness(stiffness: Any, loss_stiffness: Any, support: Any, support_loss: Any = 0.0) -> tuple[Any, Any]:

@@ -111,26 +111,40 @@ class PhaseFunctions:
         return self._function("watch", [self._instant[name] for name in wanted])
 
     def watch_in_parts(self, wanted: Sequence[str]) -> Any:
-        """The same function as `watch`, put together of three where it asks for the moduli of a layer that melts.
+        """The same function as `watch`, put together of four where it asks for the moduli of a layer that melts.
 
-        They are most of an instant's arithmetic and depend on the layer's temperatures alone: apart from the rest,
-        their second derivatives take a fraction of the work.
+        They are most of an instant's arithmetic, the same for each of the layer's slices, and depend on their
+        temperatures alone: apart from the rest, their second derivatives take a fraction of the work.
         """
         if self._stack.freezing is not None:
             return self.watch(wanted)
-        columns = [ca.SX.sym("column", self._cells) for _ in self._instant["layer_temperatures"]]
         layer = ca.SX.sym("moduli", 2)
         values = ca.vertcat(*self._instant_with(wanted, layer_moduli=tuple(symbols(layer))))
         if not ca.depends_on(values, layer):
             return self.watch(wanted)
-        (moduli,) = self._instant_with(["layer_moduli"], layer_temperatures=[symbols(one) for one in columns])
-        temperatures = self._function("layer_temperatures", self._instant["layer_temperatures"])
-        softness = ca.Function("layer_moduli", [ca.vertcat(*columns), self._inputs], [ca.vertcat(*moduli)])
-        joint = ca.Function("joint", [self._instant["state"], self._drive, self._inputs, layer], [values])
         sizes = {"state": self.state_size, "drive": 1, "inputs": self._inputs.numel()}
         instant = [ca.MX.sym(name, size) for name, size in sizes.items()]
-        found = joint(*instant, softness(temperatures(*instant), instant[-1]))
+        temperatures = self._function("layer_temperatures", self._instant["layer_temperatures"])(*instant)
+        joint = ca.Function("joint", [self._instant["state"], self._drive, self._inputs, layer], [values])
+        found = joint(*instant, self._layer_moduli(temperatures, instant[-1]))
         return ca.Function("watch", instant, [found], {"always_inline": True})
+
+    def _layer_moduli(self, temperatures: Any, inputs: Any) -> Any:
+        """Moduli [Pa] of a layer that melts from the temperatures of its slices, column by column, and inputs (MX)."""
+        one = ca.SX.sym("temperature")
+        (compliance,) = self._instant_with(["column_compliances"], layer_temperatures=[symbols(one)])
+        value, constants, changing = self._parted(ca.vertcat(*compliance[0]))
+        each = ca.Function("slice_compliance", [one, changing], [value], _BY_JACOBIAN)
+        known = ca.Function("constants", [self._inputs], [constants])(inputs)
+        count = temperatures.numel()
+        slices = each.map(count)(temperatures.T, ca.repmat(known, 1, count))
+
+        columns = count // self._cells
+        sums: list[Any] = [ca.sum2(part) for part in ca.horzsplit(slices, self._cells)]
+        of_columns = ca.SX.sym("compliances", 2, columns)
+        pairs = [tuple(symbols(column)) for column in ca.horzsplit(of_columns)]
+        (found,) = self._instant_with(["layer_moduli"], column_compliances=pairs)
+        return ca.Function("layer_moduli", [ca.vec(of_columns)], [ca.vertcat(*found)])(ca.vertcat(*sums) / self._cells)
 
     def _instant_with(self, wanted: Sequence[str], **held: Any) -> list[Any]:
         """Quantities of an instant with some others held at symbols of their own."""
@@ -169,12 +183,17 @@ class PhaseFunctions:
         """
         state, profile = self._instant["state"], self._drive
         expression = function(state, profile, self._inputs)
+        value, constants, changing = self._parted(expression)
+        return (
+            ca.Function("constants", [self._inputs], [constants]),
+            ca.Function("varying", [state, profile, changing], [value], _BY_JACOBIAN),
+        )
+
+    def _parted(self, expression: Any) -> tuple[Any, Any, Any]:
+        """An expression in which symbols stand for what depends on the inputs alone; that, and these symbols."""
         value, symbols, constants = ca.extract_parametric(expression, self._inputs)
         # Inputs that meet the state as they are stay in the expression; they are constants too.
         left = ca.symvar(value)
         moved = ca.which_depends(ca.vertcat(*left), self._inputs, 1, True) if left else []
         bare = [symbol for symbol, depends in zip(left, moved, strict=True) if depends]
-        return (
-            ca.Function("constants", [self._inputs], [ca.vertcat(*constants, *bare)]),
-            ca.Function("varying", [state, profile, ca.vertcat(*symbols, *bare)], [value], _BY_JACOBIAN),
-        )
+        return value, ca.vertcat(*constants, *bare), ca.vertcat(*symbols, *bare)

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.solve.nlp.shared_terms import Opened, opened
 
 Places = NDArray[np.int64]
 
@@ -37,9 +38,10 @@ def derivatives_of(function: Any) -> dict[str, Any]:
     jacobian = _inserted([g, ca.mtimes(slopes, along)], results)
 
     lam_f, lam_g = ca.MX.sym("lam_f"), ca.MX.sym("lam_g", g.numel())
-    inner, outer, nus = _go_back(calls, z, ca.mtimes(slopes.T, lam_g) + lam_f * ca.gradient(f, z))
-    bent = inner + ca.hessian(lam_f * f + ca.dot(lam_g, g) + outer, z)[0]
-    hessian = _inserted([ca.triu(ca.mtimes(along.T, ca.mtimes(bent, along)))], [*results, *nus])
+    inner, outer, nus = _go_back(calls, ca.mtimes(slopes.T, lam_g) + lam_f * ca.gradient(f, z))
+    between = ca.hessian(lam_f * f + ca.dot(lam_g, g) + outer, z)[0]
+    bent = sum(inner, _turned(between, along))
+    hessian = _inserted([ca.triu(bent)], [*results, *nus])
     return {
         "jac_g": ca.Function("jac_g", [x, p], jacobian),
         "hess_lag": ca.Function("hess_lag", [x, p, lam_f, lam_g], hessian),
@@ -58,6 +60,8 @@ class _Call:
     """What its arguments may hang on: the unknowns, and the results of the calls before it."""
     moving_before: Collection[int] = ()
     """Which entries of that move when the unknowns do."""
+    along: Any = None
+    """Derivatives of what moves of its arguments by the unknowns."""
 
     @cached_property
     def _moving(self) -> list[list[int]]:
@@ -91,13 +95,11 @@ class _Call:
         return np.concatenate(found)
 
     @cached_property
-    def _point(self) -> tuple[list[Any], Any, Any]:
-        """The function for one point: its arguments, those entries of them that move, its value."""
+    def _point(self) -> tuple[list[Any], Opened]:
+        """The arguments at one point, and the function there."""
         kind: Any = ca.SX if self.function.is_a("SXFunction") else ca.MX
         entries = [kind.sym("entry", 1, 1, one.size1()) for one in self.arguments]
-        symbols = [ca.vertcat(*column) for column in entries]
-        moving = [column[row] for column, rows in zip(entries, self._moving, strict=True) for row in rows]
-        return symbols, ca.vertcat(*moving), self.function.call(symbols, True, False)[0]
+        return [ca.vertcat(*column) for column in entries], opened(self.function, entries, self._moving)
 
     @property
     def _columns(self) -> list[Any]:
@@ -107,9 +109,9 @@ class _Call:
     @cached_property
     def _first(self) -> tuple[Any, list[Any]]:
         """The pattern of one point's derivatives; value and derivatives at all points."""
-        symbols, moving, value = self._point
-        by_moving = ca.jacobian(value, moving)
-        function = ca.Function("first", symbols, [value, by_moving.nz[:]]).map(self.count)
+        symbols, point = self._point
+        by_moving = point.jacobian()
+        function = ca.Function("first", symbols, [point.whole, by_moving.nz[:]]).map(self.count)
         return by_moving.sparsity(), function(*self._columns)
 
     @property
@@ -127,11 +129,11 @@ class _Call:
 
     def curvature(self, multipliers: Any) -> Any:
         """Second derivatives of the result, times multipliers, by what moves of the arguments."""
-        symbols, moving, value = self._point
-        mu = type(value).sym("mu", value.numel())
-        bent = ca.hessian(ca.dot(mu, ca.vec(value)), moving)[0]
+        symbols, point = self._point
+        mu = type(point.value).sym("mu", point.value.numel())
+        bent = point.hessian(mu)
         function = ca.Function("second", [*symbols, mu], [bent.nz[:]]).map(self.count)
-        entries = function(*self._columns, ca.reshape(multipliers, value.numel(), self.count))
+        entries = function(*self._columns, ca.reshape(multipliers, mu.numel(), self.count))
         rows, columns = (self._places[list(one)] for one in bent.sparsity().get_triplet())
         return _matrix(rows, columns, entries, (self.moved.numel(), self.moved.numel()))
 
@@ -181,24 +183,29 @@ def _follow(calls: Sequence[_Call], x: Any) -> tuple[Any, Any]:
     known, along = [x], ca.MX.eye(x.numel())
     for call in calls:
         call.before, call.moving_before = ca.vertcat(*known), set(along.sparsity().row())
-        along = ca.vertcat(along, ca.mtimes(call.slopes, ca.mtimes(call.by_before, along)))
+        call.along = ca.mtimes(call.by_before, along)
+        along = ca.vertcat(along, ca.mtimes(call.slopes, call.along))
         known.append(ca.vec(call.result))
     return ca.vertcat(*known), along
 
 
-def _go_back(calls: Sequence[_Call], z: Any, multipliers: Any) -> tuple[Any, Any, list[tuple[Any, Any]]]:
-    """From the multipliers of z: the calls' own second derivatives by z, the arguments times theirs, and these."""
-    inner, outer, nus = ca.MX(z.numel(), z.numel()), ca.MX(0), []
+def _go_back(calls: Sequence[_Call], multipliers: Any) -> tuple[list[Any], Any, list[tuple[Any, Any]]]:
+    """From the multipliers of z: the calls' own second derivatives by x, the arguments times theirs, and these."""
+    inner, outer, nus = [], ca.MX(0), []
     for call in reversed(calls):
         count = call.before.numel()
-        mu, rest = multipliers[count:], z.numel() - count
+        mu = multipliers[count:]
         nu = ca.MX.sym("nu", call.moved.numel())
         nus.append((nu, ca.mtimes(call.slopes.T, mu)))
         multipliers = multipliers[:count] + ca.mtimes(call.by_before.T, nus[-1][1])
         outer += ca.dot(nu, call.moved)
-        bent = ca.mtimes(call.by_before.T, ca.mtimes(call.curvature(mu), call.by_before))
-        inner += ca.diagcat(bent, ca.MX(rest, rest))
+        inner.append(_turned(call.curvature(mu), call.along))
     return inner, outer, nus
+
+
+def _turned(bent: Any, along: Any) -> Any:
+    """Second derivatives by the unknowns, from those by something, and its derivatives by the unknowns."""
+    return ca.mtimes(along.T, ca.mtimes(bent, along))
 
 
 def _inserted(expressions: list[Any], known: Sequence[tuple[Any, Any]]) -> list[Any]:

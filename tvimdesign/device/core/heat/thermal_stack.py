@@ -269,13 +269,22 @@ def slice_moduli(
 
 
 @quantities.helper(instant=True)
+def column_compliances(
+    stack_now: heat.Stack, layer_temperatures: list[Scalar], pcl_rheology: polymer.AnyRheology, frequency_now: Scalar
+) -> list[tuple[Scalar, Scalar]]:
+    """Compliance of the slices in each column [1/Pa] of a layer that melts; one that freezes has no columns."""
+    if stack_now.freezing is not None:
+        return []
+    omega = 2.0 * np.pi * frequency_now
+    return [layer.melting_compliance(one, stack_now.melting, omega, pcl_rheology) for one in layer_temperatures]
+
+
+@quantities.helper(instant=True)
 def layer_moduli(
     stack_now: heat.Stack,
     slice_moduli: tuple[Scalar, Scalar],
-    layer_temperatures: list[Scalar],
+    column_compliances: list[tuple[Scalar, Scalar]],
     column_shares: tuple[float, ...],
-    pcl_rheology: polymer.AnyRheology,
-    frequency_now: Scalar,
 ) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer [Pa]: its slices in series, and while it melts its columns side by side.
 
@@ -283,8 +292,7 @@ def layer_moduli(
     """
     if stack_now.freezing is not None:
         return layer.series_modulus(*slice_moduli)
-    omega = 2.0 * np.pi * frequency_now
-    return layer.melting_modulus(layer_temperatures, column_shares, stack_now.melting, omega, pcl_rheology)
+    return layer.side_by_side(column_compliances, column_shares)
 
 
 @quantities.helper(instant=True)
