@@ -83,12 +83,11 @@ def broken(optimizer: Optimizer, inputs: Array) -> float:
     return max(float(limit.residual(values[limit.output])) for limit in optimizer.problem.limits)
 
 
-def test_boxes_lead_from_a_design_to_an_optimum_that_ipopt_alone_does_not_find(
+def test_boxes_lead_from_a_design_to_an_optimum_that_ipopt_does_not_find_from_it(
     optimizer: Optimizer, design: Array
 ) -> None:
     assert broken(optimizer, design) <= 0.0
-    assert [optimizer.solve(begin=begin, unknowns=optimizer.simulated_guess(begin)).start.converged
-            for begin in (design, optimizer.model.start)] == [False, False]  # fmt: skip
+    assert not optimizer.solve(begin=design, unknowns=optimizer.simulated_guess(design)).start.converged
     found = BoxSearch(optimizer).run(design)
     assert found.start.converged
     assert broken(optimizer, found.inputs) <= CYCLE_TOLERANCE

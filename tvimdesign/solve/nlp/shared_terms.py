@@ -19,8 +19,7 @@ from typing import Any
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 MANY = 12
-"""Entries of the state from which on a sum of them gets a symbol. Of 8 to 24, measured on four studies, this takes the
-fewest operations; layers have 24 cells or more, and a plate has eight."""
+"""Entries of the state from which on a sum of them gets a symbol: more than a plate's 8, less than a layer's 24."""
 _SUMS = {ca.OP_ADD, ca.OP_SUB, ca.OP_NEG, ca.OP_TWICE}
 _PRODUCTS = {ca.OP_MUL: (0, 1), ca.OP_DIV: (0,)}
 """Operations that are linear in one operand where the other does not move, with the operands that may move."""
