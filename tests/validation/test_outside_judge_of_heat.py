@@ -73,7 +73,7 @@ def test_both_draw_parts_of_the_same_size_and_conductivity(study: str) -> None:
             theirs, ours = drawing.materials[name], plane.materials[name]
             wanted = ours.along, ours.up, ours.heat_capacity, ours.radiates_over
             assert (theirs.along, theirs.up, theirs.heat_capacity, theirs.shines) == pytest.approx(wanted, rel=1e-9)
-    assert set(found) <= {"near", "far", "joint", "side"}
+    assert set(found) <= {"near", "far", "joint", "side", "bond", "bond beside"}
 
 
 @named

@@ -99,10 +99,11 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
     under = hot - pad
     heights = [(under + film, "cold"), (hot - film, "legs"), (hot, "hot"), (top, "layer"), (top + SHEET, "far")]
     heights[3:3] = [(hot + SHEET, "joint"), (-SHEET, "spreader"), (0.0, "near")] if spread else [(0.0, "near")]
+    face, lined = top + SHEET, top + SHEET + c["liner_depth"]
 
     def what(x: float, y: float) -> str | None:
-        if y > top + SHEET:
-            return "plate"
+        if y > face:
+            return in_recess(x, y) if lined > face and x < w + SHEET and y < lined + SHEET else "plate"
         if x > w and y > 0.0:
             return at_lip(x, y)
         if x > w:
@@ -111,6 +112,11 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
             return "ledge" if x > inside else None
         beside = spread and x > tile and y < hot + SHEET
         return "beside tiles" if beside else next(name for height, name in heights if y < height)
+
+    def in_recess(x: float, y: float) -> str:
+        if x > w:
+            return "bond beside"
+        return "bond" if y > lined else "liner"
 
     def at_lip(x: float, y: float) -> str:
         if x > w + c["lip_width"]:
@@ -124,12 +130,14 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
     tiled = [(tile, bend)] if spread and inside < tile < w else []
     lip = [(w + c["lip_width"], 0.3 * (top - tip))] if c["lip_height"] else []
     crowded = [(tip, 0.1 * tip)] if lip else [(0.9 * top, deep)]
-    x = graded([(0.0, wide), (inside, bend), *tiled, (w, rim), *([(w + SHEET, rim)] if lip else []), (w + slot, rim),
-                *lip, (w + c["beside"], 0.15 * c["beside"])], fine)  # fmt: skip
+    wall = [(w + SHEET, rim)] if lip or lined > face else []
+    x = graded([(0.0, wide), (inside, bend), *tiled, (w, rim), *wall, (w + slot, rim), *lip,
+                (w + c["beside"], 0.15 * c["beside"])], fine)  # fmt: skip
     sheets = [(hot + SHEET, 0.2 * spread), (-SHEET, 0.2 * spread)] if spread else []
+    liner = [(lined, 0.1 * (lined - face)), (lined + SHEET, 0.1 * (lined - face))] if lined > face else []
     y = graded([(-c["floor_depth"], 0.2 * (c["floor_depth"] + under)), (under, thin), (under + film, 2.0 * thin),
                 (hot - film, thin), (hot, thin), *sheets, (0.0, rim), (min(0.1 * top, 0.5 * tip), deep), *crowded,
-                (top, 0.5 * deep), (top + SHEET, deep), (top + SHEET + c["plate_depth"], 0.3 * c["plate_depth"])],
+                (top, 0.5 * deep), (face, deep), *liner, (face + c["plate_depth"], 0.3 * c["plate_depth"])],
                fine)  # fmt: skip
     return Drawing(x, y, what, _strip_s_materials(c), c["current"] ** 2 * c["resistance"],
                    c["seebeck"] * c["current"], film, pad - 2.0 * film, c["ambient"], _strip_s_exchanges(c, inside),
@@ -152,6 +160,8 @@ def _strip_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
         "below lip": Material(air, air, 0.0, (c["gap"] - c["lip_height"]) * exchange),
         "slot": Material(air, air), "spreader": spread,
         "joint": Material(1e-9, c["spreader_contact"] * SHEET),
+        "liner": Material(c["liner_conductivity"], c["liner_conductivity"], c["liner_heat_capacity"]),
+        "bond": Material(1e-9, c["liner_bond"] * SHEET), "bond beside": Material(c["liner_bond"] * SHEET, 1e-9),
         "beside tiles": Material(air, air, 0.0, c["pad_depth"] * exchange),
     }  # fmt: skip
 

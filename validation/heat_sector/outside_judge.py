@@ -56,6 +56,7 @@ CASES = {
     "paper_shear_bad_pads": Held("paper_shear", "optimum", 150.0, "badly conducting"),
     "paper_shear_good_pads": Held("paper_shear", "optimum", 130.0, "well conducting"),
     "machined_shear_optimum": Held("machined_shear", "optimum", 800.0),
+    "elbow_machined_optimum": Held("elbow_machined", "optimum", 130.0),
     "paper_compression": Held("paper_compression", "start", 580.0),
     "machined_compression": Held("machined_compression", "start", 3100.0),
     "machined_compression_optimum": Held("machined_compression", "optimum", 1600.0),

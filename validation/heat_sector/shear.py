@@ -157,8 +157,8 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
 
 
 def plane(case: Case, fine: float = 1.0) -> Plane:
-    """The strip of a case; `fine` divides each cell into so many along either side."""
-    c, w = case, case.half_width
+    """The strip of a case; `fine` divides each cell into so many along either side, twice as many with a liner."""
+    c, w, fine = case, case.half_width, fine * (2.0 if case.liner_depth else 1.0)
     film, slot = PAD_FILM * c.pad_depth, c.air_conductivity / c.pad_edge_contact
     x, y = _grid(c, slot, fine)
     inside, tile, top = c.window_share * w, c.tile_share * w, c.layer_depth

@@ -96,7 +96,7 @@ def beyond(names: Iterable[str], **why: str) -> list[Any]:
     ]  # fmt: skip
 
 
-HOLES_AT_FILLET = "11 to 14 % too high, on the safe side: holes beside a filleted foot weigh less than beside a sharp one"
+HOLES_AT_FILLET = "11 to 14 % too high, on the safe side: holes weigh less beside a filleted foot"
 OFF_AT_HOLES = {"paper_shear", "front_shear", "paper_compression", "calibrated_compression"}
 
 
