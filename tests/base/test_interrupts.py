@@ -41,3 +41,18 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
             raise_pending()
     finally:
         signal.signal(signal.SIGHUP, before)
+
+
+def test_an_interrupt_that_cannot_be_raised_where_it_comes_is_kept_without_a_word(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    class Ends:
+        def __del__(self) -> None:
+            signal.raise_signal(signal.SIGTERM)  # as in a function of SciPy's that cannot hand an exception on
+
+    with heeding_interrupts():
+        one = Ends()
+        del one
+        with pytest.raises(KeyboardInterrupt):
+            raise_pending()
+    assert not capsys.readouterr().err

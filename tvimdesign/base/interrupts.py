@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import signal
+import sys
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 _SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 _TWICE = 1.0
@@ -20,11 +22,13 @@ _heeding: list[None] = []
 def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     """Raise every interrupt as KeyboardInterrupt, and keep it for `raise_pending`; only in the main thread.
 
-    What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError. A
-    signal that is ignored, as SIGHUP under nohup, stays ignored.
+    What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError.
+    Where compiled code cannot raise at all, Python tells the exception and goes on; an interrupt is kept without that.
+    A signal that is ignored, as SIGHUP under nohup, stays ignored.
     """
     every = {number: signal.getsignal(number) for number in numbers}
     before = {number: handler for number, handler in every.items() if handler not in (signal.SIG_IGN, None)}
+    told, sys.unraisablehook = sys.unraisablehook, _kept_quietly(sys.unraisablehook)
     _heeding.append(None)
     for number in before:
         signal.signal(number, _heed)
@@ -38,6 +42,7 @@ def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
         _heeding.pop()  # first: what comes while the outermost is left ends nothing any more
         for number, handler in before.items():
             signal.signal(number, handler)
+        sys.unraisablehook = told
         if not _heeding:
             _received.clear()
             _times.clear()
@@ -66,6 +71,16 @@ def raise_pending() -> None:
 def exit_code() -> int:
     """What a shell expects of a process that was interrupted: 128 and the signal's number."""
     return 128 + (_received[0] if _received else signal.SIGINT)
+
+
+def _kept_quietly(told: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """What tells an exception that cannot be raised, but for an interrupt, which `raise_pending` raises later."""
+
+    def tell(unraisable: Any) -> None:
+        if not (_received and issubclass(unraisable.exc_type, KeyboardInterrupt)):
+            told(unraisable)
+
+    return tell
 
 
 def _heed(number: int, _: object) -> None:
