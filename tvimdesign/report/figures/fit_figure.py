@@ -12,7 +12,7 @@ from tvimdesign.report.figures.theme.style import COLOURS, NAME_STRIP, WIDTH
 
 _ACROSS = 2
 _LEFT, _GAP, _HIGH, _LOW, _ABOVE, _BELOW = 0.65, 0.75, 1.5, 0.5, 0.3, 0.5  # inches
-_LONGEST = 60  # letters of a title
+_LONGEST = 84  # letters of the titles in a row
 
 
 def fit(data: dict[str, Any]) -> Figure:
@@ -28,13 +28,13 @@ def fit(data: dict[str, Any]) -> Figure:
         bottom = _BELOW + row * (down - 1 - i // across)
         below = place(figure, left, bottom, wide, _LOW)
         above = place(figure, left, bottom + _LOW + 0.08, wide, _HIGH)
-        _panel(above, below, panel)
+        _panel(above, below, panel, _LONGEST // across)
     return figure
 
 
-def _panel(above: Any, below: Any, panel: dict[str, Any]) -> None:
+def _panel(above: Any, below: Any, panel: dict[str, Any], longest: int) -> None:
     title = panel["title"]
-    heading(above, title if len(title) <= _LONGEST else "… " + title[-_LONGEST:])
+    heading(above, title if len(title) <= longest else "… " + title[-longest:])
     order = sorted(range(len(panel["x"])), key=panel["x"].__getitem__) if panel["log_x"] else range(len(panel["x"]))
     above.plot(panel["x"], panel["measured"], "o", color=COLOURS[0], markersize=2.5, label="measured")
     above.plot([panel["x"][i] for i in order], [panel["fitted"][i] for i in order], color=COLOURS[1], label="fitted")

@@ -84,11 +84,12 @@ def _panels(fit: Fit) -> Iterator[dict[str, Any]]:
         :_MOST_PANELS
     ]:
         left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
+        words, _, where = channel.name.partition(" of ")
         x = from_si_array(channel.at, channel.at_unit)
         y = from_si_array(channel.measured, channel.unit)
         yield {
-            "title": channel.name, "x_label": f"{channel.at_name} / {pretty(channel.at_unit)}",
-            "y_label": pretty(channel.unit),
+            "title": where.replace("\\", "/").rpartition("/")[-1],  # the file, without its folders
+            "x_label": f"{channel.at_name} / {pretty(channel.at_unit)}", "y_label": f"{words} / {pretty(channel.unit)}",
             "log_x": bool(np.min(x) > 0.0 and np.max(x) > _DECADES * np.min(x)), "log_y": channel.relative,
             "x": x.tolist(), "measured": y.tolist(), "fitted": from_si_array(predicted, channel.unit).tolist(),
             "residual": (left / noise).tolist(),
