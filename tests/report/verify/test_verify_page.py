@@ -9,6 +9,7 @@ from tvimdesign.page.page_file import page_html
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.verify.comparison import Compared
 from tvimdesign.report.verify.verify_page import verify_page
+from tvimdesign.report.verify.verify_tables import far
 
 PIXEL = bytes.fromhex(
     "89504e470d0a1a0a0000000d4948445200000001000000010806000000"
@@ -36,3 +37,10 @@ def test_rows_pictures_and_solvers_are_on_the_page(tmp_path: Path) -> None:
     assert text.count("data:image/png") == 1
     assert "Temperature of half an arc" in text
     assert "20000" in text
+
+
+def test_a_model_eleven_percent_over_finite_elements_is_beyond_ten_as_one_eleven_below_is() -> None:
+    rows = [
+        Compared(f"of_{model:g}", "s", "", model=model, fe=100.0, coarse=100.0) for model in (89.0, 91.0, 109.0, 110.5)
+    ]
+    assert far(rows) == ["of_89", "of_110.5"]

@@ -73,7 +73,7 @@ def cells(row: Compared) -> tuple[str, ...]:
 
 def far(rows: Sequence[Compared]) -> list[str]:
     """Names of the rows that differ by more than `FAR`."""
-    return [row.name for row in rows if not 1.0 - FAR <= row.ratio <= 1.0 / (1.0 - FAR)]
+    return [row.name for row in rows if not abs(row.ratio - 1.0) <= FAR]
 
 
 def summary(rows: Sequence[Compared]) -> str:
