@@ -84,7 +84,7 @@ WORDS = {
     "floor": ("N*m/rad", "floor on its feet"),
     "rotor_vanes_and_plate": ("N*m/rad", "vanes of the rotor with the plate they hang from"),
     "housing_vanes_and_floor": ("N*m/rad", "vanes of the housing with the floor on its feet"),
-    "core_stress": ("MPa", "von Mises in the core at the holding torque, a mean over a millimetre above its foot"),
+    "core_stress": ("MPa", "von Mises in the core at the holding torque, beside holes or along the fillet of its foot"),
     "plate_stress": (
         "MPa",
         "von Mises in the rotor plate at the holding torque, a mean over its thickness and a "
