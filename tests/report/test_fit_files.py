@@ -87,5 +87,5 @@ def test_a_panel_is_titled_by_its_file_and_labelled_by_what_was_measured() -> No
     )
     fit = SimpleNamespace(problem=SimpleNamespace(channels=[one]), predicted=[angle], noise=[1.0])
     made = SimpleNamespace(kind=SimpleNamespace(name="release"), measurement=SimpleNamespace(fit=fit))
-    (panel,) = figure_data(made)["panels"]  # type: ignore[arg-type]
+    (panel,) = figure_data(made)["panels"]
     assert (panel["title"], panel["y_label"], panel["x_label"]) == ("swing, cold.csv, run 2", "angle / °", "time / s")

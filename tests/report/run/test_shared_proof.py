@@ -60,7 +60,7 @@ def _files(out: Path) -> dict[str, bytes]:
     }
 
 
-class _Stopped(Exception):  # noqa: N818 - nothing is wrong
+class _Stopped(Exception):  # noqa: N818 - a way out of a search that is as it should be, no error
     """Ends a search where its combinations would be solved."""
 
 

@@ -64,7 +64,7 @@ class ProofAnswers:
         return CellAnswer(_SOLVED, "", None, None, (json.dumps(told),))
 
 
-class OtherParts(Exception):  # noqa: N818 - nothing is wrong
+class OtherParts(Exception):  # noqa: N818 - how a job ends whose part is solved, no error
     """Ends the search of one job of an array once its part of the combinations is solved."""
 
     def __init__(self, done: SweepDone) -> None:
