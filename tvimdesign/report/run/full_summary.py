@@ -24,6 +24,7 @@ from tvimdesign.report.run.summary_tables import (
 )
 from tvimdesign.report.run.why import sentences, slack_in_words
 from tvimdesign.report.run.yield_words import cost_of_margins, lost_in_words, reached_in_words, yield_of
+from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
 from tvimdesign.solve.result import StudyResult
 
@@ -106,6 +107,17 @@ def _print_choosing(answer: StudyResult, table: Table, console: Console) -> None
     console.print(f"[dim]{escape(tally_in_words(choosing))}[/dim]")
 
 
+def constant_against(objective: float, found: Solution) -> str:
+    """What the objective of the best constant current is to that of the profile's module.
+
+    They are unlike where that has margins for a yield; the line "Current" compares both without.
+    """
+    if found.yield_reached is not None:
+        return "it has no margins for the yield, the profile's module has"
+    worse = objective / found.objective - 1.0
+    return f"its objective is {abs(worse):.1%} {'higher' if worse > 0.0 else 'lower'}"
+
+
 def _print_drives(answer: StudyResult, table: Table, console: Console) -> None:
     """Currents that follow a profile, and what the same module does at the constant current of the paper."""
     rows = current_rows(answer.design, table)
@@ -131,8 +143,8 @@ def _print_drives(answer: StudyResult, table: Table, console: Console) -> None:
         return ", ".join(f"{name} {format_quantity(values[name], table.unit(name))}" for name in driven)
 
     if best and answer.solution:
-        worse = best.objective / answer.solution.objective - 1.0
-        console.print(f"Best constant: a design of its own, {said(best.values)}; its objective is {worse:.1%} higher.")
+        beside = constant_against(best.objective, answer.solution)
+        console.print(f"Best constant: a design of its own, {said(best.values)}; {beside}.")
     defaults = {name: _default(table, name) for name in driven}
     console.print(f"[dim]Default: this module at {said(defaults)}; the paper heats with 1.5 A.[/dim]")
 
