@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import islice
 
 import numpy as np
@@ -17,6 +17,7 @@ from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.box_search import BoxSearch
+from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -67,26 +68,38 @@ class Relaxation:
 
     def starts(self, most: int | None = None) -> list[Run]:
         """A run from every start, or so many at `most`, with every size free; and what different optima they are."""
-        runs: list[Run] = []
+        coarse = coarse_of(self.optimizer)
+        near, here = self._from_starts([coarse, self.optimizer] if coarse else [self.optimizer], most)
+        runs = NeighboringOptima(self.optimizer).improve(here)
+        if coarse and near:
+            runs = all_refined(self.optimizer, coarse, NeighboringOptima(coarse).improve(near)) + runs
+        self._take(runs)
+        return runs
+
+    def _from_starts(self, grids: Sequence[Optimizer], most: int | None) -> tuple[list[Run], list[Run]]:
+        """A run from every start, or so many at `most`: those that come to an optimum of the first of several problems,
+        and those of the last, which is solved where the first has none.
+        """
+        found: tuple[list[Run], list[Run]] = ([], [])
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)
         for number, begin in enumerate(islice(self.optimizer.multistart.points(), most)):
+            runs = [*found[0], *found[1]]
             if runs and self.optimizer.deadline.passed:
                 break
             best = min((one.start.objective for one in runs if one.start.converged), default=None)
             so_far = "" if best is None else f", objective {best:.5g} so far"
             self.optimizer.progress(f"start {number + 1} of {count}{so_far}")
-            run = self._from_one_of_each(self.constant_current_optimum.beyond(begin))
+            beyond = self.constant_current_optimum.beyond(begin)
+            run, grid = first_optimum(grids, partial(self._from_one_of_each, begin=beyond))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
                 run = second_try.from_conflict_search(run)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
-            runs.append(run)
+            found[grid is self.optimizer].append(run)
             if not self.sizes.names:
                 run.start = replace(run.start, choices=dict(self.records))
                 self.note(run)
-        runs = NeighboringOptima(self.optimizer).improve(runs)
-        self._take(runs)
-        return runs
+        return found
 
     def from_all_over(self) -> list[Run]:
         """Searches in boxes from designs all over the ranges that keep the arithmetic limits, then from the start."""
@@ -123,7 +136,7 @@ class Relaxation:
         for free in self.optimizer.free:
             if free.name in best.start.end:
                 begin[index[free.name]] = min(max(best.start.end[free.name], free.lower), free.upper)
-        run = self._from_one_of_each(self._mixed(begin, {}))
+        run = self._from_one_of_each(self.optimizer, self._mixed(begin, {}))
         if run.start.converged:
             self._take([run])
         return [run]
@@ -139,14 +152,14 @@ class Relaxation:
         self.ends = [] if self.optima else runs
         self._sort_records()
 
-    def _from_one_of_each(self, begin: Array) -> Run:
+    def _from_one_of_each(self, optimizer: Optimizer, begin: Array) -> Run:
         """The best design from a start, with the records that it has most of first, and then with all of them.
 
         A mixture that IPOPT begins in the middle of takes several times as long, and ends in worse optima.
         """
         if not self.sizes.mixtures:
-            return self.optimizer.solve(begin=begin)
-        index = self.optimizer.model.index
+            return optimizer.solve(begin=begin)
+        index = optimizer.model.index
         point, ends = begin.copy(), dict[str, Ends]()
         for mixture in self.sizes.mixtures:
             most = max(mixture.shares, key=lambda name: begin[index[name]])
@@ -154,11 +167,11 @@ class Relaxation:
         for name, (share, _) in ends.items():
             point[index[name]] = share
         point = self._mixed(point, ends)
-        alone = self.optimizer.solve(ends, begin=point)
+        alone = optimizer.solve(ends, begin=point)
         if not alone.start.converged:
-            return self.optimizer.solve(begin=begin)
-        run = self.optimizer.solve(begin=alone.inputs, unknowns=alone.unknowns, beginning="near")
-        return run if run.start.converged else self.optimizer.solve(begin=alone.inputs)
+            return optimizer.solve(begin=begin)
+        run = optimizer.solve(begin=alone.inputs, unknowns=alone.unknowns, beginning="near")
+        return run if run.start.converged else optimizer.solve(begin=alone.inputs)
 
     def _sort_records(self) -> None:
         """Put first the records that the best optimum would have, then those that would cost it least.

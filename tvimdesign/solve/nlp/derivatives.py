@@ -28,10 +28,13 @@ from tvimdesign.solve.nlp.shared_terms import Opened, opened
 Places = NDArray[np.int64]
 
 
-def derivatives_of(function: Any) -> dict[str, Any]:
-    """The Jacobian of g and the Hessian of the Lagrangian of a function (x, p) -> (f, g), by the options of nlpsol."""
+def derivatives_of(function: Any, known: Known | None = None) -> dict[str, Any]:
+    """The Jacobian of g and the Hessian of the Lagrangian of a function (x, p) -> (f, g), by the options of nlpsol.
+
+    Problems that apply the same functions to more or fewer points share what is `known` of these.
+    """
     x, p = (ca.MX.sym(name, function.size1_in(i)) for i, name in enumerate("xp"))
-    (f, g), calls = _opened(function.call([x, p], True, False), x, p)
+    (f, g), calls = _opened(function.call([x, p], True, False), x, p, {} if known is None else known)
     z, along = _follow(calls, x)
     slopes = ca.jacobian(g, z)
     results = [(call.result, call.value) for call in calls]
@@ -48,6 +51,40 @@ def derivatives_of(function: Any) -> dict[str, Any]:
     }
 
 
+class AtPoint:
+    """A function of one point and its derivatives by the rows of its arguments that move."""
+
+    def __init__(self, function: Any, sizes: Sequence[int], moving: Sequence[Sequence[int]]) -> None:
+        """`sizes` are the arguments' rows. Nothing is differentiated before it is needed."""
+        self._function, self._sizes, self._moving = function, sizes, moving
+
+    @cached_property
+    def _opened(self) -> tuple[list[Any], Opened]:
+        """The arguments, and the function there."""
+        kind: Any = ca.SX if self._function.is_a("SXFunction") else ca.MX
+        entries = [kind.sym("entry", 1, 1, rows) for rows in self._sizes]
+        return [ca.vertcat(*column) for column in entries], opened(self._function, entries, self._moving)
+
+    @cached_property
+    def first(self) -> tuple[Any, Any]:
+        """The pattern of the Jacobian; the function of the value and the Jacobian's entries."""
+        symbols, point = self._opened
+        by_moving = point.jacobian()
+        return by_moving.sparsity(), ca.Function("first", symbols, [point.whole, by_moving.nz[:]])
+
+    @cached_property
+    def second(self) -> tuple[Any, Any]:
+        """The pattern of the second derivatives times multipliers; the function of their entries."""
+        symbols, point = self._opened
+        mu = type(point.value).sym("mu", point.value.numel())
+        bent = point.hessian(mu)
+        return bent.sparsity(), ca.Function("second", [*symbols, mu], [bent.nz[:]])
+
+
+Known = dict[tuple[str, tuple[tuple[int, ...], ...]], AtPoint]
+"""By function, written out, and the rows of its arguments that move."""
+
+
 @dataclass
 class _Call:
     """One function applied to columns of arguments; those that are the same for all columns are given once."""
@@ -56,6 +93,7 @@ class _Call:
     count: int
     arguments: list[Any]
     result: Any
+    known: Known
     before: Any = None
     """What its arguments may hang on: the unknowns, and the results of the calls before it."""
     moving_before: Collection[int] = ()
@@ -95,11 +133,11 @@ class _Call:
         return np.concatenate(found)
 
     @cached_property
-    def _point(self) -> tuple[list[Any], Opened]:
-        """The arguments at one point, and the function there."""
-        kind: Any = ca.SX if self.function.is_a("SXFunction") else ca.MX
-        entries = [kind.sym("entry", 1, 1, one.size1()) for one in self.arguments]
-        return [ca.vertcat(*column) for column in entries], opened(self.function, entries, self._moving)
+    def _point(self) -> AtPoint:
+        """The function at one point."""
+        key = (self.function.serialize(), tuple(tuple(rows) for rows in self._moving))
+        sizes = [one.size1() for one in self.arguments]
+        return self.known.setdefault(key, AtPoint(self.function, sizes, self._moving))
 
     @property
     def _columns(self) -> list[Any]:
@@ -109,10 +147,8 @@ class _Call:
     @cached_property
     def _first(self) -> tuple[Any, list[Any]]:
         """The pattern of one point's derivatives; value and derivatives at all points."""
-        symbols, point = self._point
-        by_moving = point.jacobian()
-        function = ca.Function("first", symbols, [point.whole, by_moving.nz[:]]).map(self.count)
-        return by_moving.sparsity(), function(*self._columns)
+        pattern, function = self._point.first
+        return pattern, function.map(self.count)(*self._columns)
 
     @property
     def value(self) -> Any:
@@ -129,16 +165,13 @@ class _Call:
 
     def curvature(self, multipliers: Any) -> Any:
         """Second derivatives of the result, times multipliers, by what moves of the arguments."""
-        symbols, point = self._point
-        mu = type(point.value).sym("mu", point.value.numel())
-        bent = point.hessian(mu)
-        function = ca.Function("second", [*symbols, mu], [bent.nz[:]]).map(self.count)
-        entries = function(*self._columns, ca.reshape(multipliers, mu.numel(), self.count))
-        rows, columns = (self._places[list(one)] for one in bent.sparsity().get_triplet())
+        pattern, function = self._point.second
+        entries = function.map(self.count)(*self._columns, ca.reshape(multipliers, -1, self.count))
+        rows, columns = (self._places[list(one)] for one in pattern.get_triplet())
         return _matrix(rows, columns, entries, (self.moved.numel(), self.moved.numel()))
 
 
-def _opened(expressions: Sequence[Any], x: Any, p: Any) -> tuple[list[Any], list[_Call]]:
+def _opened(expressions: Sequence[Any], x: Any, p: Any, known: Known) -> tuple[list[Any], list[_Call]]:
     """Expressions with a symbol in place of every call's results, and the calls in the order they are made."""
     graph = ca.Function("graph", [x, p], expressions)
     steps = range(graph.n_instructions())
@@ -147,15 +180,15 @@ def _opened(expressions: Sequence[Any], x: Any, p: Any) -> tuple[list[Any], list
     results = [ca.MX.sym("result", sum(one.size1() for one in own), own[0].size2()) for own in outputs]
     parts = [ca.vertsplit(result, _ends(own)) for result, own in zip(results, outputs, strict=True)]
     arguments = [[_once(node.dep(i)) for i in range(node.n_dep())] for node in nodes]
-    known = [*expressions, *(one for each in arguments for one in each)]
-    opened = ca.graph_substitute(known, [*chain(*outputs)], [*chain(*parts)])
+    whole = [*expressions, *(one for each in arguments for one in each)]
+    opened = ca.graph_substitute(whole, [*chain(*outputs)], [*chain(*parts)])
     left = iter(opened[len(expressions) :])
     calls = []
     for node, result, own in zip(nodes, results, arguments, strict=True):
         function = node.which_function()
         mapped = function.is_a("Map")
         point = _with_one_result(function.get_function("f") if mapped else function)
-        calls.append(_Call(point, result.size2() if mapped else 1, [next(left) for _ in own], result))
+        calls.append(_Call(point, result.size2() if mapped else 1, [next(left) for _ in own], result, known))
     return opened[: len(expressions)], calls
 
 

@@ -223,15 +223,15 @@ class Problem:
         table = self.model.table
         return {base for name in self.wanted for base in (name.partition("@")[0], *table.ancestors(name))}
 
-    def elements(self, phase: str) -> int:
-        """Count of a phase's elements: no less than asked for, and the corners of its current lie between them.
+    def elements(self, phase: str, asked: int | None = None) -> int:
+        """Count of a phase's elements: no less than `asked` for, and the corners of its current lie between them.
 
         A freezing layer whose edge runs through the cells wants more; twice as many where its current is free, as the
         current's corners divide its time already.
         """
         pieces = next((current.pieces for current in self.free_currents if current.phase == phase), 1)
         more = (FREEZING if pieces == 1 else 2.0) if self.model.phases[phase].phase.history else 1.0
-        return pieces * math.ceil(self._elements * more / pieces)
+        return pieces * math.ceil((asked or self._elements) * more / pieces)
 
     def currents_at_nodes(self, phase: str, inputs: Any) -> Any:
         """Current [A] of a phase at its nodes: one where it is constant."""

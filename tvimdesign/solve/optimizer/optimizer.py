@@ -22,6 +22,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
+from tvimdesign.solve.nlp.derivatives import Known
 from tvimdesign.solve.nlp.ipopt import NLP, Beginning, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.objective import Objective
@@ -31,6 +32,9 @@ from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, 
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
+REFINING = 10.0
+"""Seconds that an optimum of the coarse problem may take to lead to this one's, also when the time is over: it would be
+lost otherwise. It takes 0.2 to 2 s."""
 RAMP_ELEMENT = 15.0  # s, the longest element of a ramp, in which the current changes fastest
 
 
@@ -74,12 +78,16 @@ class Optimizer:
         limits = constraints_of(study, self.table, self.model.words)
         if without_cycle:
             limits = [limit for limit in limits if not on_cycle(self.table, limit.output)]
-        self.problem = self._problem(self.kept_constraints(limits), objectives)
+        self.problem = self._problem(self.kept_constraints(limits), objectives, study.solver.elements)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[Beginning, Any] = {}
         self._limits: dict[Beginning, float] = {}
         """Seconds after which a run of each solver ends."""
+        self.points: Known = {}
+        """What is known of the derivatives of the functions that problems of this device call."""
+        self._grids: dict[int, Optimizer] = {}
+        """This problem with other counts of elements, once they are built."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def _device(self) -> DeviceFunctions:
@@ -134,16 +142,30 @@ class Optimizer:
         other._begin()
         return other
 
-    def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
+    def with_elements(self, elements: int) -> Optimizer:
+        """The same problem with so many elements of time, built once for all that differ in their records alone."""
+        if elements not in self._grids:
+            first = copy(self)
+            first.__dict__.pop("_compiled", None)
+            first.problem = self._problem(list(self.problem.limits), self.problem.objectives, elements)
+            first._solvers, first._limits = {}, {}
+            self._grids[elements] = first
+        other = copy(self._grids[elements])
+        other.study, other.model, other.multistart = self.study, self.model, self.multistart
+        other.seconds, other.start_values = self.seconds, self.start_values
+        other.vector = DecisionVector(other.problem, self.model)
+        return other
+
+    def _problem(self, kept: list[Constraint], objectives: Sequence[str], elements: int) -> Problem:
         back_offs = None
         if self.study.robust and self.study.robust.sigma is not None:
             from tvimdesign.solve.nlp.back_off import back_offs_of
 
             back_offs = back_offs_of(self.model, self.study, kept)
-        elements, minimize = self.study.solver.elements, tuple(self.study.minimize)
         return Problem(
-            self.model, self.free, kept, minimize, elements, self.currents, objectives, back_offs, self.mixtures
-        )
+            self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents, objectives, back_offs,
+            self.mixtures,
+        )  # fmt: skip
 
     def kept_constraints(self, limits: list[Constraint]) -> list[Constraint]:
         """The limits without those that nothing free can change, which are checked here and now."""
@@ -209,12 +231,13 @@ class Optimizer:
 
     def _solver(self, beginning: Beginning) -> Any:
         """The solver; built once more where half of the time it may take is over, which costs 0.06 s."""
-        left = self.deadline.remaining
+        left = max(self.deadline.remaining, REFINING if beginning == "refined" else 0.0)
         if beginning not in self._solvers or left < 0.5 * self._limits[beginning]:
             known, asked = self._solvers.values(), self.study.solver
             self._solvers[beginning] = solver_of(
-                self._compiled, asked, known, beginning, of_parameters=not self.mixtures, most_seconds=left
-            )
+                self._compiled, asked, known, beginning,
+                points=self.points, of_parameters=not self.mixtures, most_seconds=left,
+            )  # fmt: skip
             self._limits[beginning] = left
         return self._solvers[beginning]
 

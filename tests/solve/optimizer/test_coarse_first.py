@@ -1,0 +1,131 @@
+"""The search with few elements of time first: it ends where the search with all of them does, in fewer of theirs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from tvimdesign.solve.nlp.coarse_to_fine import at_points, on_finer_grid
+from tvimdesign.solve.nlp.transcription import moments
+from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum, refined, search
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import Study, read_study, read_study_text
+
+SAME = 2e-6
+"""Share of the objective that IPOPT's tolerance leaves open."""
+SWITCH = """
+mode: {mode}
+module: {{cold_side: sink}}
+vary:
+  wire_diameter: [1.5 mm, 3 mm]
+  {depth}
+  current: [0.5 A, 4 A]
+require:
+  spring_stiffness: ">= 2 N.m/rad"
+  peak_power: "<= 60 W"
+minimize: {{module_mass: 1, response_time: 1, {also}: 1}}
+solver: {{starts: 1, cells: 6}}
+"""
+SHEAR = SWITCH.format(mode="shear", depth="pcl_thickness: [0.6 mm, 2 mm]", also="switch_energy")
+FREEZING = SWITCH.format(mode="shear", depth="pcl_thickness: [0.6 mm, 2 mm]", also="return_time")
+COMPRESSION = (ROOT / "studies/compare_compression.yaml").read_text().split("solver:")[0]
+
+
+@pytest.fixture(scope="module")
+def optimizer() -> Optimizer:
+    return Optimizer(read_study_text(SHEAR))
+
+
+@pytest.mark.parametrize(("few", "many"), [(1, 3), (1, 2), (2, 3), (3, 9)])
+def test_states_that_are_polynomials_are_the_same_at_finer_points(few: int, many: int) -> None:
+    def course(times: np.ndarray) -> np.ndarray:
+        return np.vstack([1.0 - times**5, 3.0 * times**2 + times, np.ones_like(times)])
+
+    coarse = course(np.append(0.0, moments(few, 1.0)))
+    np.testing.assert_allclose(at_points(coarse, many), course(moments(many, 1.0)), rtol=1e-12, atol=1e-12)
+
+
+def test_what_kinks_between_elements_stays_within_its_element() -> None:
+    coarse = np.abs(np.append(0.0, moments(2, 1.0)) - 0.5)[None]
+    np.testing.assert_allclose(at_points(coarse, 6)[0], np.abs(moments(6, 1.0) - 0.5), atol=1e-12)
+
+
+def _plain(text: str) -> Study:
+    study = read_study_text(text)
+    return study.model_copy(update={"robust": None, "solver": study.solver.model_copy(update={"cells": 6})})
+
+
+@pytest.mark.parametrize("text", [SHEAR, FREEZING, COMPRESSION])
+def test_it_ends_where_the_search_with_all_elements_does(text: str) -> None:
+    optimizer = Optimizer(_plain(text))
+    coarse = coarse_of(optimizer)
+    assert coarse is not None
+    assert coarse.problem.unknown_count < 0.6 * optimizer.problem.unknown_count
+    alone, found = optimizer.solve(), search(optimizer, optimizer.model.start)
+    assert alone.start.converged
+    assert found.start.converged
+    assert found.start.objective == pytest.approx(alone.start.objective, rel=SAME)
+    assert len(found.unknowns) == optimizer.problem.unknown_count
+
+
+def test_the_finer_problem_begins_nearly_solved(optimizer: Optimizer) -> None:
+    coarse = coarse_of(optimizer)
+    assert coarse is not None
+    run = coarse.solve()
+    unknowns = on_finer_grid(run.unknowns, coarse.problem, optimizer.problem, run.inputs)
+    fine = refined(optimizer, coarse, run)
+    places = slice(len(optimizer.free), optimizer.problem.blocks[0].states.numel())
+    assert np.abs(unknowns - fine.unknowns)[places].max() < 2.0  # K of some 60
+    assert fine.start.iterations - run.start.iterations <= 20
+    assert fine.start.seconds > run.start.seconds
+
+
+def test_a_start_without_a_coarse_optimum_is_searched_with_all_elements(optimizer: Optimizer) -> None:
+    coarse = coarse_of(optimizer)
+    assert coarse is not None
+    asked: list[Optimizer] = []
+
+    def solve(one: Optimizer) -> Run:
+        asked.append(one)
+        run = one.solve()
+        run.start = run.start.__class__(**{**vars(run.start), "converged": one is optimizer})
+        return run
+
+    run, grid = first_optimum([coarse, optimizer], solve)
+    assert asked == [coarse, optimizer]
+    assert grid is optimizer
+    assert run.start.iterations > optimizer.solve().start.iterations  # with the work that came to nothing
+
+
+def test_the_same_optimum_is_refined_once(optimizer: Optimizer, monkeypatch: pytest.MonkeyPatch) -> None:
+    coarse = coarse_of(optimizer)
+    assert coarse is not None
+    run, again = coarse.solve(), coarse.solve()
+    again.start = run.start.__class__(**{**vars(again.start), "begin": {"wire_diameter": 1e-3}})
+    beginnings: list[str | None] = []
+    solve = Optimizer.solve
+    monkeypatch.setattr(
+        Optimizer, "solve", lambda self, **known: beginnings.append(known.get("beginning")) or solve(self, **known)
+    )
+    first, second = all_refined(optimizer, coarse, [run, again])
+    assert beginnings == ["refined"]
+    assert first.start.begin == run.start.begin
+    assert second.start.begin == {"wire_diameter": 1e-3}
+    assert second.start.end == first.start.end
+
+
+def test_where_it_would_spare_little_there_is_none() -> None:
+    study = read_study(ROOT / "studies/fast_switch.yaml")
+    assert coarse_of(Optimizer(study.model_copy(update={"robust": None}))) is None  # its current is free
+
+
+def test_problems_that_differ_in_records_alone_share_the_coarse_one(optimizer: Optimizer) -> None:
+    other = optimizer.with_records(optimizer.study)
+    assert other is not None
+    one, same = coarse_of(optimizer), coarse_of(other)
+    assert one is not None
+    assert same is not None
+    assert same.problem is one.problem
+    assert same.model is other.model

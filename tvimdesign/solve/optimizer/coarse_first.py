@@ -1,0 +1,81 @@
+"""Searches of a problem with as few elements of time as it can have, whose optima lead to those of the problem itself.
+
+An iteration of the coarse problem takes a quarter to a half of the time, and most iterations are for where to begin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from tvimdesign.solve.nlp.coarse_to_fine import on_finer_grid
+from tvimdesign.solve.nlp.solution import same_optimum
+from tvimdesign.solve.nlp.solver_run import Array, Run
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+
+FEWEST = 1
+"""Elements of a phase; a freezing one has more (`Problem.elements`)."""
+
+
+def coarse_of(optimizer: Optimizer) -> Optimizer | None:
+    """The coarse problem; None where it would have more than half of the elements, or other unknowns than states."""
+    problem = optimizer.problem
+    phases = [block.phase.phase.name for block in problem.blocks]
+    few, every = (sum(problem.elements(name, asked) for name in phases) for asked in (FEWEST, None))
+    if optimizer.currents or problem.balances or 2 * few > every:
+        return None
+    return optimizer.with_elements(FEWEST)
+
+
+def first_optimum(grids: Sequence[Optimizer], solve: Callable[[Optimizer], Run]) -> tuple[Run, Optimizer]:
+    """The run of the first problem that comes to an optimum, else of the last, and the problem; told with all work."""
+    runs: list[Run] = []
+    for grid in grids:
+        runs.append(solve(grid))
+        if runs[-1].start.converged:
+            break
+    last, grid = runs[-1], grids[len(runs) - 1]
+    iterations, seconds = (sum(getattr(run.start, work) for run in runs) for work in ("iterations", "seconds"))
+    last.start = replace(last.start, iterations=iterations, seconds=seconds)
+    return last, grid
+
+
+def refined(optimizer: Optimizer, coarse: Optimizer, run: Run) -> Run:
+    """The optimum that one of the coarse problem leads to, as one run with the work of both.
+
+    Where it leads to none from the states there, the search begins afresh at its numbers.
+    """
+    unknowns = on_finer_grid(run.unknowns, coarse.problem, optimizer.problem, run.inputs)
+    fine = optimizer.solve(begin=run.inputs, unknowns=unknowns, beginning="refined")
+    if not (fine.start.converged or optimizer.deadline.passed):
+        fine = optimizer.solve(begin=run.inputs)
+    fine.start = replace(
+        run.start, status=fine.start.status, converged=fine.start.converged, objective=fine.start.objective,
+        end=fine.start.end, iterations=run.start.iterations + fine.start.iterations,
+        seconds=run.start.seconds + fine.start.seconds,
+    )  # fmt: skip
+    return fine
+
+
+def all_refined(optimizer: Optimizer, coarse: Optimizer, runs: Sequence[Run]) -> list[Run]:
+    """The same for several runs; the same optimum is refined once."""
+    found: list[tuple[Run, Run]] = []
+    for run in runs:
+        same = (fine for one, fine in found if same_optimum(one.start, run.start) and fine.start.converged)
+        if not run.start.converged:
+            fine = run
+        elif (known := next(same, None)) is None:
+            fine = refined(optimizer, coarse, run)
+        else:
+            ended = known.start
+            start = replace(run.start, objective=ended.objective, end=ended.end, status=ended.status)
+            fine = replace(known, start=start)
+        found.append((run, fine))
+    return [fine for _, fine in found]
+
+
+def search(optimizer: Optimizer, begin: Array) -> Run:
+    """The optimum from a start: by the coarse problem, where there is one that has an optimum."""
+    coarse = coarse_of(optimizer)
+    run, grid = first_optimum([coarse, optimizer] if coarse else [optimizer], lambda one: one.solve(begin=begin))
+    return refined(optimizer, grid, run) if run.start.converged and grid is not optimizer else run
