@@ -7,8 +7,8 @@ import pytest
 from support import ROOT
 
 from tvimdesign.solve.nlp.coarse_to_fine import at_points, on_finer_grid
-from tvimdesign.solve.nlp.transcription import moments
 from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.nlp.transcription import moments
 from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum, refined, search
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study, read_study_text
