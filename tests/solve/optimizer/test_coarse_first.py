@@ -9,7 +9,7 @@ from support import ROOT
 from tvimdesign.solve.nlp.coarse_to_fine import at_points, on_finer_grid
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.nlp.transcription import moments
-from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum, refined, search
+from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum, refined, search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study, read_study_text
 
@@ -63,7 +63,7 @@ def test_it_ends_where_the_search_with_all_elements_does(text: str) -> None:
     coarse = coarse_of(optimizer)
     assert coarse is not None
     assert coarse.problem.unknown_count < 0.6 * optimizer.problem.unknown_count
-    alone, found = optimizer.solve(), search(optimizer, optimizer.model.start)
+    alone, found = optimizer.solve(), search_from(optimizer, optimizer.model.start)
     assert alone.start.converged
     assert found.start.converged
     assert found.start.objective == pytest.approx(alone.start.objective, rel=SAME)

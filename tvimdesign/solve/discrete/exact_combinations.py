@@ -11,6 +11,7 @@ from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Run, Trace
+from tvimdesign.solve.optimizer.coarse_first import search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 
@@ -46,7 +47,7 @@ class ExactCombinations:
         if not exact.optimizer.deadline.passed:
             runs.append(exact.optimizer.solve(ends, warm=carried, begin=begin))
         if runs and not runs[0].start.converged:
-            runs.append(exact.optimizer.solve(ends, begin=begin))
+            runs.append(search_from(exact.optimizer, begin, ends))
         found = min([*runs, carried], key=lambda one: not one.start.converged)
         choices = exact.choices(box[: len(exact.sizes.names)])
         found = replace(found, within=ends, start=replace(found.start, choices=choices, relaxed=False))
@@ -63,7 +64,7 @@ class ExactCombinations:
             return None
         found = exact.optimizer.solve(warm=run)
         if not found.start.converged:
-            found = exact.optimizer.solve(begin=run.inputs)
+            found = search_from(exact.optimizer, run.inputs)
         return found if found.start.converged else None
 
 

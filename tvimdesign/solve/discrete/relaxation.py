@@ -17,7 +17,7 @@ from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.box_search import BoxSearch
-from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum
+from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum, search_from
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -344,7 +344,10 @@ class Relaxation:
         begin: Array | None = None,
         unknowns: Array | None = None,
     ) -> Run:
-        run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
+        if warm is None and unknowns is None and begin is not None:
+            run = search_from(self.optimizer, begin, ends)
+        else:
+            run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
         self.work.count(run.start, warm=warm is not None)
         return run
 

@@ -5,13 +5,14 @@ An iteration of the coarse problem takes a quarter to a half of the time, and mo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from tvimdesign.solve.nlp.coarse_to_fine import on_finer_grid
-from tvimdesign.solve.nlp.solution import same_optimum
-from tvimdesign.solve.nlp.solver_run import Array, Run
+from tvimdesign.solve.nlp.solution import Start, same_optimum
+from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 
 FEWEST = 1
 """Elements of a phase; a freezing one has more (`Problem.elements`)."""
@@ -46,9 +47,9 @@ def refined(optimizer: Optimizer, coarse: Optimizer, run: Run) -> Run:
     Where it leads to none from the states there, the search begins afresh at its numbers.
     """
     unknowns = on_finer_grid(run.unknowns, coarse.problem, optimizer.problem, run.inputs)
-    fine = optimizer.solve(begin=run.inputs, unknowns=unknowns, beginning="refined")
+    fine = optimizer.solve(run.within, begin=run.inputs, unknowns=unknowns, beginning="refined")
     if not (fine.start.converged or optimizer.deadline.passed):
-        fine = optimizer.solve(begin=run.inputs)
+        fine = optimizer.solve(run.within, begin=run.inputs)
     fine.start = replace(
         run.start, status=fine.start.status, converged=fine.start.converged, objective=fine.start.objective,
         end=fine.start.end, iterations=run.start.iterations + fine.start.iterations,
@@ -74,8 +75,29 @@ def all_refined(optimizer: Optimizer, coarse: Optimizer, runs: Sequence[Run]) ->
     return [fine for _, fine in found]
 
 
-def search(optimizer: Optimizer, begin: Array) -> Run:
-    """The optimum from a start: by the coarse problem, where there is one that has an optimum."""
+def search_from(optimizer: Optimizer, begin: Array, within: Mapping[str, Ends] | None = None) -> Run:
+    """The optimum from a start, with some numbers `within` ends: by the coarse problem, where there is one.
+
+    Where nothing brings the limits of that nearer, the problem itself is asked from there.
+    """
     coarse = coarse_of(optimizer)
-    run, grid = first_optimum([coarse, optimizer] if coarse else [optimizer], lambda one: one.solve(begin=begin))
-    return refined(optimizer, grid, run) if run.start.converged and grid is not optimizer else run
+    if coarse is None:
+        return optimizer.solve(within, begin=begin)
+    run = coarse.solve(within, begin=begin)
+    if run.start.converged:
+        return refined(optimizer, coarse, run)
+    if run.start.status == NO_DESIGN:
+        unknowns = on_finer_grid(run.unknowns, coarse.problem, optimizer.problem, run.inputs)
+        fine = optimizer.solve(within, begin=run.inputs, unknowns=unknowns)
+        begun = optimizer.vector.free_values(begin)
+    else:
+        fine, begun = optimizer.solve(within, begin=begin), run.start.begin
+    fine.start = _after(run.start, replace(fine.start, begin=begun))
+    return fine
+
+
+def _after(coarse: Start, fine: Start) -> Start:
+    """A run that another one led to, with the work of both."""
+    return replace(
+        fine, iterations=coarse.iterations + fine.iterations, seconds=coarse.seconds + fine.seconds
+    )  # fmt: skip
