@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from support import ROOT
@@ -106,9 +108,12 @@ def test_the_same_optimum_is_refined_once(optimizer: Optimizer, monkeypatch: pyt
     again.start = run.start.__class__(**{**vars(again.start), "begin": {"wire_diameter": 1e-3}})
     beginnings: list[str | None] = []
     solve = Optimizer.solve
-    monkeypatch.setattr(
-        Optimizer, "solve", lambda self, **known: beginnings.append(known.get("beginning")) or solve(self, **known)
-    )
+
+    def watched(self: Optimizer, *known: Any, **named: Any) -> Run:
+        beginnings.append(named.get("beginning"))
+        return solve(self, *known, **named)
+
+    monkeypatch.setattr(Optimizer, "solve", watched)
     first, second = all_refined(optimizer, coarse, [run, again])
     assert beginnings == ["refined"]
     assert first.start.begin == run.start.begin
