@@ -155,7 +155,8 @@ def side_links(
     structure_conductivity: Scalar,
     liner_rim: tuple[Link, ...],
 ) -> tuple[Link, ...]:
-    """From the liner's rim, and from the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
+    """From the liner's rim to the plate, and from the layer's free side through the air of the gap, to the floor's
+    corner and to the plate beside it.
 
     `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
     it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot

@@ -92,7 +92,7 @@ class Slope(NamedTuple):
 
 
 class Link(NamedTuple):
-    """What conducts, and radiates, between two places; `layer`, `liner` and `plate` give heat evenly over their depth."""
+    """What conducts, and radiates, between two places; layer, liner and plate give heat evenly over their depth."""
 
     first: Place
     second: Place

@@ -59,7 +59,8 @@ def sheeted_end(free: Any, layer: Any) -> WalledEnd:
     b = 1 - a the layer is colder by a b/3 for that, the sheet by b (5 - 4 b)/12.
     """
     near, wall, edge = _ends(free)
-    beside = np.arccosh((1.0 + edge - 2.0 * np.cos(np.pi * layer)) / (1.0 - edge)) / np.pi
+    place = (1.0 + edge - 2.0 * np.cos(np.pi * layer)) / (1.0 - edge)
+    beside = np.log(place + np.sqrt(place**2 - 1.0)) / np.pi
     heights, sheet = _heights(edge, beside), 1.0 - layer
     colder = beside * _mean([y * (1.0 - 0.5 * layer) - 0.5 * y**2 / layer for y in heights])
     rim = wall - beside

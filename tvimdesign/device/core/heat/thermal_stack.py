@@ -2,8 +2,9 @@
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`, `core_share`), the pads' open
-`cold_area` and the way along them to a sink there (`cold_to_sink`); the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
-`stack_links`, `side_links`, `loss_links`, and a `lip` of the plate), and how the plate loses heat in the end
+`cold_area` and the way along them to a sink there (`cold_to_sink`); the bodies around the pads (`around_pads`), what
+passes heat to, from and between them (`floor_links`, `stack_links`, `side_links`, `loss_links`, and a `lip` of the
+plate), and how the plate loses heat in the end
 (`plate_losses`); what of the layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes
 from them to the layer (`pad_contact`, of which `to_spreader` lies before a spreader), and what is heated on the way
 (`spreader_capacity`); and by `layer_temperatures`, `column_shares` and `moment_now` what a partly molten layer is to
