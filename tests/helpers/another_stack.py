@@ -191,8 +191,25 @@ class AnotherStack:
         waves = np.pi * np.arange(1, 2001) / web
         falling = 2.0 * ledge / waves - (1.0 - np.exp(-2.0 * waves * ledge)) / waves**2
         terms, sign = falling / (waves * web * ledge**2) / (k * edge), (-1.0) ** np.arange(1, 2001)
-        onto[3], across[3] = np.sum(terms), -np.sum(sign * terms)
+        onto[3], across[3] = np.sum(terms) + self._along_cold(ledge), -np.sum(sign * terms)
         self.onto, self.across = onto, across
+        self.into_sink = self.window / (
+            1.0 / self.value("sink_contact") + self.window * self._along_cold(self.area / edge - ledge)
+        )
+
+    def _along_cold(self, touched: float) -> float:
+        """From the mean of the pads' cold sides to where they are touched for so much of half their width [K/W].
+
+        What is drawn there evenly and comes evenly is cosines over the half width, which legs and side pass along.
+        """
+        v = self.value
+        wide, pad, k = self.area / self.edge, v("peltier_thickness"), v("pad_conductivity")
+        up, film = self.leak / self.area * pad, pad / 12.0
+        waves = np.pi * np.arange(1, 9) / wide
+        drawn = 2.0 * np.sin(waves * touched) / (waves * wide * touched)
+        legs = np.sqrt(k * up) * waves * np.tanh(waves * 10.0 * film * np.sqrt(k / up))
+        felt = np.sin(waves * touched) / (waves * touched)
+        return float(np.sum(drawn * felt / (legs + film * k * waves**2))) / self.edge
 
     def _layer_s_end(self) -> None:
         """From the layer's free side through the gap to floor and plate."""
@@ -294,7 +311,7 @@ class AnotherStack:
             [[self._cold(y, amps) + below - np.sum(cold) - down[3]], watts, beside, floor, [middle]]
         )
         if self.sink:
-            given = self.window * self.value("sink_contact") * (y[0] - y[SINK])
+            given = self.into_sink * (y[0] - y[SINK])
             lost = self.value("sink_area") * self._flux(y[SINK], self.value("sink_coefficient"))
             everything = np.append(everything, given - lost)
         rates = everything / self.capacities
@@ -371,7 +388,7 @@ class AnotherStack:
     def _cold(self, y: Array, amps: float) -> float:
         drawn = self.seebeck * amps * (y[0] + 273.15)
         if self.sink:
-            return -self.window * self.value("sink_contact") * (y[0] - y[SINK]) - drawn
+            return -self.into_sink * (y[0] - y[SINK]) - drawn
         return -self.window * self._flux(y[0], self.value("cold_side_coefficient")) - drawn
 
     def _outflow(self, y: Array) -> float:

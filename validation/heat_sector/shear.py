@@ -127,7 +127,8 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
         }  # fmt: skip
     if found["sink"] is not None:
         cooled = {
-            "sink_conductance": found["sink"].conductance / edge, "sink_capacity": found["sink"].capacity / edge,
+            "sink_conductance": v["sink_contact"] * found["cold_area"] / edge,
+            "sink_capacity": found["sink"].capacity / edge,
             "sink_surface": found["sink"].surface.area / edge, "sink_coefficient": v["sink_coefficient"],
         }  # fmt: skip
     return Case(

@@ -83,13 +83,9 @@ def beyond(name: str) -> list[dict[str, str]]:
     return [row for row in rows(name) if abs(float(row["difference [%]"])) > 100.0 * THREE_PERCENT]
 
 
-LINED = {"elbow_machined"}
-"""Held to the plane since 2026-11-25, and up to 2.5 K too cold there, as docs/theory/heat.md tells."""
-
-
 def test_a_time_beyond_three_percent_is_less_than_two_kelvins_off() -> None:
     for row in beyond("results"):
-        assert abs(float(row["warmer by [K]"])) < (2.5 if row["study"] in LINED else 2.0), row
+        assert abs(float(row["warmer by [K]"])) < 2.0, row
 
 
 def test_the_theory_names_every_time_beyond_three_percent() -> None:

@@ -85,7 +85,7 @@ def test_columns_have_no_mean_of_their_own(them: columns.Columns) -> None:
         assert np.dot(them.shares, [shape(place) for place in them.places]) == pytest.approx(0.0, abs=1e-3)
     ends = np.array([columns.at_end(place, heights, 3.0, 0.1) for place in them.places])
     assert them.shares @ ends == pytest.approx(np.zeros(3), abs=0.02)
-    beside = np.array(columns.beside_wall(heights, 3.0, 0.01, 0.1))
+    beside = np.array(columns.beside_wall(heights, 3.0, 0.01, 0.98, 0.1))
     assert columns.DENSE.shares @ beside == pytest.approx(np.ones(3))
     assert np.all(np.diff(beside, axis=0) < 0.0)
 

@@ -93,3 +93,28 @@ def test_what_heats_the_stack_is_stored_in_it(bare_stack: Make) -> None:
     change = heat.stored_energy(state + 1e-3 * rate, stack) - heat.stored_energy(state - 1e-3 * rate, stack)
     given = heat.profile(state, stack).through_plate[-1]
     assert change / 2e-3 == pytest.approx(-given, abs=1e-6 * abs(heat.profile(state, stack).through_layer[0]))
+
+
+def test_what_a_liner_gives_sideways_leaves_its_cells_as_each_is_warm(bare_stack: Make) -> None:
+    side = lumps.Link(("liner", 0), ("ambient", 0), 0.3)
+    stack = lined(bare_stack, (1e-3, 0.29, 1.56e6))
+    state = heat.initial_state(stack, 5, COLD)
+    state[-3:] += [0.3, 0.2, 0.1]
+    seen, given = heat.profile(state, stack), heat.rates(state, stack, 0.0)
+    less = given - heat.rates(state, stack._replace(links=(side,)), 0.0)
+    assert stack.liner is not None
+    each = stack.liner.capacity / 3.0 * 100.0 * less[-3:]
+    assert each == pytest.approx(0.1 * (seen.liner - COLD), rel=1e-9)
+    assert less[:-3] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_what_a_spreader_gives_to_others_passes_the_contact_below_it_too(bare_stack: Make) -> None:
+    pads, away = 40.0, lumps.Link(("spreader", 0), ("ambient", 0), 0.5)
+    stack = bare_stack(hot_contact=1.0 / (0.02 * AREA), to_spreader=0.02, links=(away,))
+    state = heat.initial_state(stack, 5, COLD)
+    state[1] += pads / 100.0
+    seen = heat.profile(state, stack)
+    lost = 0.5 * (seen.spreader - COLD)
+    assert seen.hot - seen.spreader == pytest.approx(0.02 * (seen.through_layer[0] + lost), rel=1e-9)
+    bare = heat.profile(state, stack._replace(links=()))
+    assert seen.through_layer[0] < bare.through_layer[0]

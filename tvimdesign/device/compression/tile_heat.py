@@ -19,6 +19,12 @@ def heater_strings(heater_wiring: str, vane_count: Scalar, heater_count: Scalar)
 
 
 @quantities.helper()
+def cold_to_sink() -> Scalar:
+    """Resistance along the cold sides to a sink [K/W]: not counted, as the slots leave most of them open."""
+    return 0.0
+
+
+@quantities.helper()
 def cold_area(
     heater_form: str,
     vane_count: Scalar,

@@ -161,6 +161,7 @@ def stack_links(
     edge_length: Scalar,
     floor_web: Scalar,
     structure_conductivity: Scalar,
+    cold_to_ledges: Scalar,
     tile_links: tuple[Link, ...],
     ambient_temperature: Scalar,
     around_pads: tuple[Body, ...],
@@ -189,7 +190,7 @@ def stack_links(
         ]
     else:
         rims = [Link(SPREADER, upper, pad_wall), *tile_links]
-    rested = slab_faces.through_faces(cold, ledges, face, ambient_temperature, onto, under)
+    rested = slab_faces.through_faces(cold, ledges, face, ambient_temperature, onto + cold_to_ledges, under)
     return (*rims, *rested, _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)))
 
 

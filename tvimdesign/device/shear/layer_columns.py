@@ -12,7 +12,7 @@ from tvimdesign.device.shear.floor_heat import CORNER, SIDE
 from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import columns, heat, peltier
+from tvimdesign.physics.heat_flow import columns, conduction, heat, peltier, still_air
 
 quantities = QuantityGroup(shared.group)
 
@@ -42,7 +42,7 @@ def edge_drops(
 ) -> tuple[Scalar, Scalar]:
     """How far the edges of the pads' hot side and of the plate's face are below their means [K], by what they lose."""
     now, corner = stack_profile, stack_profile.around[CORNER]
-    side = now.hot
+    side = now.spreader
     if heater_form == CUT:
         upper = peltier.legs_temperatures(now.hot, now.legs[0], now.cold)[1]
         side = SIDE * now.hot + (1.0 - SIDE) * upper
@@ -68,7 +68,6 @@ def layer_temperatures(
     pcl_area: Scalar,
     edge_length: Scalar,
     pcl_depth: Scalar,
-    pcl_conductivity_melt: Scalar,
 ) -> list[Scalar]:
     """Temperatures of the layer's slices [K], in columns from the middle of an arc to its edge.
 
@@ -78,7 +77,7 @@ def layer_temperatures(
     count = len(stack_profile.cells)
     heights = (np.arange(count) + 0.5) / count
     width = pcl_area / edge_length / pcl_depth
-    ends = _at_end(stack_profile, heights, width, air_beside, cold_end, pcl_conductivity_melt)
+    ends = _at_end(stack_profile, stack, heights, width, air_beside, cold_end)
     pads, plate = edge_drops
     share = columns.way_through(stack, heights)
     found = []
@@ -90,17 +89,24 @@ def layer_temperatures(
 
 def _at_end(
     now: heat.Profile,
+    stack: heat.Stack,
     heights: Any,
     width: Scalar,
     air_beside: tuple[Scalar, Scalar],
     cold_end: ColdEnd | None,
-    pcl_conductivity_melt: Scalar,
 ) -> list[Scalar]:
-    """Temperatures of the slices in each column [K], by what leaves the layer at its end alone."""
+    """Temperatures of the slices in each column [K], by what leaves the layer at its end alone: into a lip and the
+    clearance below it, or into the gap."""
+    conductivity, slot = air_beside
     if cold_end is not None and now.lip is not None:
         lip = now.lip.temperature
-        warmer = columns.beside_wall(heights, width, cold_end.contact, cold_end.free)
-        return [lip + (now.cells - lip) * one for one in warmer]
-    conductivity, slot = air_beside
-    excess = conductivity / pcl_conductivity_melt * (now.hot - now.around[CORNER])
+        phases = conduction.Conductivities(stack.conductivity_solid, stack.conductivity_melt)
+        end = (heights, width, cold_end.contact, cold_end.layer, cold_end.free)
+        to_lip, to_floor = still_air.below_lip(slot)
+        through = conductivity * (to_lip * (now.hot - lip) + to_floor * (now.hot - now.around[CORNER]))
+        return [
+            conduction.shared(warmer, now.cells, lip, phases, stack.melting) - through / phases.melt * below
+            for warmer, below in zip(columns.beside_wall(*end), columns.below_wall(*end), strict=True)
+        ]
+    excess = conductivity / stack.conductivity_melt * (now.hot - now.around[CORNER])
     return [now.cells - excess * columns.at_end(place, heights, width, slot) for place in columns.EVEN.places]

@@ -1,7 +1,8 @@
 """The free side of the layer: what heat leaves there, into the air of the gap or into a lip of the rotor plate.
 
 A lip touches the layer but for the running clearance below it; what else heats and cools it is in `lip_heat`. The arcs'
-ends have no lip; they are taken as having one, as an arc is a strip with as much edge.
+ends have no lip; they are taken as having one, as an arc is a strip with as much edge. A liner and its film are as much
+more layer there, before the plate; the walls of its recess go on from the lip (`liner_rim`).
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.still_air import below_lip
-from tvimdesign.physics.heat_flow.walled_end import walled_end
+from tvimdesign.physics.heat_flow.walled_end import WalledEnd, sheet_end, sheeted_end, walled_end
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
@@ -40,13 +42,35 @@ class ColdEnd(NamedTuple):
     near: Scalar
     """What of that the pads give in the end, over their hot side's excess."""
     contact: Scalar
-    """Thickness of layer that conducts as a contact does, over the layer's with two of these [1]."""
+    """Thickness of layer that conducts as a contact does, over that from pads to plate [1]."""
     free: Scalar
-    """Height below the lip over the layer's [1]."""
+    """Height below the lip over the same [1]."""
+    layer: Scalar
+    """The layer's thickness over the same [1]."""
+
+
+class EndWall(NamedTuple):
+    """Plate and lip as one wall at the end of layer and liner."""
+
+    conductivity: Scalar
+    """Of the layer, the mean of both phases [W/m K]."""
+    height: Scalar
+    """From pads to plate: the layer and, as much more layer as conducts alike, contacts, liner and film [m]."""
+    layer: Scalar
+    """What of that the layer is with its contacts [1]."""
+    sheet: Scalar
+    """What of it the liner is [1]."""
+    contacts: Scalar
+    """What of it both contacts of the layer are [1]."""
+    free: Scalar
+    """What of it is free below the wall [1]."""
+    width: Scalar
+    """Of the layer, over that height without the contacts [1]."""
+    end: WalledEnd
 
 
 @quantities.helper()
-def cold_end(
+def end_wall(
     melt_lip: str,
     lip_height: Scalar,
     pcl_thickness: Scalar,
@@ -54,23 +78,46 @@ def cold_end(
     edge_length: Scalar,
     hot_contact: Scalar,
     rotor_contact: Scalar,
+    liner_sheet: Liner | None,
     pcl_conductivity_solid: Scalar,
     pcl_conductivity_melt: Scalar,
-) -> ColdEnd | None:
-    """Lip at the layer's end; none without lips. A contact is as much more layer, where heat crowds as well."""
-    if melt_lip == NO_LIP:
+) -> EndWall | None:
+    """The wall at the layer's end; none without lips and liner. A contact is as much more layer, where heat crowds as
+    well."""
+    if melt_lip == NO_LIP and liner_sheet is None:
         return None
     conductivity = 0.5 * (pcl_conductivity_solid + pcl_conductivity_melt)
     contacts = conductivity / hot_contact + conductivity / rotor_contact
-    below = np.fmax(pcl_thickness - lip_height, 0.0)
-    free = (below + AT_CORNER * contacts) / (pcl_thickness + contacts)
-    end, wide = walled_end(free), pcl_area / edge_length / pcl_thickness
+    sheet, whole = 0.0, 0.0
+    if liner_sheet is not None:
+        sheet, whole = (conductivity * pcl_area * one for one in (liner_sheet.resistance, liner_sheet.whole))
+    height = pcl_thickness + contacts + whole
+    layer = (pcl_thickness + contacts) / height
+    if melt_lip == NO_LIP:
+        free, end = layer, sheet_end(layer)
+    else:
+        below = np.fmax(pcl_thickness - lip_height, 0.0)
+        free = (below + AT_CORNER * contacts) / height
+        end = walled_end(free) if liner_sheet is None else sheeted_end(free, layer)
+    width = pcl_area / edge_length / (pcl_thickness + whole)
+    return EndWall(conductivity, height, layer, sheet / height, contacts / height, free, width, end)
+
+
+@quantities.helper()
+def cold_end(melt_lip: str, end_wall: EndWall | None) -> ColdEnd | None:
+    """What the layer gives to a lip at its end; none without lips."""
+    if melt_lip == NO_LIP or end_wall is None:
+        return None
+    k, end, layer, width = end_wall.conductivity, end_wall.end, end_wall.layer, end_wall.width
+    # Slices that fall evenly are this much above the wall in their sum, twice as much as the half of a bare layer.
+    fall = layer * (2.0 - layer)
     return ColdEnd(
-        of_layer=conductivity * lumps.sink_of_slices(end.deep / wide) * wide,
-        of_pads=conductivity * (end.wall - lumps.FALLING * end.deep),
-        near=conductivity * end.near,
-        contact=0.5 * contacts / (pcl_thickness + contacts),
-        free=free,
+        of_layer=k * layer * lumps.sink_of_slices(end.deep / width, end.colder / width) * width,
+        of_pads=k * (end.wall - fall * lumps.FALLING * end.deep),
+        near=k * end.near,
+        contact=0.5 * end_wall.contacts,
+        free=end_wall.free,
+        layer=layer - end_wall.contacts,
     )
 
 
@@ -106,8 +153,10 @@ def side_links(
     air_beside: tuple[Scalar, Scalar],
     melt_lip: str,
     structure_conductivity: Scalar,
+    liner_rim: tuple[Link, ...],
 ) -> tuple[Link, ...]:
-    """From the layer's free side through the air of the gap, to the floor's corner and to the plate beside it.
+    """From the liner's rim to the plate, and from the layer's free side through the air of the gap, to the floor's
+    corner and to the plate beside it.
 
     `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
     it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot
@@ -117,8 +166,8 @@ def side_links(
     near, far = lumps.gap_end(slot) if melt_lip == NO_LIP else below_lip(slot)[::-1]
     through = edge_length * conductivity
     if melt_lip != NO_LIP:
-        return (Link(HOT, FLOOR, near * through),)
+        return (*liner_rim, Link(HOT, FLOOR, near * through))
     corner = structure_conductivity * edge_length * lumps.corner_shape(near)
     inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
-    return (to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
+    return (*liner_rim, to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))

@@ -7,6 +7,7 @@ from tvimdesign.device.shear import (
     arc_clearances,
     arc_laps,
     arc_volumes,
+    cold_sides,
     floor_heat,
     keys,
     layer_columns,
@@ -14,6 +15,7 @@ from tvimdesign.device.shear import (
     layer_heat,
     layer_impedance,
     layer_shrinkage,
+    liner_rim,
     lip_heat,
     melt_lip,
     melt_retention,
@@ -29,8 +31,9 @@ from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 ROOMS = (
-    rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, lip_heat, floor_heat, arc_volumes,
-    arc_clearances, melt_retention, tile_heat, tile_room,
+    rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, liner_rim, lip_heat, floor_heat,
+    arc_volumes, arc_clearances, melt_retention, tile_heat, tile_room,
+    cold_sides,
 )  # fmt: skip
 GROUPS = (
     *tiles.groups, *pad_pockets.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups,

@@ -13,7 +13,7 @@ import numpy as np
 
 from tvimdesign.physics.heat_flow.lumps import gap_end_depth
 from tvimdesign.physics.heat_flow.stack import Stack
-from tvimdesign.physics.heat_flow.walled_end import fallen
+from tvimdesign.physics.heat_flow.walled_end import cooled_end, fallen
 
 SINES = 3
 
@@ -83,15 +83,26 @@ def at_end(place: float, heights: Any, width: Any, slot: Any) -> Any:
     return found * gap_end_depth(slot) / gap_end_depth(0.0)
 
 
-def beside_wall(heights: Any, width: Any, contact: Any, free: Any) -> list[Any]:
+def beside_wall(heights: Any, width: Any, contact: Any, layer: Any, free: Any) -> list[Any]:
     """How warm a layer is in each column over its mean over the width, both above the wall at its end [1].
 
     At the `heights` over its depth t and the width w/t, by what `walled_end.fallen` says of an even fall from face to
     face. Any other profile is taken to fall towards the wall by the same share at each height. Contacts are as much
-    more layer at its faces and its end, here each a share `contact` of the whole.
+    more layer at its faces and its end, here each a share `contact` of the whole, and so is a sheet on it: `layer` is
+    its own share.
     """
-    layer = 1.0 - 2.0 * contact
     above = contact + layer * heights
     left = [1.0 - fallen(free, contact + layer * (1.0 - place) * width, above) for place in DENSE.places]
     mean = sum(share * one for share, one in zip(DENSE.shares, left, strict=True))
     return [one / mean for one in left]
+
+
+def below_wall(heights: Any, width: Any, contact: Any, layer: Any, free: Any) -> list[Any]:
+    """How far a layer is below its mean over the width for heat that leaves its end below that wall, in each column.
+
+    Times k, over what of that heat the near face gives (`walled_end.cooled_end`); lengths as in `beside_wall`.
+    """
+    above = contact + layer * heights
+    found = [cooled_end(free, contact + layer * (1.0 - place) * width, above) for place in DENSE.places]
+    mean = sum(share * one for share, one in zip(DENSE.shares, found, strict=True))
+    return [one - mean for one in found]

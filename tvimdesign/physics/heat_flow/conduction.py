@@ -55,6 +55,17 @@ def mean_conductivity(temperature: Any, at: Any, wall: Any, conductivities: Cond
     return (risen * apart + _SAME**2 * at) / (apart**2 + _SAME**2)
 
 
+def shared(share: Any, place: Any, wall: Any, conductivities: Conductivities, melting: Melting) -> Any:
+    """Temperature [K] where the potential above that of a wall is a `share` of what it is at a place [K].
+
+    One step of Newton's from the share of the temperatures, with the mean of both conductivities for the slope.
+    """
+    even = wall + share * (place - wall)
+    at_wall, at_place, at_even = (potential(one, conductivities, melting) for one in (wall, place, even))
+    beyond = at_even - at_wall - share * (at_place - at_wall)
+    return even - beyond / conductivities.mixed(0.5)
+
+
 def between(cells: Any, conductivities: Conductivities, melting: Melting, depth: Any) -> Any:
     """Flux [W/m^2] from each cell to the next, cells of one depth [m] at temperatures [K] of the equilibrium curve."""
     return -np.diff(potential(cells, conductivities, melting)) / depth

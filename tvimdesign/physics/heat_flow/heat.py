@@ -109,7 +109,9 @@ def profile(state: Any, stack: Stack) -> Profile:
     near_half, far_half = _wall_halves(stack, cells, fractions, hot, plate[0] if stack.liner is None else sheet[0])
     plate_half = 0.5 * stack.plate_thickness / stack.plate_cells / (stack.plate_conductivity * stack.area)
 
-    inflow = (hot - cells[0]) / (1.0 / (stack.hot_contact * stack.area) + near_half)
+    way = 1.0 / (stack.hot_contact * stack.area) + near_half
+    spreader = _spreader(parts, stack, (hot, cells[0]), way)
+    inflow = (spreader - cells[0]) / (way - stack.to_spreader)
     inside = _between_cells(stack, cells, fractions)
     to_face = far_half + 1.0 / (stack.plate_contact * stack.area)
     if stack.liner is None:
@@ -125,6 +127,7 @@ def profile(state: Any, stack: Stack) -> Profile:
     now = Profile(
         cold=_kelvin(parts.cold),
         hot=hot,
+        spreader=spreader,
         near=cells[0] + inflow * near_half,
         cells=cells,
         far=cells[-1] - across * far_half,
@@ -143,6 +146,22 @@ def profile(state: Any, stack: Stack) -> Profile:
     if stack.lip is None:
         return now
     return now._replace(lip=warm_lip(stack.lip, cells, now.at, lambda wall: _over_mean(stack, now, wall)))
+
+
+def _spreader(parts: _Parts, stack: Stack, ends: tuple[Any, Any], way: Any) -> Any:
+    """Temperature [K] of what lies on the pads, on the `way` [K/W] from them to the polymer's first cell.
+
+    What it gives to others passes from the pads to it as well.
+    """
+    (hot, cell), rest = ends, way - stack.to_spreader
+    onward, heat = 1.0 / rest, cell / rest
+    for link in stack.links:
+        for (group, _), (other, i) in ((link.first, link.second), (link.second, link.first)):
+            if group == "spreader":
+                met = stack.ambient if other == "ambient" else _kelvin(getattr(parts, other)[i])
+                conductance = lumps.link_conductance(link, hot, met)
+                onward, heat = onward + conductance, heat + conductance * met
+    return (hot + stack.to_spreader * heat) / (1.0 + stack.to_spreader * onward)
 
 
 def _over_mean(stack: Stack, now: Profile, wall: Any) -> tuple[Any, Any]:
@@ -198,7 +217,7 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     sideways = _sideways(now, stack)
     plate = (linked["plate"][0] - np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
     beside, around = _bodies(now, stack, np.sum(sideways), linked)
-    sheet = now.liner if stack.liner is None else liner.heating(stack.liner, now.through_liner)
+    sheet = now.liner if stack.liner is None else liner.heating(stack.liner, now.through_liner, linked["liner"][0])
     bodies = np.append(np.append(np.append(np.append(plate, beside), sink), around), np.append(legs, sheet))
     bodies = bodies / TEMPERATURE_SCALE
     heated = np.append(sides / TEMPERATURE_SCALE, layer / _cell_mass(stack, len(now.cells)) / ENTHALPY_SCALE)
@@ -249,10 +268,9 @@ def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
 
 def _linked(now: Profile, stack: Stack, current: Any) -> dict[str, list[Any]]:
     """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate."""
-    spreader = now.hot - stack.to_spreader * now.through_layer[0]
     places = {
         "ambient": [stack.ambient],
-        "spreader": [spreader],
+        "spreader": [now.spreader],
         "cold": [now.cold],
         "hot": [now.hot],
         "beside": now.beside,
@@ -262,7 +280,8 @@ def _linked(now: Profile, stack: Stack, current: Any) -> dict[str, list[Any]]:
         settled = stack.legs_capacity is None
         middle = peltier.settled_middle(stack.peltier, current, now.hot, now.cold) if settled else now.legs[0]
         places["legs"] = list(peltier.legs_temperatures(now.hot, middle, now.cold))
-    linked = lumps.linked(stack.links, places, {"layer": now.cells, "plate": now.plate})
+    divided = {"layer": now.cells, "plate": now.plate} | ({} if stack.liner is None else {"liner": now.liner})
+    linked = lumps.linked(stack.links, places, divided)
     linked["hot"][0] = linked["hot"][0] + linked["spreader"][0]
     if now.lip is not None:
         _take(linked, now)

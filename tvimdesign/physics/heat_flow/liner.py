@@ -42,6 +42,6 @@ def flows(liner: Liner, ends: tuple[Any, Any], ways: tuple[Any, Any], cells: Any
     return np.append(np.append(into, within), (cells[-1] - behind) / (half + liner.bond + to_bond))
 
 
-def heating(liner: Liner, through: Any) -> Any:
-    """Heating of the cells [K/s] by the heat [W] that passes them."""
-    return -np.diff(through) / (liner.capacity / CELLS)
+def heating(liner: Liner, through: Any, beside: Any) -> Any:
+    """Heating of the cells [K/s] by the heat [W] that passes them and what comes to each from `beside`."""
+    return (beside - np.diff(through)) / (liner.capacity / CELLS)

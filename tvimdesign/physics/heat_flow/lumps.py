@@ -77,7 +77,8 @@ class Lump(NamedTuple):
 
 Place = tuple[str, int]
 """Where a link ends: `ambient`, `cold`, `hot`, a `spreader` on that, `legs` (their half next to hot is 1, to cold 2),
-`layer` or `plate` of the column, the plate's first cell as its `face`, or a body `beside` or `around`, and which."""
+`layer`, `liner` or `plate` of the column, the plate's first cell as its `face`, or a body `beside` or `around`, and
+which."""
 
 
 class Slope(NamedTuple):
@@ -91,7 +92,7 @@ class Slope(NamedTuple):
 
 
 class Link(NamedTuple):
-    """What conducts, and radiates, between two places; `layer` and `plate` give heat evenly over their depth."""
+    """What conducts, and radiates, between two places; layer, liner and plate give heat evenly over their depth."""
 
     first: Place
     second: Place
@@ -249,14 +250,15 @@ def gap_end_depth(slot: Any) -> Any:
     return whole / (1.0 + BEFORE_SLOT * slot / whole)
 
 
-def sink_of_slices(deep: Any) -> Any:
+def sink_of_slices(deep: Any, colder: Any) -> Any:
     """What a layer's slices give to a wall at its end, over k/t and their excess, for the depth it comes from [1].
 
     `deep` is `WalledEnd.deep` over the layer's width w/t: how much colder its mean is than an even fall from near to
     far face. Slices that give x per excess have the profile sinh(x^1/2 (1 - y/t)), the mean of which is below the even
-    fall's by 1/2 - tanh(x^1/2/2)/x^1/2 = x/24 - x^2/240 + ..., here solved for x within 2 % up to 0.08.
+    fall's by 1/2 - tanh(x^1/2/2)/x^1/2 = x/24 - x^2/240 + ..., here solved for x within 2 % up to 0.08. What is
+    left of the excess follows from how much `colder` the layer is (`WalledEnd.colder` over the width), by a sheet too.
     """
-    return 2.0 * FALLING * deep / (1.0 - 2.4 * deep)
+    return 2.0 * FALLING * deep / (1.0 - 2.4 * colder)
 
 
 def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
@@ -273,13 +275,19 @@ def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
     return onto, slenderness / 3.0
 
 
-def constriction(share: Any) -> Any:
+def constriction(share: Any, sheet: Any = 0.0, depth: Any = np.inf) -> Any:
     """What a slab resists more where only a `share` of its face up to one side is heated, evenly, times k and length.
 
     By separation of variables (Carslaw and Jaeger, ch. V) the heated share is warmer than the mean of the face by the
-    sum of 2 sin^2(n pi f)/((n pi)^3 f^2), heat over k and length, in a slab deeper than a third of its height.
+    sum of 2 sin^2(n pi f)/((n pi)^3 f^2), heat over k and length, in a slab deeper than a third of its height. One of a
+    `depth`, over its height, has the tanh(n pi depth) less of heat along it; a `sheet` on its face, over k and height,
+    n pi as much more.
     """
-    return sum(2.0 * np.sin(n * np.pi * share) ** 2 / ((n * np.pi) ** 3 * share**2) for n in range(1, 9))
+    waves = [n * np.pi for n in range(1, 9)]
+    along = [np.tanh(wave * depth) + wave * sheet for wave in waves]
+    return sum(
+        2.0 * np.sin(wave * share) ** 2 / (wave**3 * share**2 * more) for wave, more in zip(waves, along, strict=True)
+    )
 
 
 def corner_shape(shape: Any) -> Any:

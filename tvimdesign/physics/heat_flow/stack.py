@@ -74,6 +74,8 @@ class Profile(NamedTuple):
 
     cold: Any
     hot: Any
+    spreader: Any
+    """What lies on the hot side, or that side itself."""
     near: Any
     """Polymer's face towards the Peltier element."""
     cells: Any

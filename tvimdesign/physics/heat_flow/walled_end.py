@@ -6,6 +6,8 @@ the layer's thickness, heat over conductivity, length of the end and excess of t
 With w = cosh(pi z/t) the layer is half of a plane: its near face w > 1, its free end cos(pi f) < w < 1, wall and far
 face the rest. Between two such half lines the heat from the gap's end on is arcosh(u)/pi, with u the place from the
 gap's middle over half the gap (conformal maps: Carslaw and Jaeger, Conduction of Heat in Solids, ch. XVI).
+
+Where a sheet lies on the layer, before what is cold, both are one to the wall: lengths are over the thickness of both.
 """
 
 from __future__ import annotations
@@ -27,25 +29,70 @@ class WalledEnd(NamedTuple):
     near: Any
     """Heat that the near face gives for it [1]."""
     wall: Any
-    """Heat that comes into the wall [1]; beyond `near` it is what the far face does not get."""
+    """Heat that comes into the wall beside the layer [1]; beyond `near` it is what the far face does not get."""
     deep: Any
     """How deep in the layer that heat comes out of it: the integral of q y (t - y)/(2 t^2) dy [1].
 
-    The layer is colder in the mean by that over its width, whatever its profile, as in `lumps.gap_end_depth`."""
+    The layer is colder in the mean by that over its width, whatever its profile, as in `lumps.gap_end_depth`. Below a
+    sheet this is what a layer without one would have that gives as much for each height and kelvin."""
+    colder: Any
+    """How much colder the layer is in the mean than an even fall, times its width, over twice the mean of that [1]."""
+    rim: Any = 0.0
+    """Heat that comes into the wall beside a sheet on the layer [1]."""
+    sheet_colder: Any = 0.0
+    """How much colder that sheet is in the mean than an even fall, times its width [1]."""
 
 
 def walled_end(free: Any) -> WalledEnd:
     """The heat at an end of whose height a share is `free`, 0 < free < 1."""
-    edge = np.cos(np.pi * free)
-    wall = -2.0 / np.pi * np.log(np.tan(0.25 * np.pi * free))
-    heights = [
-        np.arccos(0.5 * (1.0 + edge - (1.0 - edge) * np.cosh(np.pi * passed * wall))) / np.pi for passed in _PASSED
-    ]
+    near, wall, edge = _ends(free)
+    deep = wall * _mean([0.5 * y * (1.0 - y) for y in _heights(edge, wall)])
+    return WalledEnd(near, wall, deep, deep)
+
+
+def sheeted_end(free: Any, layer: Any) -> WalledEnd:
+    """The heat at an end of layer and sheet; the `layer` is a share a of their height, 0 < free < a < 1.
+
+    Heat q out of the end at a height y makes the mean of the layer colder by y (1 - a/2) - y^2/(2 a) from within it, by
+    a (1 - y)/2 from the sheet; what goes out evenly by the excess 1 - y over the layer by (8 a^2 - 11 a^3 + 4 a^4)/24.
+    The sheet is colder by y (1 - a)/2 from the layer. Its own heat falls about evenly to nothing at the far face: with
+    b = 1 - a the layer is colder by a b/3 for that, the sheet by b (5 - 4 b)/12.
+    """
+    near, wall, edge = _ends(free)
+    place = (1.0 + edge - 2.0 * np.cos(np.pi * layer)) / (1.0 - edge)
+    beside = np.log(place + np.sqrt(place**2 - 1.0)) / np.pi
+    heights, sheet = _heights(edge, beside), 1.0 - layer
+    colder = beside * _mean([y * (1.0 - 0.5 * layer) - 0.5 * y**2 / layer for y in heights])
+    rim = wall - beside
     return WalledEnd(
-        near=-2.0 / np.pi * np.log(np.sin(0.5 * np.pi * free)),
-        wall=wall,
-        deep=wall * _mean([0.5 * y * (1.0 - y) for y in heights]),
+        near=near,
+        wall=beside,
+        deep=colder / (8.0 * layer**2 - 11.0 * layer**3 + 4.0 * layer**4),
+        colder=(colder + rim * layer * sheet / 3.0) / (2.0 - layer),
+        rim=rim,
+        sheet_colder=beside * _mean(heights) * 0.5 * sheet + _by_rim(rim, sheet),
     )
+
+
+def sheet_end(layer: Any) -> WalledEnd:
+    """The heat at an end of layer and sheet where the wall is beside the sheet alone."""
+    rim = walled_end(layer).wall
+    return WalledEnd(0.0, 0.0, 0.0, 0.0, rim, _by_rim(rim, 1.0 - layer))
+
+
+def _by_rim(rim: Any, sheet: Any) -> Any:
+    return rim * sheet * (5.0 - 4.0 * sheet) / 12.0
+
+
+def _ends(free: Any) -> tuple[Any, Any, Any]:
+    """What near face and wall pass, and the place of the wall's tip."""
+    near, wall = (-2.0 / np.pi * np.log(one) for one in (np.sin(0.5 * np.pi * free), np.tan(0.25 * np.pi * free)))
+    return near, wall, np.cos(np.pi * free)
+
+
+def _heights(edge: Any, heat: Any) -> list[Any]:
+    """Heights at which shares of the heat have come into the wall, from its tip at arccos(edge)/pi on."""
+    return [np.arccos(0.5 * (1.0 + edge - (1.0 - edge) * np.cosh(np.pi * passed * heat))) / np.pi for passed in _PASSED]
 
 
 def fallen(free: Any, away: Any, height: Any) -> Any:
@@ -55,12 +102,28 @@ def fallen(free: Any, away: Any, height: Any) -> Any:
     temperature is 1 - arccos((|u + 1| - |u - 1|)/2)/pi of the near face's excess, and 1 - y/t far from the wall. Far
     away both sizes are nearly alike, so that their sum stands in place of their difference: 2 Re u/(|u + 1| + |u - 1|).
     """
+    return 1.0 - (1.0 - np.arccos(_along_and_off(free, away, height)[0]) / np.pi) / (1.0 - height)
+
+
+def cooled_end(free: Any, away: Any, height: Any) -> Any:
+    """How much colder a place is for heat that leaves the free end, over that heat and length, times k [1].
+
+    With u = cos(a + i b) the free end is 0 < a < pi at b = 0, near face and wall are a = 0 and pi: heat that leaves as
+    sin a makes it colder by half of sin a exp(-b). The near face gives half of that heat, the wall misses the rest;
+    the whole is told over what the near face gives.
+    """
+    along, off = _along_and_off(free, away, height)
+    return np.sqrt(1.0 - along**2) * (off - np.sqrt(off**2 - 1.0))
+
+
+def _along_and_off(free: Any, away: Any, height: Any) -> tuple[Any, Any]:
+    """cos a and cosh b of a place, u = cos(a + i b): along the free end and off it."""
     edge = np.cos(np.pi * free)
     real = 2.0 * np.cosh(np.pi * away) * np.cos(np.pi * height) - 1.0 - edge
     imaginary = 2.0 * np.sinh(np.pi * away) * np.sin(np.pi * height)
     right, left = ((real + sign * (1.0 - edge)) ** 2 + imaginary**2 for sign in (1.0, -1.0))
-    between = 2.0 * real / (np.sqrt(right) + np.sqrt(left))
-    return 1.0 - (1.0 - np.arccos(between) / np.pi) / (1.0 - height)
+    both = np.sqrt(right) + np.sqrt(left)
+    return 2.0 * real / both, both / (2.0 * (1.0 - edge))
 
 
 def _mean(values: list[Any]) -> Any:

@@ -2,8 +2,9 @@
 
 Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`, `core_share`), the pads' open
-`cold_area`; the bodies around the pads (`around_pads`), what passes heat to, from and between them (`floor_links`,
-`stack_links`, `side_links`, `loss_links`, and a `lip` of the plate), and how the plate loses heat in the end
+`cold_area` and the way along them to a sink there (`cold_to_sink`); the bodies around the pads (`around_pads`), what
+passes heat to, from and between them (`floor_links`, `stack_links`, `side_links`, `loss_links`, and a `lip` of the
+plate), and how the plate loses heat in the end
 (`plate_losses`); what of the layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes
 from them to the layer (`pad_contact`, of which `to_spreader` lies before a spreader), and what is heated on the way
 (`spreader_capacity`); and by `layer_temperatures`, `column_shares` and `moment_now` what a partly molten layer is to
@@ -119,12 +120,14 @@ def sink(
     sink_coefficient: Scalar,
     surface_emissivity: Scalar,
     cold_area: Scalar,
+    cold_to_sink: Scalar,
 ) -> lumps.Lump | None:
-    """Sink at the pads' cold sides, where those are open."""
+    """Sink at the pads' cold sides, where those are open: behind its contact, and what leads to it along them."""
     if cold_side == "open":
         return None
     surface = lumps.Surface(sink_area, sink_coefficient, surface_emissivity)
-    return lumps.Lump(conductance=sink_contact * cold_area, capacity=sink_capacity, surface=surface)
+    contact = 1.0 / (1.0 / (sink_contact * cold_area) + cold_to_sink)
+    return lumps.Lump(conductance=contact, capacity=sink_capacity, surface=surface)
 
 
 @quantities.helper()
