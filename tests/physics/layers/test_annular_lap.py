@@ -7,9 +7,7 @@ from scipy.integrate import solve_bvp
 from tvimdesign.physics.layers import annular_lap, shear_lag
 
 
-def solved(
-    coupled: np.ndarray, enters: np.ndarray, lap: annular_lap.AnnularLap
-) -> tuple[float, float, float, float]:
+def solved(coupled: np.ndarray, enters: np.ndarray, lap: annular_lap.AnnularLap) -> tuple[float, float, float, float]:
     """Rises at both edges over T r_o/J, the upper sheet's share, and the traction's mean square over an even one's.
 
     Of F'' - 3 F'/r = A F - b, F of each layer 0 at the inner edge and 1 at the outer, by numbers.

@@ -96,13 +96,13 @@ def beyond(names: Iterable[str], **why: str) -> list[Any]:
     ]  # fmt: skip
 
 
-HOLES_AT_FILLET = "11 to 14 % too high, on the safe side: holes weigh less beside a filleted foot"
-OFF_AT_HOLES = {"paper_shear", "front_shear", "paper_compression", "calibrated_compression"}
+READ_INSIDE = "FE of before: its mean above a fillet of 0.9 mm lies inside the fillet, 13 % below that of its surface"
+OFF = {"paper_compression", "calibrated_compression"}
 
 
-@pytest.mark.parametrize("name", beyond([*BORED, *BLOCKS], **dict.fromkeys(OFF_AT_HOLES, HOLES_AT_FILLET)))
+@pytest.mark.parametrize("name", beyond([*BORED, *BLOCKS], **dict.fromkeys(OFF, READ_INSIDE)))
 def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
-    # A mean over the first millimetre above the sharp corner, per newton metre.
+    # The highest mean over a millimetre along the core's surface, above a sharp corner the first; per newton metre.
     mm, _, _ = read(SHIPPED[name])
     mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(SHIPPED[name]))
     assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.05 if name in BLOCKS else 0.08)

@@ -27,24 +27,6 @@ def mises(shear: Any) -> Any:
     return np.sqrt(3.0) * shear
 
 
-def shear_beside_core(torque: Any, thickness: Any, radius: Any, over: Any) -> Any:
-    """Mean shear [Pa] of a flat plate turned by a core, from its `radius` on outwards `over` a length [m].
-
-    By equilibrium tau(r) = T/(2 pi r^2 h); its mean is T/(2 pi h r (r + l)).
-    """
-    return torque / (2.0 * np.pi * thickness * radius * (radius + over))
-
-
-def mean_with_bending(even: Any, bent: Any) -> Any:
-    """Mean over a plate's thickness of (s^2 + (b u)^2)^(1/2), u from 0 in its middle to 1 on its faces [Pa].
-
-    `even` s is the same through the thickness, `bent` b is that of bending on the faces, across it; their squares add.
-    The integral is ((s^2 + b^2)^(1/2) + s^2/b arsinh(b/s))/2.
-    """
-    ratio = bent / even
-    return 0.5 * even * (np.sqrt(1.0 + ratio**2) + np.arcsinh(ratio) / ratio)
-
-
 def shaft_stiffness(modulus: Any, radius: Any, length: Any) -> Any:
     """Round bar, G pi r^4/(2 L) [N*m/rad]."""
     return modulus * np.pi * radius**4 / (2.0 * length)
