@@ -15,15 +15,18 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import sys
 from itertools import product
 from math import pi
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 from netgen.geom2d import SplineGeometry
 from netgen.libngpy._meshing import NgException
 from ngsolve import H1, BilinearForm, GridFunction, IfPos, Integrate, Mesh, dx, grad, sqrt, x
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tvimdesign/cad/fe/solvers"))
+import foot_surface  # noqa: E402  a solver's module, in the path of its own process
 
 TABLE = Path(__file__).with_name("fillets.csv")
 RADII, PLATES = (6.0, 7.5, 9.0, 12.0), (1.5, 2.0, 3.0, 4.0, 5.0)
@@ -32,8 +35,6 @@ LONG, WIDE = 1.5, 4.0
 """Length of the bar and radius of the plate, over the bar's radius."""
 MESHES = 0.6, 0.5, 0.4, 0.3, 0.25
 """Largest element [mm]; of some outlines a mesh is found with the next only."""
-MEAN, WITHIN, STEPS = 1.0, 0.002, 100
-"""Length over which the stress is a mean [mm], how deep below the surface over the radius, points of a millimetre."""
 
 
 class Foot(NamedTuple):
@@ -73,14 +74,6 @@ def meshed(radius: float, plate: float, fillet: float) -> Mesh:
     raise ValueError(f"no mesh is found of a bar of {radius} mm on {plate} mm with {fillet} mm")
 
 
-def along_surface(radius: float, fillet: float) -> tuple[np.ndarray, np.ndarray]:
-    """Places r, z a little within the surface, evenly from the middle of the fillet on, up the bar."""
-    way, deep = (np.arange(4 * STEPS) + 0.5) / STEPS + 0.25 * pi * fillet, WITHIN * radius
-    turn, up = np.minimum(way / fillet, 0.5 * pi) if fillet else 0.5 * pi, way - 0.5 * pi * fillet
-    curved = radius + fillet - (fillet + deep) * np.sin(turn), fillet - (fillet + deep) * np.cos(turn)
-    return np.where(up > 0, radius - deep, curved[0]), np.where(up > 0, fillet + up, curved[1])
-
-
 def solved(radius: float, plate: float, fillet: float) -> Foot:
     """Bar and plate under a torque."""
     mesh = meshed(radius, plate, fillet)
@@ -94,10 +87,8 @@ def solved(radius: float, plate: float, fillet: float) -> Foot:
     bar, ring = (Integrate(share * density, mesh, order=12) for share in (inside, 1 - inside))
     torque, polar = bar + ring, 0.5 * pi * radius**4
     shear = x * sqrt(grad(found) * grad(found)) * polar / (torque * radius)
-    along = [shear(mesh(*place)) for place in zip(*along_surface(radius, fillet), strict=True)]
-    window = round(MEAN * STEPS)
-    highest = np.convolve(along, np.ones(window) / window, "valid").max()
-    return Foot(bar * polar / torque**2, ring * polar / torque**2, float(highest))
+    along = [shear(mesh(*place)) for place in zip(*foot_surface.places(radius, fillet), strict=True)]
+    return Foot(bar * polar / torque**2, ring * polar / torque**2, float(foot_surface.highest_mean(along)))
 
 
 def main() -> None:

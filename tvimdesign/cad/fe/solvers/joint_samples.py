@@ -4,6 +4,7 @@ and the forces on its feet."""
 from typing import Any
 
 import elastic
+import foot_surface
 import numpy as np
 from elastic import Found
 from ngsolve import (
@@ -26,33 +27,15 @@ from ngsolve import (
 
 STRETCH = 2.0
 """Length along an edge over which its highest stress is a mean [mm]."""
-MEAN, STEPS = 1.0, 20
-"""Length along the core's surface over which the stress at its foot is a mean [mm], and points of a millimetre."""
-WITHIN = 0.002
-"""How far within the surface it is read, over the core's radius."""
-
-
-def beside_foot(mm: Found) -> tuple[Any, Any]:
-    """Radii and levels above the plate [mm] evenly along the core's surface, from the middle of the fillet at its foot
-    on: what is below faces the plate, as the plate's face beside a sharp foot does."""
-    fillet, deep = mm.get("foot_fillet", 0.0), WITHIN * mm["core_radius"]
-    way = (np.arange(round((MEAN + fillet) * STEPS)) + 0.5) / STEPS + 0.25 * np.pi * fillet
-    up = way - 0.5 * np.pi * fillet
-    turn = np.minimum(way / fillet, 0.5 * np.pi) if fillet else np.full_like(way, 0.5 * np.pi)
-    radius = mm["core_radius"] + fillet - (fillet + deep) * np.sin(turn)
-    return radius, np.where(up > 0, fillet + up, fillet - (fillet + deep) * np.cos(turn))
 
 
 def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     """Core's von Mises stress [MPa] at one newton metre at its foot, the highest mean over a millimetre along its
     surface, of a sharp foot that over the first millimetre above it."""
     angles = np.linspace(0, 2 * np.pi, 73)[:-1]
-    radius, level = (one[:, None] for one in beside_foot(mm))
-    places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + level + 0.0 * angles
-    along = elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque
-    window = round(MEAN * STEPS)
-    means = [np.nanmean(along[low : low + window], axis=0) for low in range(len(along) - window + 1)]
-    highest = np.max(means, axis=0)
+    radius, height = (one[:, None] for one in foot_surface.places(mm["core_radius"], mm.get("foot_fillet", 0.0)))
+    places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + height + 0.0 * angles
+    highest = foot_surface.highest_mean(elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque)
     return {"foot_highest": highest.max(), "foot_mean": highest.mean()}
 
 
