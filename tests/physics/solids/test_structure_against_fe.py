@@ -97,7 +97,7 @@ def beyond(names: Iterable[str], **why: str) -> list[Any]:
 
 
 READ_INSIDE = "FE of before: its mean above a fillet of 0.9 mm lies inside the fillet, 13 % below that of its surface"
-OFF = {"paper_compression", "calibrated_compression"}
+OFF = {"paper_compression"}
 
 
 @pytest.mark.parametrize("name", beyond([*BORED, *BLOCKS], **dict.fromkeys(OFF, READ_INSIDE)))
