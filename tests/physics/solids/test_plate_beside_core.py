@@ -14,7 +14,7 @@ IN_SHEAR = [name for name, case in SHIPPED.items() if case["mode"] == "shear"]
 
 def fillet_beside(name: str) -> float:
     mm = SHIPPED[name]["mm"]
-    return float(plate_beside_core.thicker_by_fillet(mm["rotor_thickness"] * MM, mm["foot_fillet"] * MM, MM))
+    return plate_beside_core.thicker_by_fillet(mm["rotor_thickness"] * MM, mm["foot_fillet"] * MM, MM)
 
 
 @pytest.mark.parametrize("name", IN_SHEAR)

@@ -35,7 +35,7 @@ def mean_with_bending(even: Any, bent: Any) -> Any:
     return 0.5 * even * (np.sqrt(1.0 + ratio**2) + np.arcsinh(ratio) / ratio)
 
 
-def thicker_by_fillet(thickness: Any, fillet: Any, over: Any) -> Any:
+def thicker_by_fillet(thickness: float, fillet: float, over: float) -> float:
     """Stress of a plate `over` a length [m] outwards from a core with a fillet over that of one with a sharp foot [1].
 
     What stands on the plate bears with it, so that the stress at x is h/(h + y) of what it was, y(x) the height of a
