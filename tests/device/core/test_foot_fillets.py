@@ -34,7 +34,7 @@ def test_the_strength_of_core_and_pins_counts_it(mode: str) -> None:
     assert large["foot_fillet"] == pytest.approx(2.0 * MM)
     assert large["pin_foot_safety"] / small["pin_foot_safety"] == pytest.approx(4.0**0.33243)
     rise = large["core_holding_torque"] / small["core_holding_torque"]
-    assert 1.01 < rise <= 1.0 / (1.10 * 2.0**-0.26) + 1e-9
+    assert 1.01 < rise < 1.0 / 0.86  # 0.83 to 0.90 by validation/fe_structure/fillets.csv
 
 
 def test_a_fillet_never_touches_the_rim_or_the_other_fillet() -> None:

@@ -13,35 +13,23 @@ from tvimdesign.physics.bodies.shapes import fillet_at_foot
 from tvimdesign.physics.solids import structure
 
 MM = 1e-3
-# Torsion of a stepped round bar, its plate 2.5 times as wide and driven at its rim, by NGSolve (quartic, axisymmetric):
-# radius, plate, fillet [mm], and the shear's peak along the fillet over that of the plain bar.
-PEAKS = [(8, 3, 1.5, 1.476), (8, 3, 2.0, 1.374), (6, 3, 1.5, 1.355), (6, 3, 2.0, 1.280), (12, 3, 1.5, 1.765),
-         (12, 3, 2.0, 1.604), (8, 5, 1.5, 1.433), (8, 5, 2.0, 1.346)]  # fmt: skip
 UNEVEN = 1.03
 """The model's foot is that much higher, as arcs do not drive it alike all around."""
 
 
-@pytest.mark.parametrize(("radius", "plate", "fillet", "peak"), PEAKS)
-def test_the_peak_at_a_fillet_is_that_of_finite_elements(
-    radius: float, plate: float, fillet: float, peak: float
-) -> None:
-    none = structure.Bores(0.0, 0.0, 1.0)
-    rise = structure.foot_rise_on_plate(radius * MM, 1.5 * radius * MM, plate * MM, none, fillet=fillet * MM)
-    assert rise / UNEVEN == pytest.approx(peak, rel=0.06)
-
-
 @pytest.mark.parametrize(("radius", "fillet"), [(6.0, 1.5), (8.0, 1.5), (8.0, 2.0), (10.0, 2.0), (12.0, 1.5)])
-def test_the_peak_in_torsion_is_that_of_petersons_chart(radius: float, fillet: float) -> None:
+def test_the_mean_in_torsion_is_a_little_below_the_peak_of_petersons_chart(radius: float, fillet: float) -> None:
     """Kts = 0.863 (q/d)^-0.239 for a shoulder of twice the diameter; the model on a plate as thin as rotors have."""
     none = structure.Bores(0.0, 0.0, 1.0)
     rise = structure.foot_rise_on_plate(radius * MM, radius * MM, 3.0 * MM, none, fillet=fillet * MM)
-    assert rise / UNEVEN == pytest.approx(0.863 * (0.5 * fillet / radius) ** -0.239, rel=0.07)
+    assert 0.88 < rise / UNEVEN / (0.863 * (0.5 * fillet / radius) ** -0.239) < 1.0
 
 
 def test_a_small_fillet_counts_as_a_sharp_foot_and_a_larger_one_as_less() -> None:
-    of = [structure.filleted_foot(fillet * MM) for fillet in (0.0, 0.5, 1.4, 1.5, 2.0)]
-    assert of[:3] == [1.0, 1.0, 1.0]
-    assert 1.0 > of[3] > of[4] > 0.9
+    of = [structure.filleted_foot(fillet * MM) for fillet in (0.0, 0.5, 1.0, 1.5, 2.0)]
+    assert of[0] == 1.0
+    assert of[1] > 0.999
+    assert of[1] > of[2] > of[3] > of[4] > 0.8
 
 
 @pytest.mark.parametrize(("share", "chart"), [(0.05, 2.38), (0.1, 1.89), (0.2, 1.50), (0.3, 1.31)])
@@ -63,18 +51,27 @@ with (ROOT / "validation/fe_structure/fillets.csv").open(newline="") as file:
     TURNED = [{name: float(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
 
 
-@pytest.mark.parametrize(
+each = pytest.mark.parametrize(
     "row", TURNED, ids=lambda row: "-".join(f"{row[name]:g}" for name in ("radius", "plate", "fillet"))
 )
+
+
+@each
 def test_a_fillet_makes_core_and_plate_as_much_stiffer_and_softer_as_finite_elements_say(row: dict[str, float]) -> None:
     none, modulus = structure.Bores(0.0, 0.0, 1.0), 1e9
     radius, plate, fillet = (row[name] * MM for name in ("radius", "plate", "fillet"))
     per_length = 1.0 / structure.shaft_stiffness(modulus, radius, 1.0)
 
     def gives(q: float) -> tuple[float, float]:
-        core = structure.bored_shaft_stiffness(modulus, radius, 1.5 * radius, none, none, q)
+        shorter = structure.shorter_by_fillet(radius, plate, q)
+        core = structure.bored_shaft_stiffness(modulus, radius, 1.5 * radius, none, none, shorter)
         return 1.0 / core, 1.0 / structure.plate_stiffness(modulus, plate, radius, 4.0 * radius, 0.0, q)
 
-    core, around = ((now - then) / per_length / fillet for now, then in zip(gives(fillet), gives(0.0), strict=True))
-    assert -core == pytest.approx(row["bar_shorter"], abs=0.11)
-    assert around == pytest.approx(row["plate_longer"], abs=0.06)
+    core, around = ((now - then) / per_length for now, then in zip(gives(fillet), gives(0.0), strict=True))
+    assert -core == pytest.approx(row["bar_shorter"] * fillet, abs=0.11 * MM)
+    assert around == pytest.approx(row["plate_longer"] * fillet, abs=0.025 * MM)
+
+
+@each
+def test_a_fillet_lowers_the_stress_at_the_foot_as_finite_elements_say(row: dict[str, float]) -> None:
+    assert structure.filleted_foot(row["fillet"] * MM) == pytest.approx(row["foot"], abs=0.042)

@@ -96,13 +96,13 @@ def beyond(names: Iterable[str], **why: str) -> list[Any]:
     ]  # fmt: skip
 
 
-HOLES_AT_FILLET = "11 to 14 % too high, on the safe side: holes weigh less beside a filleted foot"
-OFF_AT_HOLES = {"paper_shear", "front_shear", "paper_compression", "calibrated_compression"}
+READ_INSIDE = "FE of before: its mean above a fillet of 0.9 mm lies inside the fillet, 13 % below that of its surface"
+OFF = {"paper_compression"}
 
 
-@pytest.mark.parametrize("name", beyond([*BORED, *BLOCKS], **dict.fromkeys(OFF_AT_HOLES, HOLES_AT_FILLET)))
+@pytest.mark.parametrize("name", beyond([*BORED, *BLOCKS], **dict.fromkeys(OFF, READ_INSIDE)))
 def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
-    # A mean over the first millimetre above the sharp corner, per newton metre.
+    # The highest mean over a millimetre along the core's surface, above a sharp corner the first; per newton metre.
     mm, _, _ = read(SHIPPED[name])
     mises = 1e-6 / structure.bored_shaft_torque(1.0 / np.sqrt(3.0), mm["core_radius"], foot_rise(SHIPPED[name]))
     assert mises == pytest.approx(SHIPPED[name]["found"]["foot_highest"], rel=0.05 if name in BLOCKS else 0.08)
@@ -112,7 +112,7 @@ def test_the_core_s_foot_is_stressed_as_in_fe(name: str) -> None:
 def test_the_core_with_its_empty_holes_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(JOINTS[name])
     length = mm["link_bottom_level"] - mm["rotor_top_level"]
-    found = structure.bored_shaft_stiffness(shear, mm["core_radius"], length, *bores(mm), fillet(mm))
+    found = structure.bored_shaft_stiffness(shear, mm["core_radius"], length, *bores(mm))
     fe = JOINTS[name]["found"]["core"]
     assert found == pytest.approx(fe, rel=0.07)
     assert structure.shaft_stiffness(shear, mm["core_radius"], length) > 1.15 * fe  # what stood here: no hole, no entry
@@ -190,7 +190,7 @@ def above_arcs(mm: dict[str, float], shear: float) -> tuple[float, float]:
     return whole, structure.face_compliance(shear, backing(mm), polar_moment(mm))
 
 
-@pytest.mark.parametrize("name", beyond(SHEAR, finger="9 % too soft: its fillet is as high as the plate is thick"))
+@pytest.mark.parametrize("name", SHEAR)
 def test_the_plate_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(SHIPPED[name])
     whole, over_thickness = above_arcs(mm, shear)
@@ -287,7 +287,7 @@ def tiled(mm: dict[str, float], less: float = 0.0) -> float:
 
 
 def spread_lap(case: dict[str, Any]) -> annular_lap.AnnularLap:
-    """Layer between the plate and what spreader, modules and floor are together."""
+    """Layer between the plate and a spreader with its modules, which are sheared between that and the floor."""
     mm, _, shear = read(case)
     metal = coverage(mm) * case["spreader_shear_modulus"] * 1e9 * mm["spreader_depth"]
     modules = tiled(mm) * case["pad_shear_modulus"] * 1e9 * mm["peltier_thickness"]
@@ -295,8 +295,9 @@ def spread_lap(case: dict[str, Any]) -> annular_lap.AnnularLap:
     plate = np.sqrt(coverage(mm)) * shear * backing(mm)
     liner = mm["liner_thickness"] / (case["liner_shear_modulus"] * 1e9) if "liner_shear_modulus" in case else 0.0
     layer = coverage(mm) / (mm["pcl_thickness"] / (case["frozen_shear_modulus"] * 1e9) + liner)
+    below = tiled(mm) * case["pad_shear_modulus"] * 1e9 / mm["peltier_thickness"]
     radii = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
-    return annular_lap.annular_lap(layer, 1.0 / plate, 1.0 / (metal + modules + floor), radii)
+    return annular_lap.lap_of_three((layer, below), (1.0 / plate, 1.0 / (metal + modules), 1.0 / floor), radii)
 
 
 @pytest.mark.parametrize("name", SPREAD)
@@ -336,7 +337,7 @@ def test_a_liner_in_the_walls_of_its_recess_makes_the_edges_bear_what_they_do_in
         assert highest == pytest.approx(row["edge_highest"], rel=0.08)
 
 
-@pytest.mark.parametrize("name", beyond(SPREAD, machined_shear="12 % too high, on the safe side"))
+@pytest.mark.parametrize("name", SPREAD)
 def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -> None:
     case = SHIPPED[name]
     mm, _, _ = read(case)

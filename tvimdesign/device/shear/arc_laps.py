@@ -81,14 +81,14 @@ def lap_on_spreader(
     pcl_outer_radius: Scalar,
     liner_give: Scalar,
 ) -> annular_lap.AnnularLap:
-    """Frozen layer between the plate and what a spreader, modules and the floor below are together."""
+    """Frozen layer between the plate and a spreader with its modules, which are sheared between that and the floor."""
     plate = np.sqrt(driven_share) * structure_shear_modulus * backing_depth
     metal = driven_share * spreader_shear_modulus * spreader_depth
     modules = tiled_share * peltier_shear_modulus * peltier_thickness
     floor = (1.0 - windowed_share) * structure_shear_modulus * floor_web
     layer = driven_share / (pcl_thickness / frozen_shear_modulus + liner_give)
-    radii = pcl_inner_radius, pcl_outer_radius
-    return annular_lap.annular_lap(layer, 1.0 / plate, 1.0 / (metal + modules + floor), radii)
+    below, radii = tiled_share * peltier_shear_modulus / peltier_thickness, (pcl_inner_radius, pcl_outer_radius)
+    return annular_lap.lap_of_three((layer, below), (1.0 / plate, 1.0 / (metal + modules), 1.0 / floor), radii)
 
 
 @quantities.helper()

@@ -27,24 +27,6 @@ def mises(shear: Any) -> Any:
     return np.sqrt(3.0) * shear
 
 
-def shear_beside_core(torque: Any, thickness: Any, radius: Any, over: Any) -> Any:
-    """Mean shear [Pa] of a flat plate turned by a core, from its `radius` on outwards `over` a length [m].
-
-    By equilibrium tau(r) = T/(2 pi r^2 h); its mean is T/(2 pi h r (r + l)).
-    """
-    return torque / (2.0 * np.pi * thickness * radius * (radius + over))
-
-
-def mean_with_bending(even: Any, bent: Any) -> Any:
-    """Mean over a plate's thickness of (s^2 + (b u)^2)^(1/2), u from 0 in its middle to 1 on its faces [Pa].
-
-    `even` s is the same through the thickness, `bent` b is that of bending on the faces, across it; their squares add.
-    The integral is ((s^2 + b^2)^(1/2) + s^2/b arsinh(b/s))/2.
-    """
-    ratio = bent / even
-    return 0.5 * even * (np.sqrt(1.0 + ratio**2) + np.arcsinh(ratio) / ratio)
-
-
 def shaft_stiffness(modulus: Any, radius: Any, length: Any) -> Any:
     """Round bar, G pi r^4/(2 L) [N*m/rad]."""
     return modulus * np.pi * radius**4 / (2.0 * length)
@@ -67,10 +49,14 @@ SHAFT_ENTRY = 0.10
 """Length over radius by which the way into the plate lengthens a core; calibrated to validation/fe_structure."""
 BORE_ENTRY = 0.15
 """Length over radius by which holes that go on into the plate weaken that way; calibrated likewise."""
-FILLET_SHORTENS, FILLET_GIVES = 0.48, 0.12
-"""Of a fillet's radius at the core's foot: how much shorter the core is by it, and how much core the plate gives more
-for it, as the torque enters further out but over the fillet's own ring. Torsion of a round bar on a plate by numbers
-(validation/fe_structure/fillets.csv), radii of 6 to 12 mm on 3 to 5 mm: 0.38 to 0.58 and 0.07 to 0.14."""
+FILLET_SHORTENS, THIN_SHORTENS = 0.495, 0.0046
+"""Of a fillet's radius q at the core's foot: how much shorter the core is by it, 0.495 + 0.0046 (r/h)^2 on a plate of
+the thickness h. Torsion of a round bar on a plate by numbers (validation/fe_structure/fillets.csv), radii of 6 to 12 mm
+on 1.5 to 5 mm, fillets up to 2 mm: within 0.11 mm of core."""
+FILLET_GIVES, FILLET_BEARS = 0.136, 0.023
+"""Of it, likewise: how much core the plate gives more, as the torque enters further out, 0.136 - 0.023 q r/h^2 as the
+fillet bears beside the plate; within 0.025 mm. Over the length q beside the core the plate gives q r/(4 h) of core, of
+which a fillet takes over the more, the higher it is against the plate."""
 
 
 class Bores(NamedTuple):
@@ -84,13 +70,19 @@ class Bores(NamedTuple):
     """Radius of the circle they stand on [m]."""
 
 
-def bored_shaft_stiffness(
-    modulus: Any, radius: Any, length: Any, first: Bores, second: Bores, fillet: Any = 0.0
-) -> Any:
-    """Round bar with two sets of holes from its upper end, standing on a plate with a fillet q around it [N*m/rad].
+def shorter_by_fillet(radius: Any, plate: Any, fillet: Any) -> Any:
+    """Length [m] by which a fillet at its foot makes a core shorter, on a plate of a thickness."""
+    return (FILLET_SHORTENS + THIN_SHORTENS * (radius / plate) ** 2) * fillet
 
-    G pi r^4/2 over L + sum l w/(1 - w) + 0.10 r - 0.48 q, summed over the length l that both sets reach and that only
-    one does, down to 0.15 r below the plate's face. FE of cores as drawn: within 7 %.
+
+def bored_shaft_stiffness(
+    modulus: Any, radius: Any, length: Any, first: Bores, second: Bores, shorter: Any = 0.0
+) -> Any:
+    """Round bar with two sets of holes from its upper end, standing on a plate [N*m/rad].
+
+    G pi r^4/2 over L + sum l w/(1 - w) + 0.10 r, less what a fillet makes it `shorter` (`shorter_by_fillet`), summed
+    over the length l that both sets reach and that only one does, down to 0.15 r below the plate's face. FE of cores as
+    drawn: within 7 %.
     """
     deep = [np.fmin(bores.depth, length + BORE_ENTRY * radius) for bores in (first, second)]
     both = np.fmin(*deep)
@@ -100,7 +92,7 @@ def bored_shaft_stiffness(
         (deep[1] - both, second.weakening),
     ]
     longer = sum(reach * weakening / (1.0 - weakening) for reach, weakening in stretches) + SHAFT_ENTRY * radius
-    return shaft_stiffness(modulus, radius, length + longer - FILLET_SHORTENS * fillet)
+    return shaft_stiffness(modulus, radius, length + longer - shorter)
 
 
 FOOT_MEAN = 1e-3
@@ -140,20 +132,19 @@ def foot_rise_on_plate(radius: Any, length: Any, plate: Any, *holes: Bores, fill
     return FOOT_ON_PLATE * sharp * bored * filleted_foot(fillet)
 
 
-FILLETED_FOOT = 1.10
-"""Peak of the stress at a core's fillet of a millimetre over the mean over a millimetre beside a sharp foot: torsion of
-a stepped round bar solved by finite elements, radii of 6 to 12 mm on plates of 3 and 5 mm, fillets of 1 to 2 mm, within
-6 %."""
+FELT_FILLET = 1.16
+"""Fillet over `FOOT_MEAN` from which on the stress falls; torsion of a stepped round bar by finite elements
+(validation/fe_structure/fillets.csv), radii of 6 to 12 mm on 1.5 to 5 mm, fillets up to 2 mm: within 4 %."""
 
 
 def filleted_foot(fillet: Any) -> Any:
-    """What a fillet makes of the rise [1] of the stress at a sharp foot: min(1, 1.10 (d/q)^0.26), d a millimetre.
+    """What a fillet makes of the rise [1] of the stress at a sharp foot: (1 + (q/1.16 d)^6)^(-0.26/6), d a millimetre.
 
-    The peak at a fillet of the radius q goes as the mean over q at a sharp foot. Below 1.44 mm it is above the mean
-    over a millimetre, which counts then, as at a sharp foot.
+    Of both feet the highest mean over the length d along the surface counts. A fillet that is small against d leaves
+    that as it is; along one that is large it is the peak, which goes with the power -0.26 of q, as the mean beside a
+    sharp foot does with that of d.
     """
-    fillet = np.fmax(fillet, 1e-3 * FOOT_MEAN)
-    return np.fmin(1.0, FILLETED_FOOT * (FOOT_MEAN / fillet) ** SHARP_FOOT)
+    return (1.0 + (fillet / (FELT_FILLET * FOOT_MEAN)) ** 6) ** (-SHARP_FOOT / 6.0)
 
 
 def bent_at_fillet(diameter: Any, fillet: Any) -> Any:
@@ -201,13 +192,14 @@ def plate_stiffness(
 ) -> Any:
     """Plate turned by a core that stands on it, out to the inner edge of what it drives [N*m/rad].
 
-    1/K = ((1 + 0.38 (h/a)^2 + 0.2 w)/a^2 - 1/b^2)/(4 pi G h) + 0.12 q/(G J): the torque spreads over the plate's
-    thickness as it enters, goes around holes on its way, w of `felt_at_foot`, and out through a fillet q around the
-    core, J the core's polar moment.
+    1/K = ((1 + 0.38 (h/a)^2 + 0.2 w)/a^2 - 1/b^2)/(4 pi G h) + (0.136 - 0.023 q a/h^2) q/(G J): the torque spreads over
+    the plate's thickness as it enters, goes around holes on its way, w of `felt_at_foot`, and out through a fillet q
+    around the core, J the core's polar moment.
     """
     entry = 1.0 + PLATE_ENTRY * (thickness / core_radius) ** 2 + BORED_ENTRY * felt
     around = ring_stiffness(modulus, thickness, core_radius / np.sqrt(entry), inner_radius)
-    return 1.0 / (1.0 / around + FILLET_GIVES * fillet / shaft_stiffness(modulus, core_radius, 1.0))
+    longer = (FILLET_GIVES - FILLET_BEARS * fillet * core_radius / thickness**2) * fillet
+    return 1.0 / (1.0 / around + longer / shaft_stiffness(modulus, core_radius, 1.0))
 
 
 def covered_ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, outer_radius: Any, covered: Any) -> Any:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.physics.solids import structure, wedge
+from tvimdesign.physics.solids import plate_beside_core, structure, wedge
 from tvimdesign.report.verify.screw_rows import Carried, screw_rows
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
@@ -143,8 +143,18 @@ def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float
     """Von Mises of the plate at one newton metre [Pa], a mean over its thickness and a millimetre beside the core.
 
     All torque shears it; vanes that hang from it cup it besides (`wedge.foot_bending`, over the plain core's stress).
+    The core's fillet bears with it, and its holes turn the torque aside.
     """
-    sheared = structure.mises(structure.shear_beside_core(1.0, thickness, core, structure.FOOT_MEAN))
+    names = ("core_screw_bores", "core_dowel_bores", "link_bottom_level", "rotor_top_level", "foot_fillet")
+    screws, dowels, top, bottom, fillet = module.table.evaluate(_drawn(module), names).values()
+    felt = structure.felt_at_foot(core, top - bottom, screws, dowels)
+    beside = plate_beside_core.thicker_by_fillet(thickness, fillet, structure.FOOT_MEAN)
+    return _mean_plate_stress(module, thickness, core) * beside * float(plate_beside_core.highest_around(felt))
+
+
+def _mean_plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
+    """The same around a core with a sharp foot and no holes [Pa]."""
+    sheared = structure.mises(plate_beside_core.shear_beside_core(1.0, thickness, core, structure.FOOT_MEAN))
     if module.study.mode == "shear":
         return float(sheared)
     names = ("block_lean_out", "block_between", "vanes_plate")
@@ -152,7 +162,7 @@ def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float
     of_core = structure.mises(1.0 / structure.shaft_torque(1.0, core))
     at = core / (core + 0.5 * structure.FOOT_MEAN)  # a moment on each length falls with the radius
     bent = wedge.foot_bending(lean, block.arm, core, plate) * of_core * at
-    return float(structure.mean_with_bending(sheared, bent) if bent else sheared)
+    return float(plate_beside_core.mean_with_bending(sheared, bent) if bent else sheared)
 
 
 def fe_values(module: ResolvedModule, found: Mapping[str, Mapping[str, float]]) -> dict[str, float]:

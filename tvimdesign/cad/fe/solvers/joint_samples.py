@@ -4,6 +4,7 @@ and the forces on its feet."""
 from typing import Any
 
 import elastic
+import foot_surface
 import numpy as np
 from elastic import Found
 from ngsolve import (
@@ -26,33 +27,16 @@ from ngsolve import (
 
 STRETCH = 2.0
 """Length along an edge over which its highest stress is a mean [mm]."""
-PEAKS = 1.0
-"""Fillet [mm] from which on its peak is read. The mean over a millimetre above a sharp foot would lie inside it."""
-ASIDE = 0.01
-"""How far within the surface it is read [mm]."""
 
 
 def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
-    """Core's von Mises stress [MPa] at one newton metre beside its foot, a mean over the first millimetre above it.
-
-    On a fillet of more than that, along which it has a peak, the largest along it.
-    """
-    fillet = mm.get("foot_fillet", 0.0)
-    angles, levels = np.meshgrid(np.linspace(0, 2 * np.pi, 73)[:-1], (np.arange(10) + 0.5) / 10)
-    radius = mm["core_radius"] * 0.998
-    if fillet > PEAKS:
-        turns = 0.5 * np.pi * levels
-        radius = mm["core_radius"] + fillet - (fillet + ASIDE) * np.sin(turns)
-        places = (radius * np.cos(angles), radius * np.sin(angles),
-                  mm["rotor_top_level"] + fillet - (fillet + ASIDE) * np.cos(turns))  # fmt: skip
-        along = elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque
-        peak = np.nanmax(along, axis=0)
-        return {"foot_highest": np.nanmax(peak), "foot_mean": np.nanmean(peak), "foot_lower_half": np.nanmax(peak)}
-    places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + levels
-    along = elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque
-    mean = np.nanmean(along, axis=0)
-    return {"foot_highest": np.nanmax(mean), "foot_mean": np.nanmean(mean),
-            "foot_lower_half": np.nanmax(np.nanmean(along[:5], axis=0))}  # fmt: skip
+    """Core's von Mises stress [MPa] at one newton metre at its foot, the highest mean over a millimetre along its
+    surface, of a sharp foot that over the first millimetre above it."""
+    angles = np.linspace(0, 2 * np.pi, 73)[:-1]
+    radius, height = (one[:, None] for one in foot_surface.places(mm["core_radius"], mm.get("foot_fillet", 0.0)))
+    places = radius * np.cos(angles), radius * np.sin(angles), mm["rotor_top_level"] + height + 0.0 * angles
+    highest = foot_surface.highest_mean(elastic.sampled(mesh, elastic.mises(tensor), *places) * 1e3 / torque)
+    return {"foot_highest": highest.max(), "foot_mean": highest.mean()}
 
 
 def at_plate(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:

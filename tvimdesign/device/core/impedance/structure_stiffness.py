@@ -50,6 +50,7 @@ def core_dowel_bores(
 def core_stiffness(
     structure_shear_modulus: Scalar,
     core_radius: Scalar,
+    rotor_thickness: Scalar,
     link_bottom_level: Scalar,
     rotor_top_level: Scalar,
     core_screw_bores: structure.Bores,
@@ -58,8 +59,9 @@ def core_stiffness(
 ) -> Scalar:
     """Torsional stiffness of the core between rotor plate and output link."""
     length = link_bottom_level - rotor_top_level
+    shorter = structure.shorter_by_fillet(core_radius, rotor_thickness, foot_fillet)
     return structure.bored_shaft_stiffness(
-        structure_shear_modulus, core_radius, length, core_screw_bores, core_dowel_bores, foot_fillet
+        structure_shear_modulus, core_radius, length, core_screw_bores, core_dowel_bores, shorter
     )
 
 
