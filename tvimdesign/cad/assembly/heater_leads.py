@@ -131,8 +131,8 @@ def thermistors() -> tuple[Thermistor, ...]:
     for one in yaml.safe_load(_THERMISTORS.read_text("utf-8"))["thermistors"]:
         sizes = [parse_quantity(one[name], "m") for name in ("diameter", "length") if name in one]
         most = parse_quantity(one["temperature"], "degC")
-        words = (one[name] for name in ("number", "maker", "curve", "wires"))
-        found.append(Thermistor(*words, temperature=most, bead=Bead(*sizes) if sizes else None))
+        bead = Bead(*sizes) if sizes else None
+        found.append(Thermistor(one["number"], one["maker"], one["curve"], one["wires"], most, bead))
     return tuple(found)
 
 
