@@ -113,13 +113,27 @@ def test_paper_wire_is_music_wire_with_the_papers_modulus() -> None:
     assert paper.table("strength") == music.table("strength")
 
 
+SIZES = {"metric": 44, "music_wire_gauge": 50, "gb_1358": 16}
+"""How many sizes each list has."""
+
+
 def test_wire_sizes_rise() -> None:
     def check(name: str) -> None:
         sizes = [row["wire_diameter"] for row in CATALOG.record("wires", name).table("sizes")]
         assert sizes == sorted(set(sizes))
-        assert len(sizes) > 40
+        assert len(sizes) == SIZES[name]
 
     of_every(CATALOG.names("wires"), check)
+
+
+def test_chinese_wire_is_of_the_preferred_sizes_of_makers_in_the_metric_list() -> None:
+    """The wires of GB/T 2088-1997 from 0.5 to 2.5 mm, as cadhome.net prints the standard, and no size unknown there."""
+    sizes, metric = (
+        [round(1e3 * row["wire_diameter"], 6) for row in CATALOG.record("wires", name).table("sizes")]
+        for name in ("gb_1358", "metric")
+    )
+    assert [one for one in sizes if one <= 2.5] == [0.5, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0, 2.5]
+    assert set(sizes) <= set(metric)
 
 
 def test_the_papers_wire_is_a_gauge_size() -> None:

@@ -235,7 +235,6 @@ CATEGORIES: Mapping[str, Category] = {
     "thermal_fuses": Category(
         values={
             "rated_current": "A",
-            "high_rated_current": "A",
             "body_diameter": "mm",
             "body_length": "mm",
             "opening_band": "K",
@@ -243,16 +242,12 @@ CATEGORIES: Mapping[str, Category] = {
         },
         tables={
             "types": Columns(
-                {
-                    "model": "1",
-                    "functioning_temperature": "degC",
-                    "holding_temperature": "degC",
-                    "ultimate_temperature": "degC",
-                },
-                rising=("holding_temperature", "functioning_temperature", "ultimate_temperature"),
+                {"model": "1", "functioning_temperature": "degC", "holding_temperature": "degC"},
+                rising=("holding_temperature", "functioning_temperature"),
             )
         },
         words={"designation": ()},
+        may_have={"high_rated_current": "A"},
         rising=(("rated_current", "high_rated_current"),),
     ),
     "wires": Category(tables={"sizes": Columns({"wire_diameter": "mm"})}),

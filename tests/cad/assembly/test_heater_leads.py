@@ -11,7 +11,7 @@ from cad_designs import TILES, design_of
 
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, fixtures
-from tvimdesign.cad.assembly.heater_leads import fuse_in_words, wires
+from tvimdesign.cad.assembly.heater_leads import fuse_in_words, thermistor_in_words, thermistors, wires
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.build.main import _titles
 from tvimdesign.cad.geometry.dimensions import dimensions
@@ -69,6 +69,29 @@ def test_a_bead_that_is_drawn_is_in_the_list_of_parts_with_its_size() -> None:
     assert item.title.startswith(
         "Thermistor, bead of 1.8 x 4 mm with insulated wires, for 120 °C; NTC 10 kohm at 25 °C"
     )
+
+
+@pytest.mark.parametrize(
+    ("bead", "heater", "number"),
+    [  # beads in mm, as the makers' sheets have them: AMF58B 1.3 +-0.2 by 2.8 at most, B57540G 0.8 by 1.4
+        ((1.8, 4.0), "ma10_063_05_1", "AMF58B-103F3950"),
+        ((1.5, 2.8), "silicone_9ar_08_24v", "AMF58B-103F3950"),
+        ((1.49, 4.0), "ma10_063_05_1", "B57540G1103F000"),
+        ((1.8, 2.7), "ma10_063_05_1", "B57540G1103F000"),
+        ((0.8, 2.0), "polyimide_foil_24v", "B57540G1103F000"),
+        ((0.7, 4.0), "ma10_063_05_1", None),
+        ((0.0, 4.0), "ma10_063_05_1", "B57862S0103F040"),  # none drawn: glued to a pad, insulated wires, to 155 degC
+        ((0.0, 4.0), "silicone_9ar_08_24v", "AMF58B-103F3950"),  # that heater bears 160 degC
+    ],
+)
+def test_a_thermistor_is_ordered_by_the_number_of_one_that_fits_and_bears_the_heat(
+    bead: tuple[float, float], heater: str, number: str | None
+) -> None:
+    sizes = {"thermistor_diameter": 1e-3 * bead[0], "thermistor_length": 1e-3 * bead[1]}
+    said = thermistor_in_words(switched({"peltier_module": heater, **sizes}))
+    named = [one.number for one in thermistors() if one.number in said]
+    assert named == ([number] if number else [])
+    assert "needs its own table in the controller" in said
 
 
 def test_a_foil_is_ordered_by_its_resistance() -> None:

@@ -27,11 +27,7 @@ _BEARS = {
 """What stands beside the heater, and the quantity that says what it bears."""
 _ROUNDING = 1e-6
 _WIRES = Path(__file__).with_name("wire_ratings.yaml")
-_SENSES = (
-    "NTC 10 kohm at 25 °C with any beta: a choice, the controller must have its table; "
-    "for example of the series B57540G of TDK (EPCOS), in glass, to 250 °C, where its size fits"
-)
-"""The series by its data sheet of 2009, which tells what it measures up to; its bead's size was not to be read."""
+_THERMISTORS = Path(__file__).with_name("thermistors.yaml")
 
 
 def up(value: float) -> str:
@@ -77,12 +73,67 @@ def _ratings(design: Design) -> dict[str, float]:
 
 
 def thermistor_in_words(design: Design) -> str:
-    """A thermistor for the temperature the heater is rated for, and what its bead may measure where one is drawn."""
-    rated = f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
+    """A thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where one is."""
+    rated = design.value("peltier_max_temperature")
+    bears = f"for {up(rated - ZERO_CELSIUS)} °C"
+    bead = None
     if design.values.get("thermistor_diameter", 0.0) > 0.0:
-        size = " x ".join(f"{1e3 * design.value(name):.3g}" for name in ("thermistor_diameter", "thermistor_length"))
-        return f"Thermistor, bead of {size} mm with insulated wires, for {rated}; {_SENSES}"
-    return f"Thermistor, for {rated}, with insulated wires; {_SENSES}"
+        bead = Bead(design.value("thermistor_diameter"), design.value("thermistor_length"))
+    said = f"bead of {bead.in_words()} with insulated wires, {bears}" if bead else f"{bears}, with insulated wires"
+    fits = next((one for one in thermistors() if one.fits(bead, rated)), None)
+    which = f": {fits.in_words()}; another one" if fits else ", of a maker whose bead fits: it"
+    return f"Thermistor, {said}; NTC 10 kohm at 25 °C{which} needs its own table in the controller"
+
+
+class Bead(NamedTuple):
+    """How large the bead of a thermistor is, or may be [m]."""
+
+    diameter: float
+    length: float
+
+    def in_words(self) -> str:
+        """Both sizes."""
+        return f"{1e3 * self.diameter:.3g} x {1e3 * self.length:.3g} mm"
+
+
+class Thermistor(NamedTuple):
+    """A thermistor as it is ordered."""
+
+    number: str
+    maker: str
+    curve: str
+    """Its material's constant, in words."""
+    wires: str
+    temperature: float
+    """The highest that it measures [K]."""
+    bead: Bead | None
+    """The most that its bead measures; None where that is not known."""
+
+    def fits(self, bead: Bead | None, rated: float) -> bool:
+        """Whether it bears a temperature [K] and goes where a bead of that size is drawn; None where none is drawn."""
+        if self.temperature < rated:
+            return False
+        if bead is None or self.bead is None:
+            return bead is None
+        return self.bead.diameter <= bead.diameter and self.bead.length <= bead.length
+
+    def in_words(self) -> str:
+        """What to order, and what to know of it."""
+        size = f", bead of at most {self.bead.in_words()}" if self.bead else ""
+        most = f"to {self.temperature - ZERO_CELSIUS:.3g} °C"
+        return f"{self.number} of {self.maker} ({self.curve}, {most}{size}, {self.wires})"
+
+
+@cache
+def thermistors() -> tuple[Thermistor, ...]:
+    """The thermistors of the data file, the first choice first."""
+    found = []
+    for one in yaml.safe_load(_THERMISTORS.read_text("utf-8"))["thermistors"]:
+        sizes = [parse_quantity(one[name], "m") for name in ("diameter", "length") if name in one]
+        most = parse_quantity(one["temperature"], "degC")
+        bead = Bead(*sizes) if sizes else None
+        found.append(Thermistor(one["number"], one["maker"], one["curve"], one["wires"], most, bead))
+    return tuple(found)
 
 
 def pad_count(design: Design) -> int:

@@ -39,6 +39,25 @@ def test_it_stays_closed_in_work_and_is_the_highest_that_opens_before_the_least_
     assert found.above == above
 
 
+@pytest.mark.parametrize(
+    ("hottest", "structure", "designation", "above"),
+    [  # in degC; what opens at 104 may open from 94, by IEC 60691
+        (89.0, 105.0, "G4A01104C", ()),
+        (88.0, 103.0, "G4A01104C", ("structure",)),  # what opens at 98 may open from 88
+        (83.0, 103.0, "G4A01098C", ()),
+        (89.1, 105.0, "G4A01216C", ("structure",)),
+    ],
+)
+def test_a_second_makers_table_has_a_type_between_a_working_heater_and_polycarbonate(
+    hottest: float, structure: float, designation: str, above: tuple[str, ...]
+) -> None:
+    record = Catalog().record("thermal_fuses", "microtemp_g4a")
+    found = heater_fuse(record, hottest + ZERO_CELSIUS, 2.5, {"structure": structure + ZERO_CELSIUS})
+    assert (found.designation, found.above) == (designation, above)
+    with pytest.raises(InputError, match=r"no type bears the heater's 10\.1 A, the strongest 10 A"):
+        heater_fuse(record, 330.0, 10.1, {"structure": 400.0})
+
+
 def test_what_no_type_holds_or_bears_is_named() -> None:
     with pytest.raises(InputError, match="no type stays closed at the heater's 230 degC, the highest at 225 degC"):
         chosen(230.0, 1.0, heater=250.0)

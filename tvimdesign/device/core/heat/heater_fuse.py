@@ -34,8 +34,8 @@ def heater_fuse(record: Record, hottest: float, current: float, ratings: Mapping
         most = max(one["functioning_temperature"] for one in record.table("types")) - band - margin
         held, asked = (f"{one - ZERO_CELSIUS:.4g} degC" for one in (most, hottest))
         raise InputError(f"{record.title}: no type stays closed at the heater's {asked}, the highest at {held}")
-    if current > record.value("high_rated_current"):
-        bears = record.value("high_rated_current")
+    bears = record.value("high_rated_current" if record.has("high_rated_current") else "rated_current")
+    if current > bears:
         raise InputError(f"{record.title}: no type bears the heater's {current:.3g} A, the strongest {bears:.3g} A")
     least = min(ratings.values())
     saving = [one for one in stays if one["functioning_temperature"] <= least]
