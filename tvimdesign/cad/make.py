@@ -65,7 +65,7 @@ class PartsProcess:
             self._tail = stack.enter_context(tempfile.TemporaryFile())
             self._process = start_child(
                 job, [WAITING], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._tail, text=True,
-                encoding="utf-8", start_new_session=True,
+                encoding="utf-8", process_group=0,  # no session: Linux shares processors out by session first
             )  # fmt: skip
             self._stack = stack.pop_all()
         self._said: queue.Queue[str | None] = queue.Queue()

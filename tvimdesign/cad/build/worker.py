@@ -23,6 +23,7 @@ from typing import Any
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.process_tree import give_way_further
 from tvimdesign.cad.build.cache import Cache, Result
 from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.cad.cad_report import SolidCheck
@@ -236,6 +237,7 @@ def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> No
         while True:
             place, needs, folder = line.recv()
             line.send(_done(plan[place], subject, needs, folder, lambda step: line.send({"step": step})))
+            give_way_further(os.getpid())  # people wait for the first part
 
 
 def _end_with(parent: BaseProcess) -> None:

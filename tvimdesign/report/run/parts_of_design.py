@@ -7,7 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.base.process_tree import give_way
+from tvimdesign.base.process_tree import Behind, give_way
 from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output.progress import Progress
@@ -38,7 +38,7 @@ class PartsAhead:
 
         self._stack = ExitStack()
         self._process = self._stack.enter_context(PartsProcess())
-        give_way(self._process.process)  # to the solver, and to what the first screen waits for
+        give_way(self._process.process, Behind.A_LITTLE)  # to the solver; its parts but the first, further
         self._out = Path()
 
     def __enter__(self) -> PartsAhead:
