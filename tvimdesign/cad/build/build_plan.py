@@ -19,7 +19,7 @@ from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
-from tvimdesign.cad.build.worker import Job, Work
+from tvimdesign.cad.build.worker import Job, Turn, Work
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet
@@ -51,13 +51,13 @@ def build_plan(dims: Dimensions) -> list[Work]:
         work
         for kind in kinds
         for work in (
-            Work(name=kind, do=partial(_part, kind)),
+            Work(name=kind, do=partial(_part, kind), turn=_turn(kind)),
             Work(
                 name=f"{kind}_for_makers",
                 do=partial(_for_makers, kind),
                 needs=(kind,),
                 named=PRODUCTION[kind].drawn,
-                late=True,
+                turn=Turn.LATE,
             ),
         )
     ]
@@ -72,7 +72,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
         if is_of_structure(kind)
     ]
     return [
-        Work(name=PICTURES, do=_pictures, needs=kinds),  # begun before all else, once the parts are there
+        Work(name=PICTURES, do=_pictures, needs=kinds, turn=Turn.FIRST),  # before all else, once the parts are there
         *parts,
         *springs,
         Work(name="sizes", do=_sizes, needs=kinds),
@@ -85,6 +85,11 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name="spring_sheet", do=_spring_sheet, named=True),
         Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True),
     ]
+
+
+def _turn(kind: str) -> Turn:
+    """One process begins with the housing; the other has the first small part at once, and the rotor after the last."""
+    return Turn.SECOND if kind == "rotor" else Turn.FIRST
 
 
 def _part(kind: str, job: Job) -> list[SolidCheck]:

@@ -16,6 +16,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from enum import IntEnum
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -50,6 +51,16 @@ class Job:
     progress: Progress
 
 
+class Turn(IntEnum):
+    """When a piece of work is begun, of those that need nothing that is not there."""
+
+    FIRST = 0
+    SECOND = 1
+    USUAL = 2
+    LATE = 3
+    """No other work waits for it."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Work:
     """One piece of work: a part with its files, the assembly, a set of checks, the pictures."""
@@ -60,8 +71,7 @@ class Work:
     needs: tuple[str, ...] = ()
     named: bool = False
     """Whether the design's name is written into its files."""
-    late: bool = False
-    """Whether it is begun after all that is not: no other work waits for it."""
+    turn: Turn = Turn.USUAL
 
 
 @dataclass
@@ -123,7 +133,7 @@ class WorkerPool:
         """Do all pieces of work, each after those that it needs; the results stand in the plan's order."""
         done = Done()
         self._plan = build_plan
-        waiting, running = sorted(build_plan, key=lambda work: work.late), list[_Running]()
+        waiting, running = sorted(build_plan, key=lambda work: work.turn), list[_Running]()
         gc.freeze()  # a child that collects what is here copies all of it
         try:
             while waiting or running:
