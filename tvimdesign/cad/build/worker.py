@@ -128,6 +128,7 @@ class WorkerPool:
         self._context: Any = mp.get_context("fork" if sys.platform == "linux" else "spawn")
         self._idle: list[_Hand] = []
         self._plan: Sequence[Work] = ()
+        self._untold: list[Result] = []
 
     def do(self, build_plan: Sequence[Work]) -> Done:
         """Do all pieces of work, each after those that it needs; the results stand in the plan's order."""
@@ -138,7 +139,9 @@ class WorkerPool:
         try:
             while waiting or running:
                 waiting = self._start(waiting, running, done)
+                self._tell()  # while the children work on: to hand out files is to wait for the disk
                 self._listen(running, done)
+            self._tell()
         finally:
             gc.unfreeze()
             for one in running:
@@ -160,13 +163,19 @@ class WorkerPool:
                 left.append(work)
             elif kept := self._store.find(work.name, self._subject, self._needs(work, done)):
                 done.results[work.name] = kept
-                self._made(kept)
+                self._untold.append(kept)
                 done.reused.append(work.name)
             elif len(running) < self._hands:
                 running.append(self._begin(work, done))
             else:
                 left.append(work)
         return left
+
+    def _tell(self) -> None:
+        """Tell of the results that are new."""
+        for result in self._untold:
+            self._made(result)
+        self._untold = []
 
     def _needs(self, work: Work, done: Done) -> dict[str, Result]:
         return {need: done.results[need] for need in work.needs}
@@ -230,7 +239,7 @@ class WorkerPool:
             checks = [SolidCheck(**check) for check in one.reported["checks"]]
             reads: Reads = one.reported["reads"]
             done.results[name] = self._store.close(name, one.folder, reads, self._needs(one.work, done), checks)
-            self._made(done.results[name])
+            self._untold.append(done.results[name])
         if one.reported is not None:
             self._idle.append(one.hand)
         if name in done.failed:
@@ -243,6 +252,7 @@ def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> No
     if parent and sys.platform != "linux":  # the kernel does not tell of its end, and work is not left to listen
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
     follow_parent(parent.pid if parent else None)
+    gc.enable()
     with contextlib.suppress(EOFError):
         while True:
             place, needs, folder = line.recv()

@@ -32,12 +32,12 @@ def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
 class PartsAhead:
     """Parts made while a run goes on: the CAD kernel is loaded as the solver works, and begins with the answer."""
 
-    def __init__(self) -> None:
-        """Start the process that loads the kernel."""
+    def __init__(self, mode: str = "") -> None:
+        """Start the process that loads the kernel, and reads the table of the mode that is known to come."""
         from tvimdesign.cad.make import PartsProcess
 
         self._stack = ExitStack()
-        self._process = self._stack.enter_context(PartsProcess())
+        self._process = self._stack.enter_context(PartsProcess(mode=mode))
         give_way(self._process.process, Behind.A_LITTLE)  # to the solver; its parts but the first, further
         self._out = Path()
 
