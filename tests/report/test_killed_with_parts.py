@@ -32,6 +32,9 @@ class NoProcess:
     process = os.getpid()
     asked: Path
 
+    def __init__(self, **_: object) -> None:
+        pass
+
     def __enter__(self) -> NoProcess:
         return self
 
@@ -46,7 +49,7 @@ def test_the_design_of_parts_under_way_is_no_temporary_folder(
     tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("tvimdesign.cad.make.PartsProcess", NoProcess)
-    monkeypatch.setattr(parts_of_design, "give_way", lambda _: None)
+    monkeypatch.setattr(parts_of_design, "give_way", lambda *_: None)
     out = tmp_path / "out/cad"
     with parts_of_design.PartsAhead() as parts:
         parts.begin(whole(design_of("paper", {})), out)

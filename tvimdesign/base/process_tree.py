@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+from enum import IntEnum
 
 import psutil
 
-_POLITE, _LAST = 10, 19
-"""A process of the first niceness has a tenth of a processor that another wants whole, one of the second an eighth of
-one that the first wants."""
+
+class Behind(IntEnum):
+    """How far a process gives way, as its niceness: on Linux each step is a fifth less of a processor that two want."""
+
+    A_LITTLE = 5
+    SOME = 10
+    FAR = 14
+    ALL = 19
 
 
 def end_process_tree(process: int) -> None:
@@ -30,17 +36,19 @@ def end_process_tree(process: int) -> None:
     _kill(root)
 
 
-def give_way(process: int, *, last: bool = False) -> None:
-    """Let a process, and those it starts from now on, compute where others leave a processor free.
-
-    With `last` it also gives way to those that give way.
-    """
+def give_way(process: int, behind: Behind = Behind.SOME) -> None:
+    """Let a process, and those it starts from now on, compute where others leave a processor free."""
     # Windows has classes in place of numbers.
-    low: int = getattr(
-        psutil, "IDLE_PRIORITY_CLASS" if last else "BELOW_NORMAL_PRIORITY_CLASS", _LAST if last else _POLITE
-    )
+    name = "IDLE_PRIORITY_CLASS" if behind is Behind.ALL else "BELOW_NORMAL_PRIORITY_CLASS"
     with contextlib.suppress(psutil.Error):
-        psutil.Process(process).nice(low)
+        psutil.Process(process).nice(int(getattr(psutil, name, behind)))
+
+
+def give_way_further(process: int) -> None:
+    """Let a process that gives way a little give way far; others stay as they are."""
+    with contextlib.suppress(psutil.Error):
+        if psutil.Process(process).nice() == Behind.A_LITTLE:
+            give_way(process, Behind.FAR)
 
 
 def _descendants(root: psutil.Process) -> list[psutil.Process]:

@@ -29,7 +29,8 @@ HALF_MADE = ".parts.*"
 """Folder in which parts are made where none are kept from one run to the next: a pattern."""
 JOB = "tvimdesign.cad.build.main"
 WAITING = "--wait"
-"""Argument of a child that is told on standard input what to make: a line of JSON with design, folder and time-out."""
+"""First argument of a child that is told on standard input what to make: a line of JSON with design, folder and
+time-out. The second is the mode of the design that will come, or empty."""
 
 
 def make_cad(
@@ -58,14 +59,14 @@ def make_cad(
 class PartsProcess:
     """The child process that makes parts: it loads the CAD kernel at once, and may wait long for its design."""
 
-    def __init__(self, job: str = JOB) -> None:
-        """Start it. Raises InputError where the extra [cad] is not installed."""
+    def __init__(self, job: str = JOB, mode: str = "") -> None:
+        """Start it, to read the table of a mode ahead. Raises InputError where the extra [cad] is not installed."""
         require_extra("cad", "parts")
         with ExitStack() as stack:
             self._tail = stack.enter_context(tempfile.TemporaryFile())
             self._process = start_child(
-                job, [WAITING], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._tail, text=True,
-                encoding="utf-8", start_new_session=True,
+                job, [WAITING, mode], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._tail, text=True,
+                encoding="utf-8", process_group=0,  # no session: Linux shares processors out by session first
             )  # fmt: skip
             self._stack = stack.pop_all()
         self._said: queue.Queue[str | None] = queue.Queue()

@@ -94,7 +94,7 @@ class WorkerProcess(Generic[Job]):
         self._child = start_child(
             self._module, self._arguments,
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8", bufsize=1,
-            start_new_session=True,
+            process_group=0,  # no session of its own, between which `give_way` has no meaning on Linux
         )  # fmt: skip
         if self._behind:
             give_way(self._child.pid)

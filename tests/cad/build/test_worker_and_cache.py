@@ -23,7 +23,7 @@ from tvimdesign.cad import make_cad
 from tvimdesign.cad.build.build_plan import PICTURES, build_plan
 from tvimdesign.cad.build.cache import Cache
 from tvimdesign.cad.build.read_tracking import TrackedDesign
-from tvimdesign.cad.build.worker import Done, Job, Work, WorkerPool
+from tvimdesign.cad.build.worker import Done, Job, Turn, Work, WorkerPool
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.make import PartsProcess
@@ -99,7 +99,7 @@ def test_work_is_done_after_what_it_needs_and_kept(run: Run) -> None:
 
 def test_what_nothing_waits_for_is_begun_last_and_stands_where_the_plan_has_it(tmp_path: Path) -> None:
     begun: list[str] = []
-    late = replace(STACK, late=True)
+    late = replace(STACK, turn=Turn.LATE)
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     workshop = WorkerPool(subject, Cache(tmp_path / "kept"), begun.append, hands=1)
     done = workshop.do([PLATE, late, Work(name="layer", do=thickness)])
@@ -110,8 +110,8 @@ def test_what_nothing_waits_for_is_begun_last_and_stands_where_the_plan_has_it(t
 def test_the_files_of_a_part_that_others_wait_for_come_before_its_drawing() -> None:
     plan = build_plan(dimensions(design_of("toy", {})))
     needed = {name for work in plan for name in work.needs}
-    assert {work.name for work in plan if work.late}.isdisjoint(needed)
-    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= {work.name for work in plan if work.late}
+    assert {work.name for work in plan if work.turn is Turn.LATE}.isdisjoint(needed)
+    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= {work.name for work in plan if work.turn is Turn.LATE}
 
 
 def test_a_change_of_what_was_not_read_does_nothing_again(run: Run) -> None:
@@ -365,6 +365,16 @@ def test_a_process_that_is_never_told_what_to_make_is_gone_with_its_owner() -> N
 def test_pictures_are_begun_before_all_else_once_the_parts_are_there() -> None:
     plan = build_plan(dimensions(design_of("paper", {})))
     assert plan[0].name == PICTURES
-    assert not plan[0].late
-    makers = {work.name for work in plan if work.late}
+    assert plan[0].turn is Turn.FIRST
+    makers = {work.name for work in plan if work.turn is Turn.LATE}
     assert makers == {f"{name}_for_makers" for name in plan[0].needs}
+
+
+def test_the_first_part_is_a_small_one_and_the_two_largest_are_made_beside_each_other() -> None:
+    plan = build_plan(dimensions(design_of("paper", {})))
+    kinds = set(plan[0].needs)
+    begun = [work.name for work in sorted(plan, key=lambda work: work.turn) if not work.needs]
+    assert begun[0] == "housing"
+    assert begun[1] not in {"housing", "rotor"}
+    assert set(begun[: len(kinds)]) == kinds  # all others wait for the parts
+    assert begun[len(kinds) - 1] == "rotor"

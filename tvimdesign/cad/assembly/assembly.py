@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import lru_cache, partial
 from math import pi
 
 import cadquery as cq
@@ -52,8 +52,8 @@ def drawn_part(dims: Dimensions, kind: str, progress: Progress | None = None) ->
 
 def free_spring(dims: Dimensions, kind: str) -> cq.Solid:
     """Build the spring as its maker delivers it, of the hand its kind says."""
-    right = _built("spring_right", lambda: spring_solid(free_coil(dims)), None)
-    return right if kind == "spring_right" else _left_of(right, None)
+    drawn = _swept if kind == "spring_right" else _mirrored
+    return _built(kind, lambda: drawn(free_coil(dims)), None)
 
 
 def installed_coils(dims: Dimensions, rotor_angle: float = 0.0) -> dict[str, Coil]:
@@ -76,11 +76,10 @@ def installed_springs(
 ) -> dict[str, cq.Solid]:
     """Build and place the springs on their pins, by name."""
     coils = installed_coils(dims, rotor_angle)
-    right = _built("spring_right", lambda: spring_solid(coils["spring_right"]), progress)
-    # At rest one hand mirrors the other, so the sweep is shared.
-    same = coils["spring_left"] == coils["spring_right"]
-    mirrored = right if same else _built("spring_left", lambda: spring_solid(coils["spring_left"]), progress)
-    solids = {"right": right, "left": _left_of(mirrored, progress)}
+    solids = {
+        "right": _built("spring_right", lambda: _swept(coils["spring_right"]), progress),
+        "left": _built("spring_left", lambda: _mirrored(coils["spring_left"]), progress),
+    }
     return {name: solids[name.split("_")[1]].moved(location) for name, location in spring_locations(dims).items()}
 
 
@@ -106,8 +105,13 @@ def stood(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 
     return placed | MODULES[dims.mode].stand(dims, drawn, rotor_angle)
 
 
-def _left_of(right: cq.Solid, progress: Progress | None) -> cq.Solid:
-    return _built("spring_left", lambda: right.mirror("XZ"), progress)
+# The springs at rest are asked for by six pieces of work, and at either end of the stroke one hand is the other's mirror.
+_swept = lru_cache(maxsize=8)(spring_solid)
+
+
+@lru_cache(maxsize=8)
+def _mirrored(coil: Coil) -> cq.Shape:
+    return _swept(coil).mirror("XZ")
 
 
 def _built(name: str, draw: Callable[[], cq.Shape], progress: Progress | None) -> cq.Solid:

@@ -9,13 +9,16 @@ from tvimdesign.cad.build.cache import code_digest
 from tvimdesign.cad.drawing import drawing_requirements, iso_286
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.inspection import ray_code
+from tvimdesign.device import table_for
 
 _PICTURES = ("preview", "exploded", "section")
 _LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
-def warm_up() -> None:
-    """Compile, read data files, find the font and its letters, load what renders."""
+def warm_up(mode: str = "") -> None:
+    """Compile, read data files, the table of a mode where it is known, find the font and its letters, load what renders."""
+    if mode:
+        table_for(mode)
     for read in (drawing_requirements.told, iso_286.told, assembly_note.told, ray_code.first_hits, code_digest):
         read()
     sheet = DrawingSheet(1.0)

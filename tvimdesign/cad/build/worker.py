@@ -16,6 +16,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from enum import IntEnum
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -23,6 +24,7 @@ from typing import Any
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.process_tree import give_way_further
 from tvimdesign.cad.build.cache import Cache, Result
 from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.cad.cad_report import SolidCheck
@@ -49,6 +51,16 @@ class Job:
     progress: Progress
 
 
+class Turn(IntEnum):
+    """When a piece of work is begun, of those that need nothing that is not there."""
+
+    FIRST = 0
+    SECOND = 1
+    USUAL = 2
+    LATE = 3
+    """No other work waits for it."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Work:
     """One piece of work: a part with its files, the assembly, a set of checks, the pictures."""
@@ -59,8 +71,7 @@ class Work:
     needs: tuple[str, ...] = ()
     named: bool = False
     """Whether the design's name is written into its files."""
-    late: bool = False
-    """Whether it is begun after all that is not: no other work waits for it."""
+    turn: Turn = Turn.USUAL
 
 
 @dataclass
@@ -117,17 +128,20 @@ class WorkerPool:
         self._context: Any = mp.get_context("fork" if sys.platform == "linux" else "spawn")
         self._idle: list[_Hand] = []
         self._plan: Sequence[Work] = ()
+        self._untold: list[Result] = []
 
     def do(self, build_plan: Sequence[Work]) -> Done:
         """Do all pieces of work, each after those that it needs; the results stand in the plan's order."""
         done = Done()
         self._plan = build_plan
-        waiting, running = sorted(build_plan, key=lambda work: work.late), list[_Running]()
+        waiting, running = sorted(build_plan, key=lambda work: work.turn), list[_Running]()
         gc.freeze()  # a child that collects what is here copies all of it
         try:
             while waiting or running:
                 waiting = self._start(waiting, running, done)
+                self._tell()  # while the children work on: to hand out files is to wait for the disk
                 self._listen(running, done)
+            self._tell()
         finally:
             gc.unfreeze()
             for one in running:
@@ -149,13 +163,19 @@ class WorkerPool:
                 left.append(work)
             elif kept := self._store.find(work.name, self._subject, self._needs(work, done)):
                 done.results[work.name] = kept
-                self._made(kept)
+                self._untold.append(kept)
                 done.reused.append(work.name)
             elif len(running) < self._hands:
                 running.append(self._begin(work, done))
             else:
                 left.append(work)
         return left
+
+    def _tell(self) -> None:
+        """Tell of the results that are new."""
+        for result in self._untold:
+            self._made(result)
+        self._untold = []
 
     def _needs(self, work: Work, done: Done) -> dict[str, Result]:
         return {need: done.results[need] for need in work.needs}
@@ -219,7 +239,7 @@ class WorkerPool:
             checks = [SolidCheck(**check) for check in one.reported["checks"]]
             reads: Reads = one.reported["reads"]
             done.results[name] = self._store.close(name, one.folder, reads, self._needs(one.work, done), checks)
-            self._made(done.results[name])
+            self._untold.append(done.results[name])
         if one.reported is not None:
             self._idle.append(one.hand)
         if name in done.failed:
@@ -232,10 +252,12 @@ def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> No
     if parent and sys.platform != "linux":  # the kernel does not tell of its end, and work is not left to listen
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
     follow_parent(parent.pid if parent else None)
+    gc.enable()
     with contextlib.suppress(EOFError):
         while True:
             place, needs, folder = line.recv()
             line.send(_done(plan[place], subject, needs, folder, lambda step: line.send({"step": step})))
+            give_way_further(os.getpid())  # people wait for the first part
 
 
 def _end_with(parent: BaseProcess) -> None:

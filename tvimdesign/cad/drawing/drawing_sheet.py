@@ -8,17 +8,18 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
+from importlib.util import find_spec
 from math import inf
 from pathlib import Path
 
 import ezdxf
-import matplotlib as mpl
 from ezdxf.addons.drawing.config import BackgroundPolicy, ColorPolicy, Configuration, LineweightPolicy
 from ezdxf.addons.drawing.frontend import Frontend
 from ezdxf.addons.drawing.properties import RenderContext
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.fonts import fonts
 
+from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.drawing.pdf_page import PdfPage
 
 Point = tuple[float, float]
@@ -185,6 +186,9 @@ def _fixed_chance() -> Iterator[None]:
 @cache
 def _use_own_font() -> None:
     """Let drawings use the one font that is there on every machine, whatever else is installed."""
-    folder = Path(mpl.get_data_path()) / "fonts" / "ttf"
+    matplotlib = find_spec("matplotlib")  # found, not loaded, which takes as long as a drawing
+    if not matplotlib or not matplotlib.origin:
+        raise GeometryError(f"{_FONT}: matplotlib, which it comes with, is not installed")
+    folder = Path(matplotlib.origin).parent / "mpl-data" / "fonts" / "ttf"
     fonts.font_manager.clear()
     fonts.font_manager.scan_folder(folder)

@@ -9,6 +9,9 @@ from math import degrees, dist
 import cadquery as cq
 import numpy as np
 from numpy.typing import NDArray
+from OCP.Bnd import Bnd_Box
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepLib import BRepLib
 from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
 from OCP.HLRAlgo import HLRAlgo_Projector
@@ -20,6 +23,8 @@ Point = tuple[float, float]
 _CHORD = 0.01
 """Largest distance [mm] of a chain of lines from the curve it stands for."""
 _DIGITS = 5
+_UPRIGHT = 1.0 - 1e-6
+"""Least share of a plane's normal along y for a face that may lie in the section; a box of it tells."""
 _VISIBLE = ("VCompound", "OutLineVCompound", "Rg1LineVCompound")
 _HIDDEN = ("HCompound", "OutLineHCompound")
 
@@ -94,8 +99,10 @@ def half_section(solid: cq.Solid, azimuth: float) -> View:
 
 def _room(solid: cq.Solid) -> float:
     """The side of a cube about the origin that holds the solid with room to spare."""
-    box = solid.BoundingBox()
-    return float(2.0 * (box.DiagonalLength + box.center.Length))
+    box = Bnd_Box()
+    BRepBndLib.Add_s(solid.wrapped, box, False)  # not the tightest, which takes many times as long
+    around = cq.BoundBox(box)
+    return float(2.0 * (around.DiagonalLength + around.center.Length))
 
 
 def _front(behind: cq.Shape) -> View:
@@ -110,8 +117,12 @@ def _front(behind: cq.Shape) -> View:
 
 
 def _lies_in_section(face: cq.Face) -> bool:
+    if face.geomType() != "PLANE":
+        return False
+    if abs(BRepAdaptor_Surface(face.wrapped).Plane().Axis().Direction().Y()) < _UPRIGHT:
+        return False
     box = face.BoundingBox()
-    return bool(face.geomType() == "PLANE" and max(abs(box.ymin), abs(box.ymax)) < 1e-6)
+    return bool(max(abs(box.ymin), abs(box.ymax)) < 1e-6)
 
 
 def _edges(solid: cq.Solid, towards_viewer: tuple[float, float, float]) -> tuple[list[cq.Edge], list[cq.Edge]]:

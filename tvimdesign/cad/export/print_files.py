@@ -54,12 +54,13 @@ def as_printed(
         ]  # fmt: skip
         wider = _one_solid(solid.cut(*tools)) if tools else solid
     lying = wider.rotate(cq.Vector(), cq.Vector(1, 0, 0), 180.0) if making.down == "top" else wider
-    return _one_solid(lying.translate(cq.Vector(0, 0, -lying.BoundingBox().zmin)))
+    return _one_solid(lying.translate(cq.Vector(0, 0, -lying.BoundingBox().zmin)), moved=True)
 
 
-def _one_solid(shape: cq.Shape) -> cq.Solid:
+def _one_solid(shape: cq.Shape, *, moved: bool = False) -> cq.Solid:
+    """The solid of a shape; one that was only `moved` is as valid as before."""
     solids = shape.Solids()
-    if len(solids) != 1 or not solids[0].isValid():
+    if len(solids) != 1 or not (moved or solids[0].isValid()):
         raise GeometryError(f"with its holes compensated for printing it comes out as {len(solids)} solids")
     return solids[0]
 
@@ -96,7 +97,7 @@ def _distance(face: cq.Face, mesh: Mesh) -> float:
 
 
 def _from_surface(face: cq.Face, points: Array) -> Array:
-    """Distance of points from the surface of a face: in closed form for planes and cylinders, else by projection."""
+    """Distance of points from the surface of a face: in closed form where there is one, else by projection."""
     surface = BRepAdaptor_Surface(face.wrapped)
     kind = face.geomType()
     if kind == "PLANE":
@@ -107,8 +108,18 @@ def _from_surface(face: cq.Face, points: Array) -> Array:
         cylinder = surface.Cylinder()
         beside = np.cross(points - _xyz(cylinder.Location()), _xyz(cylinder.Axis().Direction()))
         return np.asarray(np.abs(np.linalg.norm(beside, axis=1) - cylinder.Radius()))
+    if kind == "TORUS":
+        torus = surface.Torus()
+        out, up = _about(torus.Location(), torus.Axis().Direction(), points)
+        return np.asarray(np.abs(np.hypot(out - torus.MajorRadius(), up) - torus.MinorRadius()))
     whole = surface.Surface().Surface().Transformed(surface.Trsf())
     return np.array([GeomAPI_ProjectPointOnSurf(gp_Pnt(*point), whole).LowerDistance() for point in points.tolist()])
+
+
+def _about(place: gp_Pnt, axis: gp_Dir, points: Array) -> tuple[Array, Array]:
+    """How far points are from an axis, and how far along it from a place on it [mm]."""
+    away, along = points - _xyz(place), _xyz(axis)
+    return np.asarray(np.linalg.norm(np.cross(away, along), axis=1)), np.asarray(away @ along)
 
 
 def _xyz(of: gp_Pnt | gp_Dir) -> Array:

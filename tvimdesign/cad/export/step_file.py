@@ -9,6 +9,9 @@ from tempfile import TemporaryDirectory
 
 import cadquery as cq
 from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
+from OCP.BRepGProp import BRepGProp
+from OCP.gp import gp_Pnt
+from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
 from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB
@@ -98,11 +101,31 @@ class _Document:
             write_whole(path, plain_text(in_fixed_order(beside.read_text("utf-8"))))
 
 
-def write_part(path: Path, solid: cq.Solid, product: Product) -> None:
-    """Write one part, with the properties by which a reader holds what arrived against what was sent."""
+@dataclass(frozen=True)
+class Validation:
+    """What a STEP file says its part must come to, in millimetres."""
+
+    volume: float
+    area: float
+    centroid: tuple[float, float, float]
+
+
+def validation(solid: cq.Solid) -> Validation:
+    """What a solid comes to."""
+    filled, skin = GProp_GProps(), GProp_GProps()
+    BRepGProp.VolumeProperties_s(solid.wrapped, filled)
+    BRepGProp.SurfaceProperties_s(solid.wrapped, skin)
+    middle = filled.CentreOfMass()
+    return Validation(filled.Mass(), skin.Mass(), (middle.X(), middle.Y(), middle.Z()))
+
+
+def write_part(path: Path, solid: cq.Solid, product: Product) -> Validation:
+    """Write one part, with the properties by which a reader holds what arrived against what was sent; returns them."""
     document = _Document()
-    _add_validation(document.add(solid, product), solid)
+    told = validation(solid.located(cq.Location()))
+    _add_validation(document.add(solid, product), told)
     document.write(path, product.name)
+    return told
 
 
 def write_assembly(path: Path, name: str, placed: Mapping[str, cq.Solid], products: Mapping[str, Product]) -> None:
@@ -122,16 +145,15 @@ def write_assembly(path: Path, name: str, placed: Mapping[str, cq.Solid], produc
     document.write(path, name)
 
 
-def _add_validation(label: TDF_Label, solid: cq.Solid) -> None:
+def _add_validation(label: TDF_Label, told: Validation) -> None:
     """Give a product its volume, area and centroid, the geometric validation properties of AP242.
 
     Parts alone have them: in an assembly the kernel hangs those of a part that stands at the origin on a shape aspect,
     where other programs do not look.
     """
-    whole = solid.located(cq.Location())
-    XCAFDoc_Volume.Set_s(label, whole.Volume())
-    XCAFDoc_Area.Set_s(label, whole.Area())
-    XCAFDoc_Centroid.Set_s(label, whole.Center().toPnt())
+    XCAFDoc_Volume.Set_s(label, told.volume)
+    XCAFDoc_Area.Set_s(label, told.area)
+    XCAFDoc_Centroid.Set_s(label, gp_Pnt(*told.centroid))
 
 
 def _text(text: str) -> TCollection_HAsciiString:
@@ -140,15 +162,6 @@ def _text(text: str) -> TCollection_HAsciiString:
 
 def _name(label: TDF_Label, name: str) -> None:
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
-
-
-@dataclass(frozen=True)
-class Validation:
-    """What a STEP file says its part must come to, in millimetres."""
-
-    volume: float
-    area: float
-    centroid: tuple[float, float, float]
 
 
 def read_part(path: Path) -> tuple[cq.Solid, Validation]:

@@ -25,6 +25,7 @@ class PlacedBodies:
         """A part whose mesh does not close has no body, and is never told apart."""
         self._placed = placed
         self._bodies: dict[str, Manifold | None] = {}
+        self._in_place: dict[str, Manifold | None] = {}
         self._near: set[tuple[str, str]] = set()
 
     def apart(self, first: str, second: str) -> bool:
@@ -42,6 +43,12 @@ class PlacedBodies:
         return apart
 
     def _body(self, name: str) -> Manifold | None:
+        """The body of a part where it stands, found once: a placed body is sorted anew for each question."""
+        if name not in self._in_place:
+            self._in_place[name] = self._placed_body(name)
+        return self._in_place[name]
+
+    def _placed_body(self, name: str) -> Manifold | None:
         kind = kind_of(name)
         if kind not in self._bodies:
             try:

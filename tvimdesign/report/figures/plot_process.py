@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import give_way
+from tvimdesign.base.process_tree import Behind, give_way
 from tvimdesign.base.whole_files import write_whole
 
 TIME_LIMIT = 120.0  # s
@@ -45,7 +45,7 @@ class PlotProcess:
             "tvimdesign.report.figures.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
-        give_way(self._child.pid, last=True)  # to the solver, to what the first screen waits for, and to parts
+        give_way(self._child.pid, Behind.ALL)  # to the solver, to what the first screen waits for, and to parts
 
     def __enter__(self) -> PlotProcess:
         """Return itself."""

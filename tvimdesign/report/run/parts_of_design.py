@@ -7,7 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.base.process_tree import give_way
+from tvimdesign.base.process_tree import Behind, give_way
 from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output.progress import Progress
@@ -32,13 +32,13 @@ def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
 class PartsAhead:
     """Parts made while a run goes on: the CAD kernel is loaded as the solver works, and begins with the answer."""
 
-    def __init__(self) -> None:
-        """Start the process that loads the kernel."""
+    def __init__(self, mode: str = "") -> None:
+        """Start the process that loads the kernel, and reads the table of the mode that is known to come."""
         from tvimdesign.cad.make import PartsProcess
 
         self._stack = ExitStack()
-        self._process = self._stack.enter_context(PartsProcess())
-        give_way(self._process.process)  # to the solver, and to what the first screen waits for
+        self._process = self._stack.enter_context(PartsProcess(mode=mode))
+        give_way(self._process.process, Behind.A_LITTLE)  # to the solver; its parts but the first, further
         self._out = Path()
 
     def __enter__(self) -> PartsAhead:

@@ -50,7 +50,7 @@ def run_study(
         if folder is None:
             return
         # Begun before what solves and reports is loaded here: both take their time to load as much.
-        making = stack.enter_context(_parts_ahead()) if cad and study.write.cad and not without else None
+        making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
         from tvimdesign.report.run.answered_study import answer_study, drawings, note_uncertainty, noting
         from tvimdesign.report.run.first_screen.run_screen import RunScreen
@@ -124,10 +124,10 @@ def _search(folder: ResultsFolder, where: Where | None, progress: Progress) -> S
     return proved_in(folder.path, where, progress)
 
 
-def _parts_ahead() -> PartsAhead:
+def _parts_ahead(mode: str) -> PartsAhead:
     from tvimdesign.report.run.parts_of_design import PartsAhead
 
-    return PartsAhead()
+    return PartsAhead(mode)
 
 
 def _plots_ahead() -> PlotProcess:
@@ -193,7 +193,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     failures: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
         kept = write_design(design, folder.path / "design.json")
-        with progress_output() as progress, noting(failures), PartsAhead() as making:
+        with progress_output() as progress, noting(failures), PartsAhead(design.mode) as making:
             making.begin_with(kept, folder.path)
             report = _parts(making, folder.path, progress, as_json, in_full=True)
             if as_json:

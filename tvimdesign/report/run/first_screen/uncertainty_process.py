@@ -18,6 +18,7 @@ from types import TracebackType
 from typing import Any
 
 from tvimdesign.base.child_process import follow_parent, start_child
+from tvimdesign.base.process_tree import Behind, give_way
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
@@ -33,6 +34,7 @@ class UncertaintyProcess:
             "tvimdesign.report.run.first_screen.uncertainty_process",
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
         )  # fmt: skip
+        give_way(self._child.pid, Behind.A_LITTLE)  # to the solver
         self._write(study.model_dump_json() + "\n")
 
     def __enter__(self) -> UncertaintyProcess:
