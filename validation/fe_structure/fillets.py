@@ -26,7 +26,7 @@ from netgen.libngpy._meshing import NgException
 from ngsolve import H1, BilinearForm, GridFunction, IfPos, Integrate, Mesh, dx, grad, sqrt, x
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tvimdesign/cad/fe/solvers"))
-import foot_surface  # noqa: E402  a solver's module, in the path of its own process
+import foot_surface
 
 TABLE = Path(__file__).with_name("fillets.csv")
 RADII, PLATES = (6.0, 7.5, 9.0, 12.0), (1.5, 2.0, 3.0, 4.0, 5.0)
