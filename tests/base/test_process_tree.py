@@ -7,7 +7,7 @@ import time
 import psutil
 from support import is_at_work
 
-from tvimdesign.base.process_tree import end_process_tree, give_way
+from tvimdesign.base.process_tree import Behind, end_process_tree, give_way, give_way_further
 
 CHILD = "import time; time.sleep(60)"
 PARENT = f"""
@@ -51,3 +51,19 @@ def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> 
         said, _ = one.communicate("go on\n")
     assert int(said) > psutil.Process().nice()
     give_way(one.pid)  # it has ended: nobody is to give way
+
+
+def test_who_gives_way_a_little_gives_way_further_and_others_do_not() -> None:
+    with subprocess.Popen([sys.executable, "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE) as one:
+        held = psutil.Process(one.pid)
+        give_way_further(one.pid)
+        assert held.nice() == psutil.Process().nice()
+        give_way(one.pid, Behind.A_LITTLE)
+        little = held.nice()
+        give_way_further(one.pid)
+        assert psutil.Process().nice() < little <= held.nice()
+        give_way(one.pid, Behind.ALL)
+        last = held.nice()
+        give_way_further(one.pid)
+        assert held.nice() == last
+        one.communicate()

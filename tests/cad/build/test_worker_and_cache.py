@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 import shutil
@@ -21,7 +22,7 @@ from support import ROOT, is_at_work
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
 from tvimdesign.cad.build.build_plan import PICTURES, build_plan
-from tvimdesign.cad.build.cache import Cache
+from tvimdesign.cad.build.cache import Cache, Result
 from tvimdesign.cad.build.read_tracking import TrackedDesign
 from tvimdesign.cad.build.worker import Done, Job, Turn, Work, WorkerPool
 from tvimdesign.cad.cad_report import SolidCheck
@@ -69,6 +70,11 @@ def by_whom(job: Job) -> list[SolidCheck]:
     return []
 
 
+def collects(job: Job) -> list[SolidCheck]:
+    (job.folder / "out/collects.txt").write_text(str(gc.isenabled()))
+    return []
+
+
 PLATE, STACK = Work(name="plate", do=plate), Work(name="stack", do=stack, needs=("plate",), named=True)
 
 
@@ -110,8 +116,9 @@ def test_what_nothing_waits_for_is_begun_last_and_stands_where_the_plan_has_it(t
 def test_the_files_of_a_part_that_others_wait_for_come_before_its_drawing() -> None:
     plan = build_plan(dimensions(design_of("toy", {})))
     needed = {name for work in plan for name in work.needs}
-    assert {work.name for work in plan if work.turn is Turn.LATE}.isdisjoint(needed)
-    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= {work.name for work in plan if work.turn is Turn.LATE}
+    late = {work.name for work in plan if work.turn is Turn.LATE}
+    assert late.isdisjoint(needed)
+    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= late
 
 
 def test_a_change_of_what_was_not_read_does_nothing_again(run: Run) -> None:
@@ -244,7 +251,7 @@ from types import SimpleNamespace
 from cad_designs import design_of
 from tvimdesign.base import child_process
 from tvimdesign.cad.build import worker
-from tvimdesign.cad.build.cache import Cache
+from tvimdesign.cad.build.cache import Cache, Result
 from tvimdesign.cad.build.read_tracking import TrackedDesign
 
 child_process.sys = worker.sys = SimpleNamespace(platform="darwin")
@@ -378,3 +385,33 @@ def test_the_first_part_is_a_small_one_and_the_two_largest_are_made_beside_each_
     assert begun[1] not in {"housing", "rotor"}
     assert set(begun[: len(kinds)]) == kinds  # all others wait for the parts
     assert begun[len(kinds) - 1] == "rotor"
+
+
+def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path: Path) -> None:
+    told: list[str] = []
+
+    def made(result: Result) -> None:
+        told.append(f"made {result.folder.parent.name}")
+
+    subject = TrackedDesign(design_of("toy", {}), TITLES)
+    workshop = WorkerPool(subject, Cache(tmp_path / "kept"), told.append, hands=1, made=made)
+    workshop.do([PLATE, Work(name="layer", do=thickness)])
+    assert told == ["plate", "layer", "made plate", "made layer"]
+    told.clear()
+    workshop.do([PLATE, Work(name="layer", do=thickness)])
+    assert told == ["made plate", "made layer"]
+
+
+def test_children_collect_garbage_though_who_forks_them_does_not(run: Run) -> None:
+    gc.disable()
+    try:
+        assert text(run(Work(name="collects", do=collects)), "collects") == "True"
+    finally:
+        gc.enable()
+
+
+@pytest.mark.skipif(not hasattr(os, "getsid"), reason="Windows has no sessions")
+def test_parts_are_made_in_this_session_which_shares_out_processors_by_niceness() -> None:
+    with PartsProcess() as waiting:
+        assert os.getsid(waiting.process) == os.getsid(0)
+        assert os.getpgid(waiting.process) == waiting.process  # an interrupt at the terminal is the parent's to handle

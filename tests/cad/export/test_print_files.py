@@ -17,7 +17,14 @@ from cad_designs import BEARINGS, DRIVEN, SPRUNG_BLOCKS, TILES, design_of
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.export.mesh import Mesh, face_meshes
-from tvimdesign.cad.export.print_files import _distance, as_printed, printed_mesh, stl_bytes, threemf_bytes
+from tvimdesign.cad.export.print_files import (
+    _distance,
+    _from_surface,
+    as_printed,
+    printed_mesh,
+    stl_bytes,
+    threemf_bytes,
+)
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes, levels, upright_cylinders
@@ -144,6 +151,15 @@ def test_a_mesh_coarser_than_its_part_is_found_on_any_surface() -> None:
     coarse = Mesh(mesh.vertices * 0.99, mesh.faces)
     assert finest < 0.05
     assert _distance(face, coarse) == pytest.approx(0.1 + 0.99 * finest, rel=1e-3)
+
+
+def test_how_far_points_are_from_a_ring_is_known_in_closed_form() -> None:
+    # A ring of 10 mm and 2 mm about an axis along y through (1, 2, 3).
+    ring = cq.Solid.makeTorus(10.0, 2.0, cq.Vector(1, 2, 3), cq.Vector(0, 1, 0))
+    (face,) = ring.Faces()
+    points = np.array([(16.0, 2.0, 3.0), (1.0, 7.0, 13.0), (-8.0, 2.0, 3.0), (1.0, 2.0, 3.0), (7.0, 2.5, 11.0)])
+    by_hand = [3.0, 3.0, 1.0, 8.0, 1.5]
+    assert _from_surface(face, points) == pytest.approx(by_hand)
 
 
 def test_a_3mf_has_unit_name_material_and_the_part() -> None:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import io
+import re
+import zlib
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from fontTools import subset
+from fontTools.ttLib import TTFont
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tvimdesign.report.figures.swings import drawn
 from tvimdesign.report.figures.theme.axes import log_ticks, plain
-from tvimdesign.report.figures.theme.canvas import new_figure, place
+from tvimdesign.report.figures.theme.canvas import as_file, new_figure, place
 from tvimdesign.report.figures.theme.style import BROKEN, COLOURS, LINE_STYLES, luminance, style_of
 from tvimdesign.report.output.axis_labels import axis_label, name_in_words
 
@@ -82,3 +87,18 @@ def test_a_ripple_on_a_swing_is_no_swing() -> None:
     assert len(parts.band_x) > 300
     assert parts.high.min() > 0.99
     assert len(parts.lines[0][0]) == pytest.approx(6.5 / 200.0 * len(x), rel=0.02)  # six swings and a half
+
+
+def test_fonts_in_a_pdf_have_the_letters_and_nothing_that_lays_out_text() -> None:
+    usual = subset.Options
+    axes = place(new_figure(3.0), 1.0, 1.0, 2.0, 1.0)
+    axes.set_xlabel("torque")
+    figure = axes.figure
+    assert figure is not None
+    made = as_file(figure, "pdf")
+    assert subset.Options is usual
+    streams = [zlib.decompress(one) for one in re.findall(rb"stream\n(.*?)\nendstream", made, re.DOTALL)]
+    fonts = [TTFont(io.BytesIO(one)) for one in streams if one.startswith((b"\0\1\0\0", b"true"))]
+    assert fonts
+    assert all(not {"GSUB", "GPOS", "GDEF", "kern"} & set(font.keys()) for font in fonts)
+    assert any(set("torque") <= set(font.getGlyphOrder()) for font in fonts)

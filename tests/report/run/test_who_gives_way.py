@@ -27,3 +27,11 @@ def _priorities() -> dict[str, int]:
     others = {" ".join(one.cmdline()): one.nice() for one in psutil.Process().children()}
     asked = ("cad.build.main", "plot_process")
     return {name: nice for name in asked for command, nice in others.items() if name in command}
+
+
+def test_parts_that_are_all_a_command_makes_give_no_way() -> None:
+    with PartsAhead(gives_way=False):
+        begun = time.monotonic()
+        while not (behind := _priorities()) and time.monotonic() - begun < NAMED_WITHIN_S:
+            time.sleep(0.02)
+    assert behind == {"cad.build.main": psutil.Process().nice()}

@@ -105,7 +105,7 @@ def stood(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 
     return placed | MODULES[dims.mode].stand(dims, drawn, rotor_angle)
 
 
-# The springs at rest are asked for by six pieces of work, and at either end of the stroke one hand is the other's mirror.
+# Six pieces of work ask for the springs at rest; at either end of the stroke one hand is the other's mirror.
 _swept = lru_cache(maxsize=8)(spring_solid)
 
 

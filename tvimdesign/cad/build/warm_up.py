@@ -16,7 +16,7 @@ _LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXY
 
 
 def warm_up(mode: str = "") -> None:
-    """Compile, read data files, the table of a mode where it is known, find the font and its letters, load what renders."""
+    """Compile, read data files and the table of a mode that is known, find font and letters, load what renders."""
     if mode:
         table_for(mode)
     for read in (drawing_requirements.told, iso_286.told, assembly_note.told, ray_code.first_hits, code_digest):

@@ -22,6 +22,8 @@ _POINTS = 72.0 / 25.4
 """In a millimetre."""
 _DOT = 0.1
 """Diameter of what has no length [mm]."""
+_COMPRESSION = 4
+"""Of zlib: the usual 6 takes three times as long for a file a twentieth smaller."""
 _HEADER = b"%PDF-1.4\n%\xac\xdc\xab\xba\n"
 
 
@@ -40,7 +42,8 @@ class PdfPage(Backend):
         """The page as a file."""
         width, height = (f"{length * _POINTS:.12g}" for length in self._size)
         factor = f"{self._scale * _POINTS:.10g}"
-        content = zlib.compress("\n".join([f"{factor} 0 0 {factor} 0 0 cm 1 j", *self._said]).encode("ascii"), 6)
+        drawn = "\n".join([f"{factor} 0 0 {factor} 0 0 cm 1 j", *self._said])
+        content = zlib.compress(drawn.encode("ascii"), _COMPRESSION)
         return _file([
             b"<< /Type /Catalog /Pages 2 0 R >>",
             b"<< /Type /Pages /Kids [ 3 0 R ] /Count 1 >>",

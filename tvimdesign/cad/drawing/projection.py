@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from math import degrees, dist
 
 import cadquery as cq
 import numpy as np
 from numpy.typing import NDArray
-from OCP.Bnd import Bnd_Box
 from OCP.BRepAdaptor import BRepAdaptor_Surface
-from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepLib import BRepLib
 from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
 from OCP.HLRAlgo import HLRAlgo_Projector
@@ -97,12 +96,11 @@ def half_section(solid: cq.Solid, azimuth: float) -> View:
     return View(view.arcs, edges, cut=view.cut)
 
 
+@lru_cache(maxsize=1)
 def _room(solid: cq.Solid) -> float:
     """The side of a cube about the origin that holds the solid with room to spare."""
-    box = Bnd_Box()
-    BRepBndLib.Add_s(solid.wrapped, box, False)  # not the tightest, which takes many times as long
-    around = cq.BoundBox(box)
-    return float(2.0 * (around.DiagonalLength + around.center.Length))
+    box = solid.BoundingBox()
+    return float(2.0 * (box.DiagonalLength + box.center.Length))
 
 
 def _front(behind: cq.Shape) -> View:

@@ -90,8 +90,10 @@ def _patch(face: cq.Face) -> Mesh:
     found = BRep_Tool.Triangulation_s(face.wrapped, location)
     if found is None:
         raise GeometryError("a face has no triangles; the part cannot be meshed")
-    move = location.Transformation()
-    points = (found.Node(index).Transformed(move) for index in range(1, found.NbNodes() + 1))
+    points = [found.Node(index) for index in range(1, found.NbNodes() + 1)]
+    if not location.IsIdentity():
+        move = location.Transformation()
+        points = [point.Transformed(move) for point in points]
     corners = np.array([found.Triangle(index).Get() for index in range(1, found.NbTriangles() + 1)], dtype=np.int64) - 1
     inside_out = face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
     vertices = np.array([(point.X(), point.Y(), point.Z()) for point in points])

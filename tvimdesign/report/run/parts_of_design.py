@@ -32,13 +32,17 @@ def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
 class PartsAhead:
     """Parts made while a run goes on: the CAD kernel is loaded as the solver works, and begins with the answer."""
 
-    def __init__(self, mode: str = "") -> None:
-        """Start the process that loads the kernel, and reads the table of the mode that is known to come."""
+    def __init__(self, mode: str = "", *, gives_way: bool = True) -> None:
+        """Start the process that loads the kernel, and reads the table of the mode that is known to come.
+
+        It gives way to the solver unless told not to; its parts but the first give way further.
+        """
         from tvimdesign.cad.make import PartsProcess
 
         self._stack = ExitStack()
         self._process = self._stack.enter_context(PartsProcess(mode=mode))
-        give_way(self._process.process, Behind.A_LITTLE)  # to the solver; its parts but the first, further
+        if gives_way:
+            give_way(self._process.process, Behind.A_LITTLE)
         self._out = Path()
 
     def __enter__(self) -> PartsAhead:

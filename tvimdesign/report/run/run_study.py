@@ -193,7 +193,8 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     failures: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
         kept = write_design(design, folder.path / "design.json")
-        with progress_output() as progress, noting(failures), PartsAhead(design.mode) as making:
+        alone = PartsAhead(design.mode, gives_way=False)
+        with progress_output() as progress, noting(failures), alone as making:
             making.begin_with(kept, folder.path)
             report = _parts(making, folder.path, progress, as_json, in_full=True)
             if as_json:
