@@ -72,23 +72,26 @@ def _polar(solid: cq.Solid) -> float:
 
 
 @pytest.mark.parametrize(
-    ("mode", "changes", "level"),
+    ("mode", "changes", "level", "diameter"),
     [
-        pytest.param("shear", {}, "pad_depth", id="in the window"),
-        pytest.param("shear", CASES["paper"][1] | {"arc_count": 8, "arc_span": 0.3}, "floor_thickness", id="below"),
-        pytest.param("shear", TILES, "floor_thickness", id="between two tiles", marks=pytest.mark.slow),
-        pytest.param("compression", {}, "floor_thickness", id="below a slot", marks=pytest.mark.slow),
+        pytest.param("shear", {}, "pad_depth", 4.2, id="in the window"),
+        pytest.param("shear", {"heater_fuse": "microtemp_g4a"}, "pad_depth", 4.0, id="another maker's"),
+        pytest.param(
+            "shear", CASES["paper"][1] | {"arc_count": 8, "arc_span": 0.3}, "floor_thickness", 4.2, id="below"
+        ),
+        pytest.param("shear", TILES, "floor_thickness", 4.2, id="between two tiles", marks=pytest.mark.slow),
+        pytest.param("compression", {}, "floor_thickness", 4.2, id="below a slot", marks=pytest.mark.slow),
     ],
 )
 def test_the_cut_out_lies_across_the_first_heater_in_no_part_s_way(
-    mode: str, changes: dict[str, float | str], level: str
+    mode: str, changes: dict[str, float | str], level: str, diameter: float
 ) -> None:
     design = design_of("guarded", changes, mode)
     placed = placed_of(design)
     body = placed["thermal_cutout"]
     box = body.BoundingBox()
     assert box.zmax == pytest.approx(-1e3 * design.values[level], abs=1e-6)
-    assert box.zmax - box.zmin == pytest.approx(4.2, abs=1e-6)
+    assert box.zmax - box.zmin == pytest.approx(diameter, abs=1e-6)
     assert body.Volume() == pytest.approx(1e9 * design.values["cutout_volume"], rel=1e-9)
     middle = body.Center()
     first = placed["peltier_pad_1"].Center()
