@@ -61,6 +61,17 @@ PAD, WEB = 1.5e-3, 2.5e-3
 REST = PLATE - AREA
 
 
+def along_cold_sides(share: float) -> float:
+    """Resistance [K/W] from cold sides at their mean to a share of them: Carslaw and Jaeger, ch. V, legs that conduct
+    6 W/m K along and 75 W/m2 K up through 1.5 mm, below a sheet of a twelfth of that."""
+    up, width = 75.0 * 1.5e-3, AREA / EDGE
+    mean = np.sqrt(6.0 * up)
+    sheet, depth = 6.0 * 1.5e-3 / 12.0 / (mean * width), 10.0 / 12.0 * 1.5e-3 * np.sqrt(6.0 / up) / width
+    waves = np.arange(1, 401) * np.pi
+    fall = 2.0 * np.sin(waves * share) ** 2 / (waves**3 * share**2 * (np.tanh(waves * depth) + waves * sheet))
+    return float(np.sum(fall)) / (mean * EDGE)
+
+
 def between(stack: heat.Stack, first: lumps.Place, second: lumps.Place) -> lumps.Link:
     """The first link from one place to the other."""
     return next(link for link in stack.links if (link.first, link.second) == (first, second))
@@ -129,6 +140,7 @@ def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.
     signs = -((-1.0) ** np.arange(1, 4001))
     below_mean = np.sum(signs * 2.0 / waves**2 * (1.0 - (1.0 - np.exp(-2.0 * reach)) / (2.0 * reach)))
     onto, across = (mean * WEB / (0.24 * ledges) for mean in (above_mean, below_mean))
+    onto += along_cold_sides(ledges / AREA)
     assert taken(stack, ("cold", 0), 6) == pytest.approx(heat_into_slab(stack, 6, onto, across), rel=1e-3)
     to_root = between(stack, ("around", 6), ("around", 3)).conductance
     beyond = TO_FIRST * REST / EDGE
@@ -164,7 +176,8 @@ def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dic
 
 def test_a_sink_stands_on_the_open_cold_sides(known: dict[str, Any], stack: heat.Stack) -> None:
     sink = TABLE.evaluate({**known, "cold_side": "sink"}, ["stack"])["stack"].sink
-    assert sink.conductance == pytest.approx(5000.0 * stack.cold_surface.area)
+    contact = 1.0 / (5000.0 * stack.cold_surface.area)
+    assert 1.0 / sink.conductance == pytest.approx(contact + along_cold_sides(stack.cold_surface.area / AREA), rel=1e-3)
     assert sink.capacity == 50.0
     assert sink.surface == (15000e-6, 10.0, 0.9, None)
 
