@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from tvimdesign.solve.nlp.coarse_to_fine import on_finer_grid
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import Start, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -41,15 +42,17 @@ def first_optimum(grids: Sequence[Optimizer], solve: Callable[[Optimizer], Run])
     return last, grid
 
 
-def refined(optimizer: Optimizer, coarse: Optimizer, run: Run) -> Run:
+def refined(optimizer: Optimizer, coarse: Optimizer, run: Run, objective: Objective | None = None) -> Run:
     """The optimum that one of the coarse problem leads to, as one run with the work of both.
 
     Where it leads to none from the states there, the search begins afresh at its numbers.
     """
     unknowns = on_finer_grid(run.unknowns, coarse.problem, optimizer.problem, run.inputs)
-    fine = optimizer.solve(run.within, begin=run.inputs, unknowns=unknowns, beginning="refined")
+    fine = optimizer.solve(
+        run.within, begin=run.inputs, objective=objective, unknowns=unknowns, beginning="refined"
+    )  # fmt: skip
     if not (fine.start.converged or optimizer.deadline.passed):
-        fine = optimizer.solve(run.within, begin=run.inputs)
+        fine = optimizer.solve(run.within, begin=run.inputs, objective=objective)
     fine.start = replace(
         run.start, status=fine.start.status, converged=fine.start.converged, objective=fine.start.objective,
         end=fine.start.end, iterations=run.start.iterations + fine.start.iterations,
@@ -75,23 +78,29 @@ def all_refined(optimizer: Optimizer, coarse: Optimizer, runs: Sequence[Run]) ->
     return [fine for _, fine in found]
 
 
-def search_from(optimizer: Optimizer, begin: Array, within: Mapping[str, Ends] | None = None) -> Run:
+def search_from(
+    optimizer: Optimizer, begin: Array, within: Mapping[str, Ends] | None = None, objective: Objective | None = None,
+    *, certain: bool = True,
+) -> Run:  # fmt: skip
     """The optimum from a start, with some numbers `within` ends: by the coarse problem, where there is one.
 
-    Where nothing brings the limits of that nearer, the problem itself is asked from there.
+    Where nothing brings the limits of that nearer, the problem itself is asked from there. What need not be `certain`
+    is let go: the run is the coarse one then, which did not converge.
     """
     coarse = coarse_of(optimizer)
     if coarse is None:
-        return optimizer.solve(within, begin=begin)
-    run = coarse.solve(within, begin=begin)
+        return optimizer.solve(within, begin=begin, objective=objective)
+    run = coarse.solve(within, begin=begin, objective=objective)
     if run.start.converged:
-        return refined(optimizer, coarse, run)
-    if run.start.status == NO_DESIGN:
+        return refined(optimizer, coarse, run, objective)
+    if run.start.status != NO_DESIGN:
+        fine, begun = optimizer.solve(within, begin=begin, objective=objective), run.start.begin
+    elif certain:
         unknowns = on_finer_grid(run.unknowns, coarse.problem, optimizer.problem, run.inputs)
-        fine = optimizer.solve(within, begin=run.inputs, unknowns=unknowns)
+        fine = optimizer.solve(within, begin=run.inputs, objective=objective, unknowns=unknowns)
         begun = optimizer.vector.free_values(begin)
     else:
-        fine, begun = optimizer.solve(within, begin=begin), run.start.begin
+        return run
     fine.start = _after(run.start, replace(fine.start, begin=begun))
     return fine
 

@@ -152,7 +152,7 @@ class Optimizer:
             self._grids[elements] = first
         other = copy(self._grids[elements])
         other.study, other.model, other.multistart = self.study, self.model, self.multistart
-        other.seconds, other.start_values = self.seconds, self.start_values
+        other.seconds, other.start_values, other.margins = self.seconds, self.start_values, self.margins
         other.vector = DecisionVector(other.problem, self.model)
         return other
 

@@ -17,6 +17,7 @@ from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Ends, Run
+from tvimdesign.solve.optimizer.coarse_first import search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.contributors import contributors_of
@@ -95,7 +96,7 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
 def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
     """The optimum with other margins, warm from the one before and else from its inputs."""
     found = optimizer.solve(within, warm=run, objective=objective)
-    return found if found.start.converged else optimizer.solve(within, begin=run.inputs, objective=objective)
+    return found if found.start.converged else search_from(optimizer, run.inputs, within, objective)
 
 
 def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
