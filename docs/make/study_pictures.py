@@ -5,26 +5,39 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
-_VIEWS = 0.845
-"""Share of a preview's height that its two views take; the legend is below."""
+_BLANK = 6
+"""Rows without anything from which on what follows is no more of the views: the legend, which has a row or several."""
 _WIDTH = 460
 _COLOURS = 48
 
 
 def small(preview: Path, picture: Path) -> None:
     """Write the two views of a preview, small and with few colours: some 25 kB."""
-    with Image.open(preview) as whole:
-        views = whole.convert("RGB").crop((0, 0, whole.width, round(_VIEWS * whole.height)))
-    drawn = Image.eval(views.convert("L"), lambda level: 255 if level < 250 else 0).getbbox()
-    if drawn is None:
-        raise ValueError(f"{preview}: nothing is drawn in it")
-    views = views.crop((0, drawn[1], views.width, drawn[3]))
+    with Image.open(preview) as opened:
+        whole = opened.convert("RGB")
+    first, last = views_between(np.asarray(whole.convert("L")))
+    views = whole.crop((0, first, whole.width, last))
     shrunk = views.resize((_WIDTH, round(_WIDTH * views.height / views.width)), Image.Resampling.LANCZOS)
     picture.parent.mkdir(parents=True, exist_ok=True)
     shrunk.quantize(_COLOURS, dither=Image.Dither.NONE).save(picture, optimize=True)
+
+
+def views_between(grey: NDArray[np.uint8]) -> tuple[int, int]:
+    """The rows between which the two views are: from the first that has something to where several have nothing.
+
+    Raises ValueError where nothing is drawn.
+    """
+    drawn = (grey < 250).any(axis=1)
+    if not drawn.any():
+        raise ValueError("nothing is drawn in the preview")
+    first = int(np.argmax(drawn))
+    blank = [not drawn[row : row + _BLANK].any() for row in range(first, len(drawn))]
+    return first, first + int(np.argmax(blank)) if any(blank) else len(drawn)
 
 
 def main() -> None:
