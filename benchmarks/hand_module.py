@@ -52,6 +52,7 @@ G_FROZEN = 411e6 / (2.0 * (1.0 + 0.45))  # at 23 degC
 BOND, SHEAR_YIELD, MELT_STRAIN, MELT_FRACTURE = 2e6, 16e6 / math.sqrt(3.0), 6.0, 0.2e6
 PAD, PAD_AREA, PAD_MASS, C_PAD, G_PAD, BULK_PAD = 1.5e-3, 1.6e-3, 6e-3, 500.0, 100e6, 1e9
 K_PAD, PAD_EDGE = 6.0, 150.0  # in their plane; into the walls of their pockets [W/m^2 K]
+K_UP = 0.12 / 1.6e-3 * PAD  # across them
 # Strips beside the arcs, in three bodies each, and the air between them
 STRIP, WAYS, BEYOND = (0.087, 0.247, 0.666), (0.029, 0.153, 0.395), 0.423
 INTO_SLOT, BEFORE_SLOT, K_AIR, EMISSIVITY = 0.2619, 0.27993, 0.028, 0.9
@@ -107,6 +108,19 @@ def gerber(per_angle: float, strength: float) -> float:
 
 
 @njit(cache=True)
+def along_cold_sides(share: float, width: float) -> float:
+    """What heat has to pass along the pads' cold side to a share of it, times the length of the pads' edges [m K/W]."""
+    mean = math.sqrt(K_PAD * K_UP)
+    sheet, depth = K_PAD * PAD / (12.0 * mean * width), 10.0 / 12.0 * PAD * math.sqrt(K_PAD / K_UP) / width
+    fall = 0.0
+    for i in range(1, 9):
+        wave = i * PI
+        along = math.tanh(wave * depth) + wave * sheet
+        fall += 2.0 * math.sin(wave * share) ** 2 / (wave**3 * share**2 * along)
+    return fall / mean
+
+
+@njit(cache=True)
 def beside(area: float, windows: float, rotor: float, inside: float, t: float, edge: float, heat: Array) -> None:
     """Bodies beside the plate and around the pads, what joins them, and what pads and plate give them."""
     rest, web, per_volume = PI * rotor**2 - area, FLOOR - PAD, RHO_PETG * C_PETG
@@ -143,7 +157,8 @@ def beside(area: float, windows: float, rotor: float, inside: float, t: float, e
     falling = 0.0
     for i in range(1, 4):
         falling += math.exp(-2.0 * i * PI * slim) / i**3
-    heat[36] = K_PETG * edge / (1.0 / (3.0 * slim) - (ZETA_3 - falling) / (PI**3 * slim**2))
+    aside = along_cold_sides(ledge / area, area / edge) / edge
+    heat[36] = 1.0 / (aside + (1.0 / (3.0 * slim) - (ZETA_3 - falling) / (PI**3 * slim**2)) / (K_PETG * edge))
     # links: along the plate, along the floor and down into it, ledges, the gap
     heat[38], heat[39] = sheet / (WAYS[1] * wide), sheet / (WAYS[2] * wide)
     ring = math.log(inside / rotor) / (2.0 * PI * K_PETG)

@@ -74,7 +74,6 @@ OF_COLUMNS = (
     "pcl_area",
     "edge_length",
     "pcl_depth",
-    "pcl_conductivity_melt",
 )
 """What the layer's columns need to know of the module."""
 
