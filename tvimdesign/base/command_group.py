@@ -46,7 +46,7 @@ class CommandGroup:
     def run(self, command: Sequence[str], within: float, **options: Any) -> subprocess.CompletedProcess[str]:
         """Run a command to its end and give back what it says; `options` are Popen's.
 
-        Raises subprocess.TimeoutExpired after `within` seconds. The code is below zero where the group is left meanwhile.
+        Raises subprocess.TimeoutExpired after `within` seconds. The code is below zero where the group is left.
         """
         process = self._started(command, options)
         if process is None:
