@@ -97,7 +97,7 @@ def until(process: subprocess.Popen[bytes], seconds: float) -> None:
         now = processor_time(process)
         still = time.monotonic() if now > last else still
         last = max(now, last)
-        if time.monotonic() > still + 3.0:  # it waits for something, as an explorer does
+        if time.monotonic() > still + 3.0 * load():  # it waits for something, as an explorer does
             return
 
 

@@ -90,6 +90,7 @@ def test_what_killed_workers_leave_goes_with_the_command_and_with_the_next_one(
         (own / "cad").mkdir(parents=True)
         raise KeyboardInterrupt
 
+    (tmp_path / "shards").mkdir()
     asked = CellsAsked(PartsWork(()), [], lambda _: (), half_made=".cells-")
     monkeypatch.setattr(shared_folder, "run_cells", interrupted)
     for array in (True, False):
