@@ -46,10 +46,11 @@ SERVES = "explorer"
 SERVED = 12.0
 
 _COARSE = """#!/bin/sh
-last=
+last= heat=
 for word; do
   shift
-  [ "$last" != --coarser ] || word=$(awk "BEGIN {{ print $word * {coarser} }}")
+  case "$word" in */heat.py) heat=yes ;; esac
+  [ "$last" != --coarser ] || [ "$heat$word" = yes1.0 ] || word=$(awk "BEGIN {{ print $word * {coarser} }}")
   set -- "$@" "$word"
   last=$word
 done
@@ -58,7 +59,10 @@ exec '{python}' "$@"
 
 
 def coarse_python(python: Path, folder: Path) -> Path:
-    """An interpreter for `verify` that is this one, and has its solvers make larger elements."""
+    """An interpreter for `verify` that is this one, and has its solvers make larger elements.
+
+    But for the heat's first mesh, which is told from the second by its size.
+    """
     path = folder / "coarse_python"
     path.write_text(_COARSE.format(python=python.absolute(), coarser=COARSER))
     path.chmod(0o755)

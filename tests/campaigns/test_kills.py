@@ -71,6 +71,9 @@ def test_verify_is_ended_with_larger_elements(tmp_path: Path) -> None:
     says = [python, "-c", "import sys; print(sys.argv[1:])", "two words", "--coarser", "1.5", "last"]
     done = subprocess.run(says, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "['two words', '--coarser', '9', 'last']"
+    for size, made in (("1.0", "1.0"), ("1.6", "9.6")):
+        says = [python, "-c", "import sys; print(sys.argv[3])", "solvers/heat.py", "--coarser", size]
+        assert subprocess.run(says, capture_output=True, text=True, check=True).stdout.strip() == made
 
 
 ENDS = """
