@@ -34,38 +34,10 @@ from typing import Any
 
 import explorer_talk
 import psutil
+from ended_commands import COMMANDS, FIRST, GOES_ON, KEPT, NEEDS_FE, ROOT, SERVED, SERVES, SMALL, coarse_python
 
-ROOT = Path(__file__).resolve().parents[1]
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
 MARK = "TVIMDESIGN_CAMPAIGN"
-_STUDY = str(ROOT / "studies/paper_as_published.yaml")
-SMALL = ROOT / "campaigns/small.yaml"
-_FRONT = ["--set", "front={of: [response_time, peak_power], points: 4}", "--no-cad", "--no-plots"]
-_DESIGN = str(ROOT / "cad/paper_shear/design.json")
-_SAMPLES = ROOT / "campaigns/fuzzing/samples"
-_OVER = "sweep={over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 12}, wire_diameter: [2 mm, 2.4 mm]}}"
-_GOES_ON = {"front": "front/progress", "sweep": "shards"}
-"""Commands that can be resumed, and the folder of what they go on from."""
-COMMANDS = {
-    "run": ["run", _STUDY, "--no-cad"],
-    "run_with_parts": ["run", _STUDY],
-    "front": ["run", str(SMALL), *_FRONT],
-    "parts": ["cad", _DESIGN],
-    "simulate": ["simulate", _DESIGN, "--test", "sine"],
-    "tolerate": ["tolerate", _DESIGN, "--samples", "16384"],
-    "robot": ["robot", _DESIGN],
-    "fit": ["fit", str(_SAMPLES / "frequency_sweep.csv")],
-    "sweep": ["sweep", _STUDY, "--set", _OVER, "--workers", "2", "--no-plots"],
-    "compare": ["compare", str(SMALL), str(ROOT / "campaigns/small_compression.yaml"), "--points", "0"],
-    "explorer": ["explore", str(SMALL), "--no-open"],
-    "verify": ["verify", str(ROOT / "cad/paper_shear"), "--no-pictures"],
-}
-"""What is ended; each gets `--out`."""
-NEEDS_FE = "verify"
-"""The command that is ended only where a Python with finite elements is named: `--fe-python`."""
-SERVES = "explorer"
-"""The command that does not end by itself; it is ended within these seconds of the processor."""
-_SERVED = 12.0
 _UNFINISHED = ("running", "interrupted", "failed")
 """What a manifest says of a command that did not come to its end."""
 GONE = 2.0
@@ -82,21 +54,22 @@ class Try:
     """Seconds of the processor."""
 
 
-def environment(own: Path) -> dict[str, str]:
-    """A temporary folder of its own, no kept parts, and a mark by which its processes are known."""
+def environment(own: Path, kept: str = "") -> dict[str, str]:
+    """A temporary folder of its own, no kept parts or those in a folder beside, and a mark of its processes."""
     (own / "tmp").mkdir(parents=True, exist_ok=True)
     return {
-        **os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(own / "tmp"), "TVIMDESIGN_CACHE": "",
+        **os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(own / "tmp"),
+        "TVIMDESIGN_CACHE": str(own.parent / kept) if kept else "",
         "TVIMDESIGN_SPREAD": "on", "OMP_NUM_THREADS": "1", MARK: str(own),
     }  # fmt: skip
 
 
-def start(words: list[str], own: Path) -> subprocess.Popen[bytes]:
-    """Start a command whose results go into `own`/out."""
+def start(words: list[str], own: Path, kept: str = "") -> subprocess.Popen[bytes]:
+    """Start a command whose results go into `own`/out; with `kept` parts are kept in that folder beside."""
     with (own / "said.txt").open("ab") as said, (own / "told.txt").open("ab") as told:
         return subprocess.Popen(
             [sys.executable, "-m", "tvimdesign", *words, "--out", str(own / "out")],
-            cwd=own, stdout=told, stderr=said, env=environment(own), start_new_session=True,
+            cwd=own, stdout=told, stderr=said, env=environment(own, kept), start_new_session=True,
         )  # fmt: skip
 
 
@@ -118,13 +91,13 @@ def load() -> float:
 
 def until(process: subprocess.Popen[bytes], seconds: float) -> None:
     """Wait until a command has taken so many seconds of the processor, or is through."""
-    last, still = 0.0, time.monotonic()
+    last, still, cores = 0.0, time.monotonic(), os.cpu_count() or 1
     while process.poll() is None and last < seconds:
-        time.sleep(0.03)
+        time.sleep(min(max((seconds - last) / cores, 0.03), 0.5))  # a look takes milliseconds of the processor
         now = processor_time(process)
         still = time.monotonic() if now > last else still
         last = max(now, last)
-        if time.monotonic() > still + 3.0:  # it waits for something, as an explorer does
+        if time.monotonic() > still + 3.0 * load():  # it waits for something, as an explorer does
             return
 
 
@@ -170,7 +143,7 @@ def at_work(own: Path) -> list[psutil.Process]:
 
 def faults_after(one: Try, own: Path, seed: int = 1) -> list[str]:
     """Run a command, end it, and say what is not as it should be."""
-    process = start(COMMANDS[one.command], own)
+    process = start(COMMANDS[one.command], own, KEPT.get(one.command, ""))
     talk = Talking(process, own, seed) if one.command == SERVES else None
     until(process, one.after)
     ended = process.poll() is not None  # it was through before
@@ -247,8 +220,8 @@ def whole(path: Path, data: bytes) -> bool:
 
 def resumed_differs(command: str, own: Path, reference: Path) -> list[str]:
     """Go on with a command that was ended, and compare what it made with one that ran through."""
-    process = start([*COMMANDS[command], "--resume"], own)
-    if process.wait(timeout=600.0) != 0:
+    process = start([*COMMANDS[command], "--resume"], own, KEPT.get(command, ""))
+    if process.wait(timeout=600.0 * load()) != 0:
         return [f"resumed, it ends with {process.returncode}"]
     files, other = (_compared(folder) for folder in (reference, own / "out"))
     found = [f"resumed, {name} is not there" for name in sorted(files - other)]
@@ -272,7 +245,7 @@ def tried(command: str, number: int, *, seed: int, through: Through, folder: Pat
     own = folder / f"{command}-{number}"
     own.mkdir()
     faults = faults_after(one, own, number)
-    resumed = command in _GOES_ON and (own / "out" / _GOES_ON[command]).is_dir()
+    resumed = command in GOES_ON and (own / "out" / GOES_ON[command]).is_dir()
     if resumed:
         faults += resumed_differs(command, own, through.out)
     told = {"signal": one.number.name, "after": round(one.after, 2), "resumed": resumed, "faults": faults}
@@ -296,9 +269,16 @@ def run_through(command: str, folder: Path) -> Through:
     own = folder / f"{command}-through"
     own.mkdir()
     if command == SERVES:
-        return Through(own / "out", _SERVED)
+        return Through(own / "out", SERVED)
+    if command in FIRST:
+        place, words = FIRST[command]
+        (folder / place).mkdir()
+        if start(words, folder / place).wait():
+            sys.exit(f"what {command} needs ends badly: {(folder / place / 'said.txt').read_text()}")
+    if command in KEPT and start(COMMANDS[command], own, KEPT[command]).wait() == 0:  # what is kept is no part of a try
+        shutil.rmtree(own / "out")
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if code := start(COMMANDS[command], own).wait():
+    if code := start(COMMANDS[command], own, KEPT.get(command, "")).wait():
         sys.exit(f"{command} ends with {code} where nobody ends it: {(own / 'said.txt').read_text()}")
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return Through(own / "out", after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
@@ -338,9 +318,9 @@ def main() -> int:
     parser.add_argument("--fe-python", type=Path, help=f"a Python that has netgen and ngsolve, for {NEEDS_FE}")
     asked = parser.parse_args()
     asked.commands = asked.commands or [name for name in COMMANDS if name != NEEDS_FE or asked.fe_python]
-    if asked.fe_python:
-        COMMANDS[NEEDS_FE] += ["--fe-python", str(asked.fe_python)]
     with tempfile.TemporaryDirectory(prefix="kills-") as folder:
+        if asked.fe_python:
+            COMMANDS[NEEDS_FE] += ["--fe-python", str(coarse_python(asked.fe_python, Path(folder)))]
         every = campaign(asked, Path(folder))
     every = [one for one in every if one["command"] in asked.commands]
     for command in dict.fromkeys(one["command"] for one in every):

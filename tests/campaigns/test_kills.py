@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import kills
 import pytest
+from ended_commands import coarse_python
 from explorer_talk import Conversation, not_kept
 from kills import Try
 
@@ -34,6 +36,7 @@ from tvimdesign.explore.states.source import open_source
                 ("explorer", 6.0),
                 ("tolerate", 6.0),
                 ("robot", 6.5),
+                ("prove", 6.0),
             )
             for number in kills.SIGNALS
         ),
@@ -49,6 +52,28 @@ def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, mon
     monkeypatch.setitem(kills.COMMANDS, "run", ["run", "there_is_none.yaml"])
     with pytest.raises(SystemExit, match="run ends with 2 where nobody ends it"):
         kills.run_through("run", tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", kills.SIGNALS)
+def test_parts_of_cells_that_are_ended_leave_nothing_behind(number: signal.Signals, tmp_path: Path) -> None:
+    place, words = kills.FIRST["cells"]
+    own = tmp_path / "one"
+    for folder in (tmp_path / place, own):
+        folder.mkdir()
+    assert kills.start(words, tmp_path / place).wait() == 0
+    assert kills.faults_after(Try("cells", number, 8.0), own) == []
+
+
+@pytest.mark.skipif(shutil.which("awk") is None, reason="the stand-in multiplies by awk")
+def test_verify_is_ended_with_larger_elements(tmp_path: Path) -> None:
+    python = coarse_python(Path(sys.executable), tmp_path)
+    says = [python, "-c", "import sys; print(sys.argv[1:])", "two words", "--coarser", "1.5", "last"]
+    done = subprocess.run(says, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "['two words', '--coarser', '9', 'last']"
+    for size, made in (("1.0", "1.0"), ("1.6", "9.6")):
+        says = [python, "-c", "import sys; print(sys.argv[3])", "solvers/heat.py", "--coarser", size]
+        assert subprocess.run(says, capture_output=True, text=True, check=True).stdout.strip() == made
 
 
 ENDS = """
@@ -79,7 +104,7 @@ while True:
 def test_after_a_signal_a_command_is_interrupted_or_was_through(
     code: int, status: str, faults: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def start(_: list[str], own: Path) -> subprocess.Popen[bytes]:
+    def start(_: list[str], own: Path, __: str) -> subprocess.Popen[bytes]:
         (own / "said.txt").write_text("")
         command = [sys.executable, "-S", "-c", ENDS.format(code=code, status=status)]
         return subprocess.Popen(command, cwd=own, env=kills.environment(own))

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
+from support import ROOT, is_at_work
 
 from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.cad.fe import run_solvers
@@ -22,7 +27,7 @@ def python_that(tmp_path: Path, does: str) -> str:
 def test_a_python_without_ngsolve_is_refused_with_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"tvimdesign\[fe\].*--fe-python"):
         run_solvers.hold_ready(python_that(tmp_path, "raise SystemExit(1)"))
-    with pytest.raises(InputError, match="No such file"):
+    with pytest.raises(InputError, match="there is no such program"):
         run_solvers.hold_ready(str(tmp_path / "none"))
 
 
@@ -43,3 +48,39 @@ def test_what_each_solver_finds_on_both_meshes_is_given_back(tmp_path: Path) -> 
 def test_a_solver_that_fails_is_named(tmp_path: Path, does: str) -> None:
     with pytest.raises(SimulationError, match=r"verify: link, (fine|coarse) mesh: (no mesh|NOT ALL FACES)"):
         run_solvers.run_solvers(["link"], tmp_path, tmp_path, python_that(tmp_path, does), lambda _: None)
+
+
+SOLVES = """
+import sys
+from pathlib import Path
+from tvimdesign.base.interrupts import heeding_interrupts
+from tvimdesign.cad.fe.run_solvers import run_solvers
+folder = Path(sys.argv[1])
+with heeding_interrupts():
+    run_solvers(["link", "joint", "spring"], folder, folder, sys.argv[2], lambda _: None)
+"""
+AT_WORK = """
+import os, sys, time
+open(sys.argv[3] + ".part", "w").write(str(os.getpid()))
+os.rename(sys.argv[3] + ".part", sys.argv[3] + ".told")
+time.sleep(60)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_solvers_end_with_a_command_that_is_ended(number: signal.Signals, tmp_path: Path) -> None:
+    python = python_that(tmp_path, AT_WORK)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-c", SOLVES, str(tmp_path), python]
+    with subprocess.Popen(command, env=environment, stderr=subprocess.DEVNULL) as parent:
+        while len(list(tmp_path.glob("*.told"))) < run_solvers.AT_ONCE and parent.poll() is None:
+            time.sleep(0.02)
+        solvers = [int(told.read_text()) for told in tmp_path.glob("*.told")]
+        parent.send_signal(number)
+        parent.wait(timeout=30.0)  # the solvers take a minute
+    end = time.monotonic() + 10.0
+    while any(map(is_at_work, solvers)) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert len(solvers) == run_solvers.AT_ONCE
+    assert not any(map(is_at_work, solvers))

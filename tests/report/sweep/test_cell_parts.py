@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,13 @@ from support import Command
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cad.cad_report import CadReport
+from tvimdesign.report.output import shared_folder
+from tvimdesign.report.output.shared_folder import CellsAsked, answered_cells, own_half_made
 from tvimdesign.report.sweep import cell_parts
 from tvimdesign.report.sweep.cell_parts import PartsWork, chosen_cells, make_parts_of_cells, parts_asked
 from tvimdesign.report.sweep.swept_cells import open_cells
 from tvimdesign.study.design import read_design
-from tvimdesign.sweep.run_sweep import Where
+from tvimdesign.sweep.run_sweep import SweepDone, Where
 from tvimdesign.sweep.work import Cell
 
 STUDY = """
@@ -45,9 +48,9 @@ def test_cells_are_named_by_numbers_ranges_and_as_the_best(sweep: Path) -> None:
     wrong = {"x": "'x' is no cell", "2-1": "'2-1' is no cell", "0": "cell 0", "2-4": "the cells 1 to 3"}
     for words, said in wrong.items():
         with pytest.raises(InputError, match=said):
-            parts_asked(cells, chosen_cells(words, cells))
+            parts_asked(cells, chosen_cells(words, cells), sweep)
     with pytest.raises(InputError, match="cell 3: it has no answer, so no parts"):
-        parts_asked(cells, [3])
+        parts_asked(cells, [3], sweep)
 
 
 def test_a_cells_files_come_with_its_answer(sweep: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -55,6 +58,8 @@ def test_a_cells_files_come_with_its_answer(sweep: Path, monkeypatch: pytest.Mon
     seen: list[Any] = []
 
     def made(design: Path, out: Path, _: Any) -> CadReport:
+        assert design.parent.parent == sweep.resolve()  # what a worker that is killed leaves is found there
+        assert design.parent.name.startswith(".cells-")
         seen.append(read_design(design))
         (out / "step").mkdir(parents=True)
         (out / "step/link.step").write_bytes(b"link")
@@ -62,7 +67,7 @@ def test_a_cells_files_come_with_its_answer(sweep: Path, monkeypatch: pytest.Mon
         return CadReport(out, (), (), {}, (), ())
 
     monkeypatch.setattr(cell_parts, "make_parts_of", made)
-    asked = parts_asked(open_cells(sweep), [2])
+    asked = parts_asked(open_cells(sweep), [2], sweep)
     assert isinstance(asked.work, PartsWork)
     answered = asked.work.answer(Cell(asked.keys[0], asked.texts(0)))
     assert (answered.status, answered.reason) == ("made", "")
@@ -72,6 +77,35 @@ def test_a_cells_files_come_with_its_answer(sweep: Path, monkeypatch: pytest.Mon
     with (sweep / "cells.csv").open(encoding="utf-8-sig", newline="") as stream:
         mass = float(list(csv.DictReader(stream))[1]["module_mass"])
     assert seen[0].values["module_mass"] * 1e3 == pytest.approx(mass, rel=1e-10)
+
+
+def test_what_killed_workers_leave_goes_with_the_command_and_with_the_next_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another job of the array may be at work in the same folder: what is its own stays until all cells are there."""
+    own, other = tmp_path / f"{own_half_made('.cells-')}x", tmp_path / ".cells-elsewhere-7-x"
+
+    def interrupted(*_: Any) -> SweepDone:
+        assert other.exists() == array
+        (own / "cad").mkdir(parents=True)
+        raise KeyboardInterrupt
+
+    (tmp_path / "shards").mkdir()
+    asked = CellsAsked(PartsWork(()), [], lambda _: (), half_made=".cells-")
+    monkeypatch.setattr(shared_folder, "run_cells", interrupted)
+    for array in (True, False):
+        other.mkdir()
+        where = Where(part=(1, 2) if array else (1, 1))
+        with pytest.raises(KeyboardInterrupt), ExitStack() as stack:
+            answered_cells(stack, tmp_path, asked, where, lambda _: None, overwrite=False, resume=not array)
+        assert (own.exists(), other.exists()) == (False, array)
+        if array:
+            other.rmdir()
+    other.mkdir()
+    monkeypatch.setattr(shared_folder, "run_cells", lambda *_: SweepDone(2, 2, 0, 0))
+    with ExitStack() as stack:
+        answered_cells(stack, tmp_path, asked, Where(part=(1, 2)), lambda _: None, overwrite=False, resume=False)
+    assert not other.exists()
 
 
 def test_options_of_shared_work_without_cells_are_refused(tvimdesign: Command, sweep: Path) -> None:
@@ -94,7 +128,7 @@ def test_parts_by_an_array_and_by_a_cluster_are_those_of_one_process(
         assert (tmp_path / "array/parts.csv").exists() == (part == 1)
     assert _files(tmp_path / "array") == expected
     with LocalCluster(tmp_path) as cluster:
-        asked = parts_asked(open_cells(sweep), [1, 2])
+        asked = parts_asked(open_cells(sweep), [1, 2], tmp_path / "cluster")
         answered_on(cluster, asked, tmp_path / "cluster", {0: lambda: cluster.kill_worker(1)})
     done = tvimdesign("cad", sweep, "--cells", "1,2", "--resume", "--out", tmp_path / "cluster")
     assert done.returncode == 0, done.stderr

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from tvimdesign.base.command_group import CommandGroup
 from tvimdesign.base.errors import InputError, SimulationError
 
 SOLVERS = Path(__file__).with_name("solvers")
@@ -17,6 +19,7 @@ COARSER = 1.6
 """How much larger the elements of the second mesh are, by which the first is judged."""
 LONGEST = 1800.0
 """Time [s] after which a solver is given up: ten times what the slowest takes."""
+_TO_IMPORT = 120.0  # s
 AT_ONCE = 2
 
 
@@ -34,11 +37,13 @@ class Solved:
 
 def hold_ready(python: str) -> None:
     """Raise InputError where an interpreter has no netgen and ngsolve, with what to do."""
+    if shutil.which(python) is None:
+        raise InputError(f"--fe-python {python}: there is no such program; name a Python that has ngsolve")
     try:
-        command = [python, "-c", "import netgen.occ, ngsolve"]
-        tried = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
-    except OSError as error:
-        raise InputError(f"--fe-python {python}: {error.strerror}; name a Python that has ngsolve") from error
+        with CommandGroup() as commands:
+            tried = commands.run([python, "-c", "import netgen.occ, ngsolve"], _TO_IMPORT)
+    except subprocess.TimeoutExpired as error:
+        raise InputError(f"verify: {python} has not imported ngsolve within {_TO_IMPORT:g} s; try again") from error
     if tried.returncode:
         raise InputError(
             f"verify: {python} cannot import netgen and ngsolve; pip install 'tvimdesign[fe]', or name a Python that "
@@ -57,25 +62,22 @@ def run_solvers(
         command = [python, SOLVERS / f"{name}.py", parts, to, "--coarser", f"{coarser}"]
         command += ["--field", work / f"{name}.npz"] if coarser == 1.0 else []
         say(f"solving the {name} on a {mesh} mesh")
-        _run([str(word) for word in command], f"{name}, {mesh} mesh")
+        _run(commands, [str(word) for word in command], f"{name}, {mesh} mesh")
         found: dict[str, float] = json.loads(to.read_text(encoding="utf-8"))
         return found
 
     # The longest first: the two of a pair then end at about the same time.
-    with ThreadPoolExecutor(AT_ONCE) as hands:
+    # Where one fails, or this process is interrupted, the commands are ended first, and then nobody waits for a hand.
+    with ThreadPoolExecutor(AT_ONCE) as hands, CommandGroup() as commands:
         asked = {(name, coarser): hands.submit(run, name, coarser) for coarser in (1.0, COARSER) for name in names}
-        try:
-            found = {key: future.result() for key, future in asked.items()}
-        except BaseException:
-            hands.shutdown(wait=False, cancel_futures=True)
-            raise
+        found = {key: future.result() for key, future in asked.items()}
     return {name: Solved(found[name, 1.0], found[name, COARSER], work / f"{name}.npz") for name in names}
 
 
-def _run(command: list[str], about: str) -> None:
+def _run(commands: CommandGroup, command: list[str], about: str) -> None:
     alone = {**os.environ, "OMP_NUM_THREADS": "1", "NGS_NUM_THREADS": "1"}
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, env=alone, check=False)
+        done = commands.run(command, LONGEST, env=alone)
     except subprocess.TimeoutExpired as error:
         raise SimulationError(f"verify: {about}: no answer in {LONGEST:g} s") from error
     if done.returncode or "NOT ALL FACES" in done.stdout:

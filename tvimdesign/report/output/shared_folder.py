@@ -5,8 +5,12 @@ Cells are kept in its shards as they are done. The job after which every cell is
 
 from __future__ import annotations
 
+import glob
 import json
 import os
+import platform
+import shutil
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -26,6 +30,7 @@ from tvimdesign.sweep.work import Work
 
 IN_PARTS = "in parts"
 """Status of a folder in which the jobs of an array write their shards."""
+_STILL_WRITTEN = 5.0  # s
 
 
 @dataclass(frozen=True)
@@ -39,6 +44,8 @@ class CellsAsked:
     """What one of them is called where they are counted."""
     folders: Sequence[str] = ()
     """Folders of files that belong to cells."""
+    half_made: str = ""
+    """What the names of folders begin with in which such files are made; a worker that is killed leaves its own."""
 
     def there(self, folder: Path) -> Iterator[Kept]:
         """What the cells came to, in their order. Raises KeyError where one is not done."""
@@ -60,8 +67,30 @@ def answered_cells(
     return (gatherer(stack, out, asked.folders) if done.whole else None), done
 
 
+def own_half_made(half_made: str) -> str:
+    """The beginning of the names that are this process's own: other jobs make files in the same folder."""
+    return f"{half_made}{platform.node()}-{os.getpid()}-"
+
+
 def _done(asked: CellsAsked, out: Path, where: Where, progress: Progress) -> SweepDone:
-    return run_cells(asked.work, asked.keys, asked.texts, out, where, progress, asked.called)
+    """Do the cells of this job, and take away what killed workers have left: its own; all where no other is at it."""
+    if where.alone:
+        _remove(out, asked.half_made)
+    try:
+        done = run_cells(asked.work, asked.keys, asked.texts, out, where, progress, asked.called)
+    finally:
+        _remove(out, asked.half_made and own_half_made(asked.half_made))
+    if done.whole:
+        _remove(out, asked.half_made)
+    return done
+
+
+def _remove(out: Path, half_made: str) -> None:
+    """Remove folders whose names begin so; children of a worker that was killed may write for a moment longer."""
+    end = time.monotonic() + _STILL_WRITTEN
+    while half_made and (left := list(out.glob(glob.escape(half_made) + "*"))) and time.monotonic() < end:
+        for folder in left:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def join(out: Path, *, overwrite: bool) -> None:

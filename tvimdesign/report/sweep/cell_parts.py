@@ -18,7 +18,7 @@ from tvimdesign.base.errors import GeometryError, InputError, TvimError
 from tvimdesign.base.extras import require_extra
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import progress_output, wide_console
-from tvimdesign.report.output.shared_folder import CellsAsked, answered_cells, say_part
+from tvimdesign.report.output.shared_folder import CellsAsked, answered_cells, own_half_made, say_part
 from tvimdesign.report.run.parts_of_design import make_parts_of
 from tvimdesign.report.sweep.swept_cells import CellFound, SweptCells, open_cells
 from tvimdesign.solve.result import answer
@@ -31,6 +31,8 @@ from tvimdesign.sweep.work import Cell, CellAnswer, found_anywhere
 
 _MADE, _FAILED, _NONE = "made", "checks_fail", "not_made"
 _COLUMNS = ("checks", "failed", "files")
+_HALF_MADE = ".cells-"
+"""What the names of folders begin with in which cells are being made, beside those that are."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,10 @@ class PartsWork:
 
     trees: tuple[tuple[str, StudyTree], ...]
     """By the cell's number."""
+    beside: Path | None = None
+    """Where cells are made, whose files then come with the answer; the system's folder where this one is not there."""
+    own: str = ""
+    """What the names of the folders begin with that are made there."""
     columns: tuple[str, ...] = _COLUMNS
     numbers: tuple[bool, ...] = (True,)
 
@@ -49,7 +55,8 @@ class PartsWork:
     def answer(self, cell: Cell) -> CellAnswer:
         """Make the parts of one cell; its files come with the answer, those of a cell that fails too."""
         (number,) = cell.texts
-        with tempfile.TemporaryDirectory() as place:
+        beside = self.beside if self.beside and self.beside.is_dir() else None
+        with tempfile.TemporaryDirectory(dir=beside, prefix=self.own or None) as place:
             own = Path(place)
             try:
                 design = answer(read_tree(dict(self.trees)[number])).design
@@ -92,13 +99,17 @@ def chosen_cells(words: str, cells: SweptCells) -> list[int]:
     return list(dict.fromkeys(found))
 
 
-def parts_asked(cells: SweptCells, numbers: Sequence[int]) -> CellsAsked:
-    """A cell of parts for each chosen cell. Raises InputError for one without an answer, or with a current profile."""
+def parts_asked(cells: SweptCells, numbers: Sequence[int], out: Path) -> CellsAsked:
+    """A cell of parts for each chosen cell, made in the folder `out`.
+
+    Raises InputError for one without an answer, or with a current profile.
+    """
     chosen = [cells.found(number) for number in numbers]
     trees = tuple((str(one.number), found_anywhere(_evaluated(one))) for one in chosen)
     keys = [key_of({"parts of": said_of(read_tree(tree)), "cell": number}) for number, tree in trees]
     folders = [folder_of(number) for number in numbers]
-    return CellsAsked(PartsWork(trees), keys, lambda place: (trees[place][0],), "parts of cell", folders)
+    work = PartsWork(trees, out.resolve(), own_half_made(_HALF_MADE))
+    return CellsAsked(work, keys, lambda place: (trees[place][0],), "parts of cell", folders, _HALF_MADE)
 
 
 def _evaluated(one: CellFound) -> StudyTree:
@@ -120,7 +131,7 @@ def make_parts_of_cells(
     """
     require_extra("cad", "parts")
     cells = open_cells(source)
-    asked = parts_asked(cells, chosen_cells(words, cells))
+    asked = parts_asked(cells, chosen_cells(words, cells), out)
     with ExitStack() as stack:
         progress = stack.enter_context(progress_output())
         folder, done = answered_cells(stack, out, asked, where, progress, overwrite=overwrite, resume=resume)

@@ -33,6 +33,8 @@ class DeviceFunctions:
         self.index = {name: i for i, name in enumerate(self.names)}
         self.words = {name: value for name, value in given.items() if name not in self.index}
         self.switch_names = tuple(row.name for row in table.supplied)
+        self._some: dict[tuple[str, ...], Any] = {}
+        """Functions of outputs that were wanted together: to build one takes longer than a hundred values of it."""
 
     @cached_property
     def _symbols(self) -> tuple[Any, Any, dict[str, Any]]:
@@ -102,7 +104,12 @@ class DeviceFunctions:
         self, wanted: Sequence[str], inputs: NDArray[np.float64], cycle: Mapping[str, float]
     ) -> dict[str, float]:
         """The wanted outputs in SI: quicker than all of them where none has been asked for yet."""
-        return self._evaluated(self.outputs(wanted), wanted, inputs, cycle) if wanted else {}
+        if not wanted:
+            return {}
+        key = tuple(wanted)
+        if key not in self._some:
+            self._some[key] = self.outputs(wanted)
+        return self._evaluated(self._some[key], wanted, inputs, cycle)
 
     def _evaluated(
         self, function: Any, names: Sequence[str], inputs: NDArray[np.float64], cycle: Mapping[str, float]

@@ -7,19 +7,16 @@ import os
 import platform
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
-from tvimdesign.base import run_watched
+from tvimdesign.base.command_group import CommandGroup
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.whole_files import whole_file
 from tvimdesign.report.robot.fmu.fmu_variables import Variable, fmu_variables
@@ -149,37 +146,10 @@ def compiled(sources: Mapping[str, str], suffix: str, folder: Path) -> bytes:
 def _run(command: list[str], folder: Path) -> None:
     """Run a compiler whose own files stay in a folder; where this process ends, all that it started ends."""
     own = {name: str(folder.absolute()) for name in ("TMPDIR", "TMP", "TEMP")}
-    with _watched(command) as (words, options), subprocess.Popen(
-        words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace",
-        env={**os.environ, **own}, **options,
-    ) as process:  # fmt: skip
-        try:
-            _, said = process.communicate(timeout=WITHIN)
-        except BaseException:
-            if options:
-                os.killpg(process.pid, signal.SIGKILL)
-            else:
-                process.kill()
-            process.wait()
-            raise
-    if process.returncode:
-        raise subprocess.CalledProcessError(process.returncode, command, stderr=said)
-
-
-@contextmanager
-def _watched(command: list[str]) -> Iterator[tuple[list[str], dict[str, Any]]]:
-    """A command in a group of its own that ends with this process, and Popen's options for it; none on Windows."""
-    if os.name != "posix":
-        yield command, {}
-        return
-    reads, holds = os.pipe()  # neither is inherited unless it is handed on
-    try:
-        yield [sys.executable, "-I", "-S", run_watched.__file__, str(reads), *command], {
-            "pass_fds": (reads,), "start_new_session": True,
-        }  # fmt: skip
-    finally:
-        os.close(reads)
-        os.close(holds)
+    with CommandGroup() as commands:
+        done = commands.run(command, WITHIN, cwd=folder, env={**os.environ, **own})
+    if done.returncode:
+        raise subprocess.CalledProcessError(done.returncode, command, stderr=done.stderr)
 
 
 def _put(archive: zipfile.ZipFile, name: str, data: bytes) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -53,26 +54,51 @@ class Fit:
         return next(one for one in (*self.parameters, *self.derived) if one.name == name)
 
 
-def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
-    """Fit a problem; without `profiles` the intervals are those of the covariance.
+class BestFit(NamedTuple):
+    """A problem's best parameters, before anything is said of how sure they are."""
+
+    residuals: Residuals
+    found: RobustFit
+
+    @property
+    def problem(self) -> Problem:
+        """What was fitted."""
+        return self.residuals.problem
+
+    def predicted(self) -> list[Array]:
+        """What each channel should be [SI]."""
+        return self.residuals.predicted(self.found.inner)
+
+
+def best_fit(problem: Problem) -> BestFit:
+    """Fit a problem.
 
     Raises InputError where there are fewer values than parameters, or the equations give no number at the start.
     """
     residuals = Residuals(problem)
-    start = np.array([one.inner(one.start) for one in problem.parameters])
-    best = robust_fit(residuals, start)
+    return BestFit(residuals, robust_fit(residuals, np.array([one.inner(one.start) for one in problem.parameters])))
+
+
+def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
+    """Fit a problem, and say how sure it is: `best_fit`, then `with_intervals`."""
+    return with_intervals(best_fit(problem), profiles=profiles)
+
+
+def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
+    """The intervals of a best fit, and what follows from it; without `profiles` they are those of the covariance."""
+    residuals, best = fit
     known = spread(residuals, best)
     free = {i for direction in known.free_directions for i in moved_by(direction)}
-    parameters, words = [], in_words(problem, known, best.inner)
-    for i, one in enumerate(problem.parameters):
+    parameters, words = [], in_words(fit.problem, known, best.inner)
+    for i, one in enumerate(fit.problem.parameters):
         if one.nuisance:
             continue
         ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
         words += _unbounded(one, ends)
         parameters.append(_estimate(one, best.inner[i], ends))
     return Fit(
-        problem, tuple(parameters), _derived(residuals, best, known), correlation(known.covariance),
-        tuple(residuals.predicted(best.inner)), tuple(map(float, best.noise)),
+        fit.problem, tuple(parameters), _derived(residuals, best, known), correlation(known.covariance),
+        tuple(fit.predicted()), tuple(map(float, best.noise)),
         tuple(one.rho for one in known.follows), tuple(words),
     )  # fmt: skip
 

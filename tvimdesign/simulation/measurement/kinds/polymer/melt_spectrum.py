@@ -16,7 +16,7 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.simulation.measurement.fitting.fit import Fit, fitted
+from tvimdesign.simulation.measurement.fitting.fit import BestFit, Fit, best_fit, fitted, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings
 from tvimdesign.simulation.measurement.kinds.polymer.melt_test import Curve, MeltTest
@@ -83,8 +83,8 @@ def measured(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -
         raise InputError("--set least_temperature leaves no test")
     most = round(settings["largest_modes"])
     melt = _melt(kept, settings)
-    count = _fewest_modes(melt, most)
-    best, notes = _best(melt, count, profiles=profiles)
+    count, first = _fewest_modes(melt, most)
+    best, notes = _best(melt, count, first, profiles=profiles)
     notes = [*_notes(tests, melt, count, most), *notes]
     if untold:
         notes.append(_UNTOLD)
@@ -107,17 +107,20 @@ def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
     return Melt(tests, temperatures, wanted, _USUAL_ENERGY if known is None else known, known)
 
 
-def _best(melt: Melt, count: int, *, profiles: bool) -> tuple[Fit, list[str]]:
-    """The fit with so many modes, by Arrhenius' law where that describes the shifts, and what is to be said of them."""
+def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fit, list[str]]:
+    """The fit with so many modes, by Arrhenius' law where that describes the shifts, and what is to be said of them.
+
+    `first` is the fit with so many modes and free shifts, or with the melt's own energy.
+    """
     if melt.energy is not None or len(melt.temperatures) == 1:
-        return fitted(_problem(melt, count), profiles=profiles), []
-    free = fitted(_problem(melt, count), profiles=False)
+        return with_intervals(first, profiles=profiles), []
+    free = with_intervals(first, profiles=False)
     shifts = {one: free[shift_name(one)] for one in melt.shifted}
     activation = arrhenius(shifts, melt.reference)
     note = shift_note(activation, shifts, melt.reference)
     if activation.describes:
         return fitted(_problem(melt._replace(energy=activation.energy), count), profiles=profiles), note
-    return (fitted(_problem(melt, count)) if profiles else free), note
+    return (with_intervals(first) if profiles else free), note
 
 
 def shift_name(temperature: float) -> str:
@@ -130,26 +133,34 @@ def guessed_shift(temperature: Any, reference: float) -> Any:
     return 1.0 if np.isnan(reference) else polymer.arrhenius_shift(temperature, reference, _USUAL_ENERGY)
 
 
-def _fewest_modes(melt: Melt, most: int) -> int:
-    """Modes up to which one more betters Schwarz's criterion, from one to `most`."""
-    chosen, last = 1, np.inf
-    for count in range(1, most + 1):
+def _fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
+    """Modes up to which one more betters Schwarz's criterion, from one to `most`, and the fit with them.
+
+    Raises InputError where there are fewer values than one mode has parameters.
+    """
+    chosen, best = 1, best_fit(_problem(melt, 1))
+    least = _criterion(best, melt)
+    for count in range(2, most + 1):
         problem = _problem(melt, count)
-        free = len(problem.parameters)
-        if free >= melt.values:
+        if len(problem.parameters) >= melt.values:
             break
-        found = fitted(problem, profiles=False)
-        criterion = _misfit(found) + free * np.log(melt.values)
-        if criterion > last - _BETTER:
+        found = best_fit(problem)
+        criterion = _criterion(found, melt)
+        if criterion > least - _BETTER:
             break
-        chosen, last = count, criterion
-    return chosen
+        chosen, best, least = count, found, criterion
+    return chosen, best
 
 
-def _misfit(found: Fit) -> float:
+def _criterion(found: BestFit, melt: Melt) -> float:
+    """Schwarz's criterion, less is better [Sch]."""
+    return _misfit(found) + len(found.problem.parameters) * float(np.log(melt.values))
+
+
+def _misfit(found: BestFit) -> float:
     """Sum of n ln(mean square of the residuals) over what errs alike."""
     squares: dict[str, list[Any]] = {}
-    for channel, predicted in zip(found.problem.channels, found.predicted, strict=True):
+    for channel, predicted in zip(found.problem.channels, found.predicted(), strict=True):
         left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
         squares.setdefault(channel.noise_of, []).append(left if channel.relative else left / np.ptp(channel.measured))
     groups = [np.concatenate(group) for group in squares.values()]

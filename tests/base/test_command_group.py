@@ -1,0 +1,57 @@
+"""Commands beside this process: what they say, and that none outlives who asked for it."""
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+from threading import Thread
+
+import pytest
+from support import is_at_work
+
+from tvimdesign.base.command_group import CommandGroup
+
+STARTS_ANOTHER = """
+import os, subprocess, sys, time
+other = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+open(sys.argv[1] + ".part", "w").write(f"{os.getpid()} {other.pid}")
+os.rename(sys.argv[1] + ".part", sys.argv[1])
+time.sleep(60)
+"""
+
+
+def test_what_a_command_says_and_its_code_are_given_back() -> None:
+    code = "import sys; print('out'); sys.stderr.write('err'); sys.exit(3)"
+    with CommandGroup() as commands:
+        done = commands.run([sys.executable, "-c", code], 60.0)
+    assert (done.returncode, done.stdout.strip(), done.stderr) == (3, "out", "err")
+
+
+def test_commands_of_other_threads_end_where_the_group_is_left_and_none_begins_then(tmp_path: Path) -> None:
+    told, ended = tmp_path / "told", []
+    with CommandGroup() as commands:
+        command = [sys.executable, "-c", STARTS_ANOTHER, str(told)]
+        waits = Thread(target=lambda: ended.append(commands.run(command, 60.0)))
+        waits.start()
+        while not told.exists():
+            time.sleep(0.02)
+    waits.join(10.0)
+    assert [one.returncode < 0 for one in ended] == [True]
+    _gone(told)
+    assert commands.run([sys.executable, "-c", "print(1)"], 60.0).returncode < 0
+
+
+def test_a_command_that_takes_too_long_is_ended(tmp_path: Path) -> None:
+    told = tmp_path / "told"
+    with CommandGroup() as commands, pytest.raises(subprocess.TimeoutExpired):
+        commands.run([sys.executable, "-c", STARTS_ANOTHER, str(told)], 5.0)
+    if told.exists():
+        _gone(told)
+
+
+def _gone(told: Path) -> None:
+    numbers = [int(number) for number in told.read_text().split()]
+    end = time.monotonic() + 10.0
+    while any(map(is_at_work, numbers)) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert not any(map(is_at_work, numbers))
