@@ -203,11 +203,37 @@ class PhaseSimulator:
         size = self.phase.state_size
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
         values = dict.fromkeys(self._events, np.inf) | found.times
+        highest = self._highest(times, states, watched, constants, profile)
         for row, sampled in zip(self.phase.paths, watched[len(self._events) :], strict=True):
-            whole = sampled[-1] if row.reduce == "end" else integrals.get(row.name, np.max(sampled))
+            whole = sampled[-1] if row.reduce == "end" else integrals.get(row.name, highest.get(row.name, 0.0))
             # Of a phase that never ends there is a maximum; what it adds up to, or is at its end, there is not.
             values[row.name] = np.inf if row.reduce != "maximum" and found.end is None else float(whole)
         return values, Trajectory(times=times, states=states[:size], currents=profile.at(times))
+
+    def _highest(
+        self, times: Array, states: Array, watched: Array, constants: Array, profile: CurrentProfile
+    ) -> dict[str, float]:
+        """The maxima of the phase's paths; where one is at a sample between others, what lies around it is looked at
+        once more: a cold side peaks within seconds of a current's reversal."""
+        found: dict[str, float] = {}
+        near: dict[int, Array] = {}
+        for i, row in enumerate(self.phase.paths, start=len(self._events)):
+            if row.reduce != "maximum":
+                continue
+            place = int(np.argmax(watched[i]))
+            found[row.name] = float(watched[i, place])
+            if 0 < place < len(times) - 1:
+                if place not in near:
+                    both = [self._between(times, states, constants, profile, first) for first in (place - 1, place)]
+                    near[place] = np.concatenate(both, axis=1)
+                found[row.name] = max(found[row.name], float(np.max(near[place][i])))
+        return found
+
+    def _between(self, times: Array, states: Array, constants: Array, profile: CurrentProfile, first: int) -> Array:
+        """What is watched between a sample and the next."""
+        length = times[first + 1] - times[first]
+        currents = profile.at(times[first] + length * self._shares)
+        return self._watch(self._stretch(states[:, first], constants, length, currents), constants, currents)
 
     @cached_property
     def _standing(self) -> tuple[Any, Any]:
