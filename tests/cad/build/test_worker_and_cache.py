@@ -21,13 +21,12 @@ from support import ROOT, is_at_work
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
-from tvimdesign.cad.build.build_plan import PICTURES, build_plan
+from tvimdesign.cad.build.build_plan import build_plan
 from tvimdesign.cad.build.cache import Cache, Result
 from tvimdesign.cad.build.read_tracking import TrackedDesign
 from tvimdesign.cad.build.worker import Done, Job, Turn, Work, WorkerPool
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import dimensions
-from tvimdesign.cad.make import PartsProcess
 from tvimdesign.study.design import Design, write_design
 
 Run = Callable[..., Done]
@@ -111,14 +110,6 @@ def test_what_nothing_waits_for_is_begun_last_and_stands_where_the_plan_has_it(t
     done = workshop.do([PLATE, late, Work(name="layer", do=thickness)])
     assert begun == ["plate", "layer", "stack"]
     assert list(done.results) == ["plate", "stack", "layer"]
-
-
-def test_the_files_of_a_part_that_others_wait_for_come_before_its_drawing() -> None:
-    plan = build_plan(dimensions(design_of("toy", {})))
-    needed = {name for work in plan for name in work.needs}
-    late = {work.name for work in plan if work.turn is Turn.LATE}
-    assert late.isdisjoint(needed)
-    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= late
 
 
 def test_a_change_of_what_was_not_read_does_nothing_again(run: Run) -> None:
@@ -362,31 +353,6 @@ def test_a_second_making_takes_over_everything_and_gives_the_same_files(
     assert {name: (tmp_path / "cad" / name).read_bytes() for name in second.files} == made
 
 
-def test_a_process_that_is_never_told_what_to_make_is_gone_with_its_owner() -> None:
-    with PartsProcess() as waiting:
-        process = psutil.Process(waiting.process)
-        assert process.is_running()
-    assert not process.is_running()
-
-
-def test_pictures_are_begun_before_all_else_once_the_parts_are_there() -> None:
-    plan = build_plan(dimensions(design_of("paper", {})))
-    assert plan[0].name == PICTURES
-    assert plan[0].turn is Turn.FIRST
-    makers = {work.name for work in plan if work.turn is Turn.LATE}
-    assert makers == {f"{name}_for_makers" for name in plan[0].needs}
-
-
-def test_the_first_part_is_a_small_one_and_the_two_largest_are_made_beside_each_other() -> None:
-    plan = build_plan(dimensions(design_of("paper", {})))
-    kinds = set(plan[0].needs)
-    begun = [work.name for work in sorted(plan, key=lambda work: work.turn) if not work.needs]
-    assert begun[0] == "housing"
-    assert begun[1] not in {"housing", "rotor"}
-    assert set(begun[: len(kinds)]) == kinds  # all others wait for the parts
-    assert begun[len(kinds) - 1] == "rotor"
-
-
 def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path: Path) -> None:
     told: list[str] = []
 
@@ -408,10 +374,3 @@ def test_children_collect_garbage_though_who_forks_them_does_not(run: Run) -> No
         assert text(run(Work(name="collects", do=collects)), "collects") == "True"
     finally:
         gc.enable()
-
-
-@pytest.mark.skipif(not hasattr(os, "getsid"), reason="Windows has no sessions")
-def test_parts_are_made_in_this_session_which_shares_out_processors_by_niceness() -> None:
-    with PartsProcess() as waiting:
-        assert os.getsid(waiting.process) == os.getsid(0)
-        assert os.getpgid(waiting.process) == waiting.process  # an interrupt at the terminal is the parent's to handle

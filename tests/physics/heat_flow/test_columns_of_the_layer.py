@@ -90,6 +90,16 @@ def test_columns_have_no_mean_of_their_own(them: columns.Columns) -> None:
     assert np.all(np.diff(beside, axis=0) < 0.0)
 
 
+def test_what_leaves_below_a_wall_cools_the_end_and_moves_no_mean() -> None:
+    heights = (np.arange(12) + 0.5) / 12
+    found = np.array(columns.below_wall(heights, 3.0, 0.01, 0.98, 0.1))
+    assert np.abs(np.array(columns.DENSE.shares) @ found).max() < 1e-12
+    at_end, away = found[-1], found[0]
+    assert at_end[0] > at_end[-1]  # the heat leaves next to the pads
+    assert np.all(at_end >= away)
+    assert np.abs(away).max() < 0.05 * at_end[0]
+
+
 @pytest.mark.parametrize("onward", [0.005, 0.02, 0.08, 0.5])
 @pytest.mark.parametrize("coefficient", [3.0, 10.0, 25.0])
 def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward: float, coefficient: float) -> None:

@@ -17,21 +17,20 @@ from tvimdesign.study import Study, read_study, read_study_text
 
 SAME = 2e-6
 """Share of the objective that IPOPT's tolerance leaves open."""
-SWITCH = """
-mode: {mode}
-module: {{cold_side: sink}}
+SHEAR = """
+mode: shear
+module: {cold_side: sink}
 vary:
   wire_diameter: [1.5 mm, 3 mm]
-  {depth}
+  pcl_thickness: [0.6 mm, 2 mm]
   current: [0.5 A, 4 A]
 require:
   spring_stiffness: ">= 2 N.m/rad"
   peak_power: "<= 60 W"
-minimize: {{module_mass: 1, response_time: 1, {also}: 1}}
-solver: {{starts: 1, cells: 6}}
+minimize: {module_mass: 1, response_time: 1, switch_energy: 1}
+solver: {starts: 1, cells: 6}
 """
-SHEAR = SWITCH.format(mode="shear", depth="pcl_thickness: [0.6 mm, 2 mm]", also="switch_energy")
-FREEZING = SWITCH.format(mode="shear", depth="pcl_thickness: [0.6 mm, 2 mm]", also="return_time")
+FREEZING = SHEAR.replace("switch_energy", "return_time")
 COMPRESSION = (ROOT / "studies/compare_compression.yaml").read_text().split("solver:")[0]
 
 

@@ -17,8 +17,6 @@ from tvimdesign.physics.heat_flow.lumps import Link, Lump
 
 quantities = QuantityGroup(shared.group)
 
-OF_MEAN = 1.2
-"""How much colder a profile is where its heat is lost than in the mean: as in `lumps.sink_of_slices`."""
 LINER, PLATE, BESIDE = ("liner", 0), ("plate", 0), ("beside", 0)
 
 
@@ -29,7 +27,9 @@ def liner_to_wall(liner_sheet: Liner | None, end_wall: EndWall | None) -> Scalar
         return 0.0
     above = 1.0 - end_wall.layer
     excess = above - 0.5 * end_wall.sheet
-    return end_wall.conductivity * end_wall.end.rim / (excess - OF_MEAN * end_wall.end.sheet_colder / end_wall.width)
+    return (
+        end_wall.conductivity * end_wall.end.rim / (excess - lumps.AT_WALL * end_wall.end.sheet_colder / end_wall.width)
+    )
 
 
 @quantities.helper()

@@ -250,6 +250,10 @@ def gap_end_depth(slot: Any) -> Any:
     return whole / (1.0 + BEFORE_SLOT * slot / whole)
 
 
+AT_WALL = 1.2
+"""How much colder a profile is at the end where a wall takes its heat than in the mean: as `sink_of_slices` says."""
+
+
 def sink_of_slices(deep: Any, colder: Any) -> Any:
     """What a layer's slices give to a wall at its end, over k/t and their excess, for the depth it comes from [1].
 
@@ -258,7 +262,7 @@ def sink_of_slices(deep: Any, colder: Any) -> Any:
     fall's by 1/2 - tanh(x^1/2/2)/x^1/2 = x/24 - x^2/240 + ..., here solved for x within 2 % up to 0.08. What is
     left of the excess follows from how much `colder` the layer is (`WalledEnd.colder` over the width), by a sheet too.
     """
-    return 2.0 * FALLING * deep / (1.0 - 2.4 * colder)
+    return 2.0 * FALLING * deep / (1.0 - 2.0 * AT_WALL * colder)
 
 
 def ledge_ways(slenderness: Any) -> tuple[Any, Any]:

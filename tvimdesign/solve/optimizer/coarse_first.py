@@ -107,6 +107,4 @@ def search_from(
 
 def _after(coarse: Start, fine: Start) -> Start:
     """A run that another one led to, with the work of both."""
-    return replace(
-        fine, iterations=coarse.iterations + fine.iterations, seconds=coarse.seconds + fine.seconds
-    )  # fmt: skip
+    return replace(fine, iterations=coarse.iterations + fine.iterations, seconds=coarse.seconds + fine.seconds)

@@ -1,0 +1,54 @@
+"""Which pieces of work a design's plan begins first, and the process that does them."""
+
+from __future__ import annotations
+
+import os
+
+import psutil
+import pytest
+from cad_designs import design_of
+
+from tvimdesign.cad.build.build_plan import PICTURES, build_plan
+from tvimdesign.cad.build.worker import Turn
+from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.make import PartsProcess
+
+
+def test_the_files_of_a_part_that_others_wait_for_come_before_its_drawing() -> None:
+    plan = build_plan(dimensions(design_of("toy", {})))
+    needed = {name for work in plan for name in work.needs}
+    late = {work.name for work in plan if work.turn is Turn.LATE}
+    assert late.isdisjoint(needed)
+    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= late
+
+
+def test_a_process_that_is_never_told_what_to_make_is_gone_with_its_owner() -> None:
+    with PartsProcess() as waiting:
+        process = psutil.Process(waiting.process)
+        assert process.is_running()
+    assert not process.is_running()
+
+
+def test_pictures_are_begun_before_all_else_once_the_parts_are_there() -> None:
+    plan = build_plan(dimensions(design_of("paper", {})))
+    assert plan[0].name == PICTURES
+    assert plan[0].turn is Turn.FIRST
+    makers = {work.name for work in plan if work.turn is Turn.LATE}
+    assert makers == {f"{name}_for_makers" for name in plan[0].needs}
+
+
+def test_the_first_part_is_a_small_one_and_the_two_largest_are_made_beside_each_other() -> None:
+    plan = build_plan(dimensions(design_of("paper", {})))
+    kinds = set(plan[0].needs)
+    begun = [work.name for work in sorted(plan, key=lambda work: work.turn) if not work.needs]
+    assert begun[0] == "housing"
+    assert begun[1] not in {"housing", "rotor"}
+    assert set(begun[: len(kinds)]) == kinds  # all others wait for the parts
+    assert begun[len(kinds) - 1] == "rotor"
+
+
+@pytest.mark.skipif(not hasattr(os, "getsid"), reason="Windows has no sessions")
+def test_parts_are_made_in_this_session_which_shares_out_processors_by_niceness() -> None:
+    with PartsProcess() as waiting:
+        assert os.getsid(waiting.process) == os.getsid(0)
+        assert os.getpgid(waiting.process) == waiting.process  # an interrupt at the terminal is the parent's to handle
