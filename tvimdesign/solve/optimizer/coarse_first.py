@@ -1,6 +1,6 @@
 """Searches of a problem with as few elements of time as it can have, whose optima lead to those of the problem itself.
 
-An iteration of the coarse problem takes a quarter to a half of the time, and most iterations are for where to begin.
+An iteration of the coarse problem takes a third to six tenths of the time, and most iterations are for where to begin.
 """
 
 from __future__ import annotations
