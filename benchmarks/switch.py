@@ -67,14 +67,8 @@ OF_EDGES = (
     "cold_end",
     "edge_length",
 )
-OF_COLUMNS = (
-    "air_beside",
-    "cold_end",
-    "plate_slenderness",
-    "pcl_area",
-    "edge_length",
-    "pcl_depth",
-)
+OF_SURROUNDINGS = ("air_beside", "cold_end", "plate_slenderness")
+OF_ENDS = ("air_beside", "cold_end", "pcl_area", "edge_length", "pcl_depth")
 """What the layer's columns need to know of the module."""
 
 
@@ -84,9 +78,9 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     known = {**model.words, **numbers, "rotor_cells": int(numbers["rotor_cells"])}
     wanted = ["stack", "pcl_rheology", "layer_polar_moment", "structure_compliances", "structure_softening",
               "spring_stiffness", "joint_impedance@hot"]  # fmt: skip
-    found = model.table.evaluate(known, [*wanted, *OF_EDGES, *OF_COLUMNS])
+    found = model.table.evaluate(known, [*wanted, *OF_EDGES, *OF_SURROUNDINGS, *OF_ENDS])
     of = {**known, **found}
-    edges, columns = ({name: of[name] for name in names} for names in (OF_EDGES, OF_COLUMNS))
+    edges, around, ends = ({name: of[name] for name in names} for names in (OF_EDGES, OF_SURROUNDINGS, OF_ENDS))
     stack, rheology, moment, parts, law, springs, hot = (found[name] for name in wanted)
     target, soft = numbers["target_temperature"], numbers["softening_band"] * hot
 
@@ -97,7 +91,10 @@ def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
 
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
-        warm = layer_columns.layer_temperatures(now, stack, layer_columns.edge_drops(now, stack, **edges), **columns)
+        drops = layer_columns.edge_drops(now, stack, **edges)
+        surroundings = layer_columns.layer_surroundings(now, stack, drops, **around)
+        profile = layer_columns.end_profile(layer_columns.end_places(now, **ends), of["cold_end"])
+        warm = layer_columns.layer_temperatures(surroundings, profile, stack, of["cold_end"])
         slices = polymer.moduli(now.cells, now.fractions, omega, rheology)
         side_by_side = thermal_stack.column_compliances(stack, warm, rheology, numbers["frequency@hot"])
         moduli = thermal_stack.layer_moduli(stack, slices, side_by_side, layer_columns.across(of["cold_end"]).shares)

@@ -85,14 +85,16 @@ def test_columns_have_no_mean_of_their_own(them: columns.Columns) -> None:
         assert np.dot(them.shares, [shape(place) for place in them.places]) == pytest.approx(0.0, abs=1e-3)
     ends = np.array([columns.at_end(place, heights, 3.0, 0.1) for place in them.places])
     assert them.shares @ ends == pytest.approx(np.zeros(3), abs=0.02)
-    beside = np.array(columns.beside_wall(heights, 3.0, 0.01, 0.98, 0.1))
+    lost, _ = columns.wall_profile(columns.wall_places(heights, 3.0, 0.01, 0.98, 0.1))
+    beside = np.array(columns.beside_wall(lost))
     assert columns.DENSE.shares @ beside == pytest.approx(np.ones(3))
     assert np.all(np.diff(beside, axis=0) < 0.0)
 
 
 def test_what_leaves_below_a_wall_cools_the_end_and_moves_no_mean() -> None:
     heights = (np.arange(12) + 0.5) / 12
-    found = np.array(columns.below_wall(heights, 3.0, 0.01, 0.98, 0.1))
+    _, cooled = columns.wall_profile(columns.wall_places(heights, 3.0, 0.01, 0.98, 0.1))
+    found = np.array(columns.below_wall(cooled))
     assert np.abs(np.array(columns.DENSE.shares) @ found).max() < 1e-12
     at_end, away = found[-1], found[0]
     assert at_end[0] > at_end[-1]  # the heat leaves next to the pads

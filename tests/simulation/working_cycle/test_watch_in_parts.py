@@ -11,15 +11,16 @@ from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study_text
 
 
-def model_of(mode: str, criterion: str) -> DeviceFunctions:
-    text = f"mode: {mode}\nmodule: {{response_criterion: {criterion}}}\nsolver: {{cells: 4}}\n"
+def model_of(mode: str, criterion: str, lip: str = "none") -> DeviceFunctions:
+    lips = f", melt_lip: {lip}" if mode == "shear" else ""
+    text = f"mode: {mode}\nmodule: {{response_criterion: {criterion}{lips}}}\nsolver: {{cells: 4}}\n"
     resolved = resolve_study(read_study_text(text, "a test"))
     return DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
 
 
-@pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_the_parts_have_the_value_and_the_derivatives_of_the_whole(mode: str) -> None:
-    model = model_of(mode, "softening")
+@pytest.mark.parametrize(("mode", "lip"), [("shear", "none"), ("shear", "rings"), ("compression", "none")])
+def test_the_parts_have_the_value_and_the_derivatives_of_the_whole(mode: str, lip: str) -> None:
+    model = model_of(mode, "softening", lip)
     phase = model.phases["softening"]
     cold = np.asarray(phase.initial(model.start)).ravel()
     state = ca.MX.sym("state", len(cold))
@@ -42,5 +43,6 @@ def test_the_moduli_are_a_call_of_their_own_where_they_are_asked_for() -> None:
         graph = ca.Function("graph", [state, inputs], [phase.watch_in_parts(["response_time"])(state, 0.5, inputs)])
         return sum(graph.instruction_id(k) == ca.OP_CALL for k in range(graph.n_instructions()))
 
-    assert calls("softening") == 5  # temperatures, what the slices have in common, slices, layer, joint
+    # Surroundings, places and profile of the end, temperatures, what the slices have in common, slices, layer, joint.
+    assert calls("softening") == 8
     assert calls("mean") == 1

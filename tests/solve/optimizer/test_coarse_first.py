@@ -10,8 +10,8 @@ from support import ROOT
 
 from tvimdesign.solve.nlp.coarse_to_fine import at_points, on_finer_grid
 from tvimdesign.solve.nlp.solver_run import Run
-from tvimdesign.solve.nlp.transcription import moments
-from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum, refined, search_from
+from tvimdesign.solve.nlp.transcription import ORDER, moments
+from tvimdesign.solve.optimizer.coarse_first import LOWEST, all_refined, coarse_of, first_optimum, refined, search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Study, read_study, read_study_text
 
@@ -40,12 +40,13 @@ def optimizer() -> Optimizer:
 
 
 @pytest.mark.parametrize(("few", "many"), [(1, 3), (1, 2), (2, 3), (3, 9)])
-def test_states_that_are_polynomials_are_the_same_at_finer_points(few: int, many: int) -> None:
+@pytest.mark.parametrize("order", [2, 5])
+def test_states_that_are_polynomials_are_the_same_at_finer_points(few: int, many: int, order: int) -> None:
     def course(times: np.ndarray) -> np.ndarray:
-        return np.vstack([1.0 - times**5, 3.0 * times**2 + times, np.ones_like(times)])
+        return np.vstack([1.0 - times**order, 3.0 * times**2 + times, np.ones_like(times)])
 
-    coarse = course(np.append(0.0, moments(few, 1.0)))
-    np.testing.assert_allclose(at_points(coarse, many), course(moments(many, 1.0)), rtol=1e-12, atol=1e-12)
+    coarse, finer = course(np.append(0.0, moments(few, 1.0, order=order))), course(moments(many, 1.0))
+    np.testing.assert_allclose(at_points(coarse, many, order), finer, rtol=1e-12, atol=1e-12)
 
 
 def test_what_kinks_between_elements_stays_within_its_element() -> None:
@@ -120,9 +121,26 @@ def test_the_same_optimum_is_refined_once(optimizer: Optimizer, monkeypatch: pyt
     assert second.start.end == first.start.end
 
 
-def test_where_it_would_spare_little_there_is_none() -> None:
+def test_pieces_of_a_free_current_have_fewer_points() -> None:
     study = read_study(ROOT / "studies/fast_switch.yaml")
-    assert coarse_of(Optimizer(study.model_copy(update={"robust": None}))) is None  # its current is free
+    optimizer = Optimizer(study.model_copy(update={"robust": None}))
+    coarse = coarse_of(optimizer)
+    assert coarse is not None
+    for few, many in zip(coarse.problem.blocks, optimizer.problem.blocks, strict=True):
+        assert few.states.shape[1] / LOWEST == many.states.shape[1] / ORDER  # as many elements
+    start = optimizer.model.start
+    begin, here = optimizer.guess(start), coarse.guess(start)
+    unknowns = on_finer_grid(here, coarse.problem, optimizer.problem, start)
+    assert len(unknowns) == len(begin)
+    states = optimizer.problem.blocks[0].states.numel()
+    first = len(optimizer.free)
+    assert unknowns[first : first + states] == pytest.approx(begin[first : first + states], abs=8.0)  # K of some 80
+    assert unknowns[:first] == pytest.approx(begin[:first])
+    assert unknowns[-len(optimizer.problem.peaks) :] == pytest.approx(begin[-len(optimizer.problem.peaks) :])
+
+
+def test_there_is_none_where_a_steady_state_is_unknown_too() -> None:
+    assert coarse_of(Optimizer(read_study_text(SHEAR.replace("switch_energy", "hold_power")))) is None
 
 
 def test_problems_that_differ_in_records_alone_share_the_coarse_one(optimizer: Optimizer) -> None:

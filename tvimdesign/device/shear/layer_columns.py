@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -57,56 +57,106 @@ def edge_drops(
     )
 
 
+class LayerSurroundings(NamedTuple):
+    """All that the temperatures of the layer's slices follow from, beside what its end does to them."""
+
+    cells: Scalar
+    """Mean temperature of each slice over the width [K], an array."""
+    through: Scalar
+    """What leaves the layer's end into the air beside or below it, over the layer's conductivity [K]."""
+    drops: tuple[Scalar, Scalar]
+    """How far the pads' edges and the plate's are below their means [K] (`edge_drops`)."""
+    in_plate: Scalar
+    """How far the plate is below its mean in each column, over how far its edge is [1], an array."""
+    share: Scalar
+    """Share of the way from pads to plate that lies before each slice [1], an array."""
+    lip: Scalar | None
+    """Temperature of the lip at the layer's end [K]."""
+
+
 @quantities.helper(instant=True)
-def layer_temperatures(
+def layer_surroundings(
     stack_profile: heat.Profile,
     stack: heat.Stack,
     edge_drops: tuple[Scalar, Scalar],
     air_beside: tuple[Scalar, Scalar],
     cold_end: ColdEnd | None,
     plate_slenderness: Scalar,
+) -> LayerSurroundings:
+    """What surrounds the layer's slices at an instant."""
+    now, (conductivity, slot) = stack_profile, air_beside
+    to_floor, lip = now.hot - now.around[CORNER], None
+    if cold_end is not None:
+        assert now.lip is not None  # a cold end is that of a lip
+        lip = now.lip.temperature
+        into_lip, into_floor = still_air.below_lip(slot)
+        to_floor = into_lip * (now.hot - lip) + into_floor * to_floor
+    return LayerSurroundings(
+        cells=now.cells,
+        through=conductivity / stack.conductivity_melt * to_floor,
+        drops=edge_drops,
+        in_plate=columns.in_sheet(np.array(across(cold_end).places), plate_slenderness),
+        share=columns.way_through(stack, heights_of(now)),
+        lip=lip,
+    )
+
+
+@quantities.helper(instant=True)
+def end_places(
+    stack_profile: heat.Profile,
+    air_beside: tuple[Scalar, Scalar],
+    cold_end: ColdEnd | None,
     pcl_area: Scalar,
     edge_length: Scalar,
     pcl_depth: Scalar,
+) -> columns.EndPlaces:
+    """Where the layer's slices are, seen from its end: from a lip's wall, or from the gap."""
+    width, heights = pcl_area / edge_length / pcl_depth, heights_of(stack_profile)
+    if cold_end is None:
+        return columns.gap_places(heights, width, air_beside[1])
+    return columns.wall_places(heights, width, cold_end.contact, cold_end.layer, cold_end.free)
+
+
+@quantities.helper(instant=True)
+def end_profile(end_places: columns.EndPlaces, cold_end: ColdEnd | None) -> tuple[list[Scalar], ...]:
+    """What the layer's end does to its slices, column by column: a wall and the clearance below it, or a gap."""
+    return columns.gap_profile(end_places) if cold_end is None else columns.wall_profile(end_places)
+
+
+@quantities.helper(instant=True)
+def layer_temperatures(
+    layer_surroundings: LayerSurroundings,
+    end_profile: tuple[list[Scalar], ...],
+    stack: heat.Stack,
+    cold_end: ColdEnd | None,
 ) -> list[Scalar]:
     """Temperatures of the layer's slices [K], in columns from the middle of an arc to its edge.
 
     The hot side's edge is colder, and so is the plate's; between them the layer falls evenly. At its free side it gives
     heat to the gap or a lip.
     """
-    count = len(stack_profile.cells)
-    heights = (np.arange(count) + 0.5) / count
-    width = pcl_area / edge_length / pcl_depth
-    ends = _at_end(stack_profile, stack, heights, width, air_beside, cold_end)
-    pads, plate = edge_drops
-    share = columns.way_through(stack, heights)
+    (pads, plate), places = layer_surroundings.drops, across(cold_end).places
     found = []
-    for place, end in zip(across(cold_end).places, ends, strict=True):
-        near, far = pads * columns.fed_evenly(place), plate * columns.in_sheet(place, plate_slenderness)
-        found.append(end - (near + (far - near) * share))
+    for i, (place, end) in enumerate(zip(places, _at_end(layer_surroundings, end_profile, stack), strict=True)):
+        near, far = pads * columns.fed_evenly(place), plate * layer_surroundings.in_plate[i]
+        found.append(end - (near + (far - near) * layer_surroundings.share))
     return found
 
 
-def _at_end(
-    now: heat.Profile,
-    stack: heat.Stack,
-    heights: Any,
-    width: Scalar,
-    air_beside: tuple[Scalar, Scalar],
-    cold_end: ColdEnd | None,
-) -> list[Scalar]:
-    """Temperatures of the slices in each column [K], by what leaves the layer at its end alone: into a lip and the
-    clearance below it, or into the gap."""
-    conductivity, slot = air_beside
-    if cold_end is not None and now.lip is not None:
-        lip = now.lip.temperature
-        phases = conduction.Conductivities(stack.conductivity_solid, stack.conductivity_melt)
-        end = (heights, width, cold_end.contact, cold_end.layer, cold_end.free)
-        to_lip, to_floor = still_air.below_lip(slot)
-        through = conductivity * (to_lip * (now.hot - lip) + to_floor * (now.hot - now.around[CORNER]))
-        return [
-            conduction.shared(warmer, now.cells, lip, phases, stack.melting) - through / phases.melt * below
-            for warmer, below in zip(columns.beside_wall(*end), columns.below_wall(*end), strict=True)
-        ]
-    excess = conductivity / stack.conductivity_melt * (now.hot - now.around[CORNER])
-    return [now.cells - excess * columns.at_end(place, heights, width, slot) for place in columns.EVEN.places]
+def heights_of(now: heat.Profile) -> Any:
+    """Where the slices are over the layer's depth [1]."""
+    count = len(now.cells)
+    return (np.arange(count) + 0.5) / count
+
+
+def _at_end(around: LayerSurroundings, profile: tuple[list[Scalar], ...], stack: heat.Stack) -> list[Scalar]:
+    """Temperatures of the slices in each column [K], by what leaves the layer at its end alone."""
+    if around.lip is None:
+        (cooled,) = profile
+        return [around.cells - around.through * one for one in cooled]
+    phases = conduction.Conductivities(stack.conductivity_solid, stack.conductivity_melt)
+    lost, cooled = profile
+    return [
+        conduction.shared(warmer, around.cells, around.lip, phases, stack.melting) - around.through * below
+        for warmer, below in zip(columns.beside_wall(lost), columns.below_wall(cooled), strict=True)
+    ]

@@ -164,7 +164,10 @@ class Table:
 
         Of an event the value is what it waits for, of a path what it reduces, of a steady quantity what it takes.
         Quantities of a first oscillation want the contact at an instant of it instead."""
-        known = dict(given)
+        return self.resolve_instant(dict(given), wanted)
+
+    def resolve_instant(self, known: dict[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
+        """The same from quantities that are known, to which all that is computed on the way is added."""
         values: dict[str, Scalar] = {}
         for name in wanted:
             quantity = self.quantity(name)

@@ -7,6 +7,7 @@ Fundamentals of Heat and Mass Transfer, ch. 3), and sines over its depth (Carsla
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -50,12 +51,12 @@ def way_through(stack: Stack, heights: Any) -> Any:
     return (before + heights * layer) / (before + layer + behind)
 
 
-def fed_evenly(place: float) -> float:
+def fed_evenly(place: Any) -> Any:
     """How far a place of a sheet that is heated evenly is below its mean temperature, over how far its edge is [1]."""
     return 0.5 * (3.0 * place**2 - 1.0)
 
 
-def in_sheet(place: float, slenderness: Any) -> Any:
+def in_sheet(place: Any, slenderness: Any) -> Any:
     """How far a place of a fin is below its mean temperature, over how far its edge is [1].
 
     The profile cosh(x p) over the place p from the middle (0) to the edge (1), x = w (h/k t)^(1/2) as in
@@ -65,7 +66,7 @@ def in_sheet(place: float, slenderness: Any) -> Any:
     return (np.cosh(slenderness * place) - mean) / (np.cosh(slenderness) - mean)
 
 
-def at_end(place: float, heights: Any, width: Any, slot: Any) -> Any:
+def at_end(place: Any, heights: Any, width: Any, slot: Any) -> Any:
     """How far a layer is below its mean over the width for the heat that its end loses, times k/k_gap [1].
 
     Per excess of its near face at the end of a gap (`lumps.gap_end`), at the `heights` over its depth t and the width
@@ -83,26 +84,67 @@ def at_end(place: float, heights: Any, width: Any, slot: Any) -> Any:
     return found * gap_end_depth(slot) / gap_end_depth(0.0)
 
 
-def beside_wall(heights: Any, width: Any, contact: Any, layer: Any, free: Any) -> list[Any]:
+class EndPlaces(NamedTuple):
+    """Where the slices of a layer are, seen from its end, and what the end is like."""
+
+    of_all: tuple[Any, ...]
+    """Numbers of the end."""
+    of_columns: list[Any]
+    """A number of each column."""
+    of_slices: Any
+    """An array, a number of each slice of a column."""
+
+
+def gap_places(heights: Any, width: Any, slot: Any) -> EndPlaces:
+    """At the end of a gap, slices at the `heights` over the layer's depth: what `at_end` takes."""
+    return EndPlaces((width, slot), list(EVEN.places), heights)
+
+
+def gap_profile(places: EndPlaces) -> tuple[list[Any], ...]:
+    """What the gap does to each column: `at_end` there."""
+    return ([at_end(place, places.of_slices, *places.of_all) for place in places.of_columns],)
+
+
+def wall_places(heights: Any, width: Any, contact: Any, layer: Any, free: Any) -> EndPlaces:
+    """Beside a wall that leaves the share `free` of the layer's height open: away from it, and above the pads.
+
+    The slices are at the `heights` over the layer's depth t, its width is w/t. Lengths are over the thickness from pads
+    to plate: contacts are as much more layer at its faces and its end, here each a share `contact` of the whole, and so
+    is a sheet on it: `layer` is its own share.
+    """
+    away = [contact + layer * (1.0 - place) * width for place in DENSE.places]
+    return EndPlaces((free,), away, contact + layer * heights)
+
+
+def wall_profile(places: EndPlaces) -> tuple[list[Any], ...]:
+    """What the wall and the gap below it do to each column: `walled_end.fallen` and `walled_end.cooled_end` there."""
+    (free,), above = places.of_all, places.of_slices
+    return (
+        [fallen(free, away, above) for away in places.of_columns],
+        [cooled_end(free, away, above) for away in places.of_columns],
+    )
+
+
+def beside_wall(lost: Sequence[Any]) -> list[Any]:
     """How warm a layer is in each column over its mean over the width, both above the wall at its end [1].
 
-    At the `heights` over its depth t and the width w/t, by what `walled_end.fallen` says of an even fall from face to
-    face. Any other profile is taken to fall towards the wall by the same share at each height. Contacts are as much
-    more layer at its faces and its end, here each a share `contact` of the whole, and so is a sheet on it: `layer` is
-    its own share.
+    By what of an even fall from face to face each column has `lost` (`walled_end.fallen`). Any other profile is taken
+    to fall towards the wall by the same share at each height.
     """
-    above = contact + layer * heights
-    left = [1.0 - fallen(free, contact + layer * (1.0 - place) * width, above) for place in DENSE.places]
-    mean = sum(share * one for share, one in zip(DENSE.shares, left, strict=True))
+    left = [1.0 - one for one in lost]
+    mean = _mean(left)
     return [one / mean for one in left]
 
 
-def below_wall(heights: Any, width: Any, contact: Any, layer: Any, free: Any) -> list[Any]:
+def below_wall(cooled: Sequence[Any]) -> list[Any]:
     """How far a layer is below its mean over the width for heat that leaves its end below that wall, in each column.
 
-    Times k, over what of that heat the near face gives (`walled_end.cooled_end`); lengths as in `beside_wall`.
+    Times k, over what of that heat the near face gives: by how far each column is `cooled` (`walled_end.cooled_end`).
     """
-    above = contact + layer * heights
-    found = [cooled_end(free, contact + layer * (1.0 - place) * width, above) for place in DENSE.places]
-    mean = sum(share * one for share, one in zip(DENSE.shares, found, strict=True))
-    return [one - mean for one in found]
+    mean = _mean(cooled)
+    return [one - mean for one in cooled]
+
+
+def _mean(values: Sequence[Any]) -> Any:
+    """Mean over the width of what dense columns have."""
+    return sum(share * one for share, one in zip(DENSE.shares, values, strict=True))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.casadi_setup import ca, lean_function
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
@@ -89,7 +89,7 @@ class DeviceFunctions:
         inputs, cycle, given = self._symbols
         known = {**given, **self._cycle, **instead} if instead else self._known
         values = self.table.resolve(known, wanted)
-        return ca.Function("outputs", [inputs, cycle], [ca.vertcat(*(values[name] for name in wanted))])
+        return lean_function("outputs", [inputs, cycle], ca.vertcat(*(values[name] for name in wanted)))
 
     @cached_property
     def every_output(self) -> Any:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
+from itertools import accumulate
 from typing import Any
 
 from tvimdesign.device import Event, Path, Phase, Steady, Table
 from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.heat_flow.slab_faces import AMBIENT
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.symbols import symbols
+from tvimdesign.simulation.working_cycle.casadi_setup import ca, lean_function
+from tvimdesign.simulation.working_cycle.symbols import flattened, held, symbols
 
 _BY_JACOBIAN = {"enable_forward": False}
 """Derivatives of what is mapped over the points go by its sparse Jacobian: a fifth of IPOPT's time less than by
@@ -36,6 +37,11 @@ class PhaseFunctions:
         self._drive = ca.SX.sym("drive_current")
         self._known = {**known, PHASE: phase, DRIVE: symbols(self._drive)[0]}
         self._cells = cells
+        self._split: dict[Any, tuple[Any, Any]] = {}
+        """Functions in two parts (`per_phase`), by function."""
+        self._watched: dict[tuple[str, ...], Any] = {}
+        self._in_parts: dict[tuple[str, ...], Any] = {}
+        """Functions of what is wanted, whole and put together of parts (`watch`, `watch_in_parts`)."""
 
     @cached_property
     def _stack(self) -> heat.Stack:
@@ -48,16 +54,30 @@ class PhaseFunctions:
         return len(self._stack.beside), len(self._stack.around)
 
     @cached_property
+    def _state(self) -> Any:
+        return ca.SX.sym("state", self.state_size)
+
+    @cached_property
+    def _written(self) -> dict[str, Any]:
+        """All that is written of an instant so far; what is asked for is added."""
+        return {**self._known, "stack_now": self._stack, STATE: symbols(self._state)}
+
+    @cached_property
     def _instant(self) -> dict[str, Any]:
-        state = ca.SX.sym("state", self.state_size)
-        known = {**self._known, "stack_now": self._stack, STATE: symbols(state)}
         rows = [row.name for row in (*self.events, *self.paths, *self.steadies)]
-        wanted = ("stack_profile", "layer_temperatures", "state_rates", "impedance_now", *SHOWN.values(), *rows)
-        return {"state": state, **self.table.evaluate_instant(known, wanted)}
+        helpers = (
+            "stack_profile", "layer_surroundings", "end_places", "layer_temperatures", "state_rates", "impedance_now",
+        )  # fmt: skip
+        wanted = (*(name for name in helpers if name in self.table.by_name), *SHOWN.values(), *rows)
+        return self.table.resolve_instant(self._written, wanted)
+
+    @property
+    def _arguments(self) -> list[Any]:
+        """State, current and inputs."""
+        return [self._state, self._drive, self._inputs]
 
     def _function(self, name: str, values: Iterable[Any]) -> Any:
-        arguments = [self._instant["state"], self._drive, self._inputs]
-        return ca.Function(name, arguments, [ca.vertcat(*values)])
+        return ca.Function(name, self._arguments, [ca.vertcat(*values)])
 
     @cached_property
     def lumps(self) -> Any:
@@ -108,7 +128,10 @@ class PhaseFunctions:
     def watch(self, wanted: Sequence[str]) -> Any:
         """Return the function (state, current, inputs) -> what the wanted quantities of this phase are at an
         instant."""
-        return self._function("watch", [self._instant[name] for name in wanted])
+        key = tuple(wanted)
+        if key not in self._watched:
+            self._watched[key] = self._function("watch", [self._instant[name] for name in wanted])
+        return self._watched[key]
 
     def watch_in_parts(self, wanted: Sequence[str]) -> Any:
         """The same function as `watch`, put together of four where it asks for the moduli of a layer that melts.
@@ -116,25 +139,63 @@ class PhaseFunctions:
         They are most of an instant's arithmetic, the same for each of the layer's slices, and depend on their
         temperatures alone: apart from the rest, their second derivatives take a fraction of the work.
         """
+        key = tuple(wanted)
+        if key not in self._in_parts:
+            self._in_parts[key] = self._put_together(wanted)
+        return self._in_parts[key]
+
+    def _put_together(self, wanted: Sequence[str]) -> Any:
         if self._stack.freezing is not None:
             return self.watch(wanted)
-        layer = ca.SX.sym("moduli", 2)
-        values = ca.vertcat(*self._instant_with(wanted, layer_moduli=tuple(symbols(layer))))
-        if not ca.depends_on(values, layer):
+        moduli = ca.SX.sym("moduli", 2)
+        values = ca.vertcat(*self._instant_with(wanted, layer_moduli=tuple(symbols(moduli))))
+        if not ca.depends_on(values, moduli):
             return self.watch(wanted)
         sizes = {"state": self.state_size, "drive": 1, "inputs": self._inputs.numel()}
         instant = [ca.MX.sym(name, size) for name, size in sizes.items()]
-        temperatures = self._function("layer_temperatures", self._instant["layer_temperatures"])(*instant)
-        joint = ca.Function("joint", [self._instant["state"], self._drive, self._inputs, layer], [values])
-        found = joint(*instant, self._layer_moduli(temperatures, instant[-1]))
+        joint = lean_function("joint", [*self._arguments, moduli], values)
+        found = joint(*instant, self._layer_moduli(self._slice_temperatures(instant), instant[-1]))
         return ca.Function("watch", instant, [found], {"always_inline": True})
+
+    def _slice_temperatures(self, instant: Sequence[Any]) -> Any:
+        """Temperatures of the slices of a layer that melts, column by column (MX), at an instant (MX).
+
+        Where they follow from a few numbers and from what the layer's end does to each slice, these come first: the
+        latter is written for one slice, and mapped over all.
+        """
+        around = self._instant.get("layer_surroundings")
+        if around is None:
+            layer = ca.vertcat(*self._instant["layer_temperatures"])
+            return lean_function("layer_temperatures", self._arguments, layer)(*instant)
+        found = lean_function("layer_surroundings", self._arguments, flattened(around))(*instant)
+        given = [found, *self._end_profile(self._instant["end_places"], instant[-1])]
+        columns = [ca.SX.sym("part", part.numel()) for part in given]
+        profile = tuple([symbols(one) for one in ca.vertsplit(part, self._cells)] for part in columns[1:])
+        (layer,) = self._instant_with(
+            ["layer_temperatures"], layer_surroundings=held(around, columns[0]), end_profile=profile
+        )
+        return lean_function("layer_temperatures", [*columns, self._inputs], ca.vertcat(*layer))(*given, instant[-1])
+
+    def _end_profile(self, places: Any, inputs: Any) -> list[Any]:
+        """The parts of the profile of a layer's end, slice by slice, column by column, from inputs (MX)."""
+        sizes = [len(places.of_all), len(places.of_columns), self._cells]
+        written = lean_function("end_places", [self._inputs], flattened(places))(inputs)
+        of_all, of_columns, of_slices = ca.vertsplit(written, [0, *accumulate(sizes)])
+        one = [ca.SX.sym("of_all", sizes[0]), ca.SX.sym("of_column"), ca.SX.sym("of_slice")]
+        place = type(places)(tuple(symbols(one[0])), [symbols(one[1])[0]], symbols(one[2]))
+        (parts,) = self._instant_with(["end_profile"], end_places=place)
+        each = lean_function("end_profile", one, ca.vertcat(*(part[0] for part in parts)), _BY_JACOBIAN)
+        count = sizes[1] * self._cells
+        by_column = ca.reshape(ca.repmat(of_columns.T, self._cells, 1), 1, count)
+        profile = each.map(count)(ca.repmat(of_all, 1, count), by_column, ca.repmat(of_slices.T, 1, sizes[1]))
+        return [part.T for part in ca.vertsplit(profile)]
 
     def _layer_moduli(self, temperatures: Any, inputs: Any) -> Any:
         """Moduli [Pa] of a layer that melts from the temperatures of its slices, column by column, and inputs (MX)."""
         one = ca.SX.sym("temperature")
         (compliance,) = self._instant_with(["column_compliances"], layer_temperatures=[symbols(one)])
         value, constants, changing = self._parted(ca.vertcat(*compliance[0]))
-        each = ca.Function("slice_compliance", [one, changing], [value], _BY_JACOBIAN)
+        each = lean_function("slice_compliance", [one, changing], value, _BY_JACOBIAN)
         known = ca.Function("constants", [self._inputs], [constants])(inputs)
         count = temperatures.numel()
         slices = each.map(count)(temperatures.T, ca.repmat(known, 1, count))
@@ -148,8 +209,13 @@ class PhaseFunctions:
 
     def _instant_with(self, wanted: Sequence[str], **held: Any) -> list[Any]:
         """Quantities of an instant with some others held at symbols of their own."""
-        known = {**self._known, "stack_now": self._stack, STATE: symbols(self._instant["state"]), **held}
-        return list(self.table.evaluate_instant(known, wanted).values())
+        changed = held.keys()
+        known = {name: value for name, value in self._written.items() if not changed & self._behind(name)}
+        return list(self.table.resolve_instant({**known, **held}, wanted).values())
+
+    def _behind(self, name: str) -> frozenset[str]:
+        """What a quantity follows from; nothing for what a phase and its instant are given by."""
+        return self.table.ancestors(name) if name.partition("@")[0] in self.table.by_name else frozenset()
 
     def evaluated(self, wanted: Sequence[str], value: Callable[..., Any]) -> Any:
         """Return the function (state, current, inputs) -> `value` of quantities at an instant, hidden ones too.
@@ -181,13 +247,14 @@ class PhaseFunctions:
         Returns inputs -> constants, and (state, current, constants) -> the function's value. A collocation evaluates
         the first once and the second at every point.
         """
-        state, profile = self._instant["state"], self._drive
-        expression = function(state, profile, self._inputs)
-        value, constants, changing = self._parted(expression)
-        return (
-            ca.Function("constants", [self._inputs], [constants]),
-            ca.Function("varying", [state, profile, changing], [value], _BY_JACOBIAN),
-        )
+        if function not in self._split:
+            state, profile = self._state, self._drive
+            value, constants, changing = self._parted(function(state, profile, self._inputs))
+            self._split[function] = (
+                ca.Function("constants", [self._inputs], [constants]),
+                ca.Function("varying", [state, profile, changing], [value], _BY_JACOBIAN),
+            )
+        return self._split[function]
 
     def _parted(self, expression: Any) -> tuple[Any, Any, Any]:
         """An expression in which symbols stand for what depends on the inputs alone; that, and these symbols."""

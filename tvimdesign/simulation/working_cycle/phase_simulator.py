@@ -6,7 +6,7 @@ from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,6 +34,14 @@ class _Found:
     """State, integrals last, at the event that ends the phase."""
 
 
+class _Given(NamedTuple):
+    """What stays the same all through a phase."""
+
+    inputs: Array
+    constants: Array
+    """What its rates need that follows from the inputs alone."""
+
+
 class PhaseSimulator:
     """Simulates one phase. Time is scaled by the length of a stretch; integrals ride along as states."""
 
@@ -44,15 +52,13 @@ class PhaseSimulator:
         self._shares = np.linspace(0.0, 1.0, steps + 1)
         self._integrals = [row.name for row in phase.paths if row.reduce == "integral"]
         self._events = [row.name for row in phase.events]
-        state, current = ca.SX.sym("state", phase.state_size), ca.SX.sym("current")
+        state = ca.SX.sym("state", phase.state_size)
         integrals = ca.SX.sym("integrals", len(self._integrals))
         length, first, last, time = (ca.SX.sym(name) for name in ("length", "first", "last", "time"))
         profile = first + (last - first) * time
-        self._constants, varying = phase.per_phase(self._everything)
+        self._constants, varying = phase.per_phase(self._changes)
         constants = ca.SX.sym("constants", self._constants.size1_out(0))
-        size = phase.state_size + len(self._integrals)
-        watched = varying(state, current, constants)[size:]
-        self._watched = ca.Function("watched", [state, current, constants], [watched])
+        self._watched = phase.watch_in_parts([*self._events, *(row.name for row in phase.paths)])
         self._of_stretch = self._watched.map(steps + 1)
         self._integrator = ca.integrator(
             phase.phase.name,
@@ -61,7 +67,7 @@ class PhaseSimulator:
                 "x": ca.vertcat(state, integrals),
                 "p": ca.vertcat(constants, length, first, last),
                 "t": time,
-                "ode": length * varying(state, profile, constants)[:size],
+                "ode": length * varying(state, profile, constants),
             },
             0.0,
             self._shares[1:],
@@ -75,10 +81,10 @@ class PhaseSimulator:
             },
         )
 
-    def _everything(self, state: Any, profile: Any, inputs: Any) -> Any:
-        """Rates of the state and of the integrals, then what is watched: events and paths."""
-        watched = [*self._integrals, *self._events, *(row.name for row in self.phase.paths)]
-        return ca.vertcat(self.phase.rates(state, profile, inputs), self.phase.watch(watched)(state, profile, inputs))
+    def _changes(self, state: Any, profile: Any, inputs: Any) -> Any:
+        """Rates of the state and of the integrals."""
+        at = (state, profile, inputs)
+        return ca.vertcat(self.phase.rates(*at), self.phase.watch(self._integrals)(*at))
 
     def run(
         self,
@@ -93,15 +99,15 @@ class PhaseSimulator:
         sought = [name for name in self._events if wanted is None or name in wanted or name == ends]
         found = _Found(dict.fromkeys(sought, np.inf))
         horizon = float(inputs[self.model.index["horizon"]])
-        begin, constants = self._begin(inputs, before)
+        begin, given = self._begin(inputs, before)
         time, length = 0.0, stretch
         pieces: list[tuple[Array, Array, Array]] = []
         while time < horizon and not all(np.isfinite(moment) for moment in found.times.values()):
             length = min(length, profile.next_corner(time) - time, horizon - time)
             currents = profile.at(time + length * self._shares)
-            states = self._stretch(begin, constants, length, currents)
-            watched = self._watch(states, constants, currents)
-            self._look(found, (time, length, currents), states, watched, constants)
+            states = self._stretch(begin, given, length, currents)
+            watched = self._watch(states, given, currents)
+            self._look(found, (time, length, currents), states, watched, given)
             pieces.append((time + length * self._shares, states, watched))
             begin, time = states[:, -1], time + length
             rate = np.asarray(self.phase.rates(begin[: self.phase.state_size], currents[-1], inputs)).ravel()
@@ -110,25 +116,25 @@ class PhaseSimulator:
                 break
             doubles = length >= FIRST_STRETCH or len(pieces) >= _EQUAL_STRETCHES
             length = 2.0 * length if doubles else stretch
-        return self._summary(found, pieces, constants, profile)
+        return self._summary(found, pieces, given, profile)
 
     def trace(self, inputs: Array, profile: CurrentProfile, before: Array | None, end: float) -> Trajectory:
         """Simulate one stretch of a constant current, whatever happens in it."""
         times = end * self._shares
-        begin, constants = self._begin(inputs, before)
+        begin, given = self._begin(inputs, before)
         currents = profile.at(times)
-        states = self._stretch(begin, constants, end, currents)
+        states = self._stretch(begin, given, end, currents)
         return Trajectory(times, states[: self.phase.state_size], currents)
 
-    def _begin(self, inputs: Array, before: Array | None) -> tuple[Array, Array]:
+    def _begin(self, inputs: Array, before: Array | None) -> tuple[Array, _Given]:
         """State at the start, integrals last, and what stays the same all through the phase."""
         start = self.phase.initial(inputs) if before is None else self.phase.begin(before, inputs)
         begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
-        return begin, np.asarray(self._constants(inputs)).ravel()
+        return begin, _Given(inputs, np.asarray(self._constants(inputs)).ravel())
 
-    def _stretch(self, begin: Array, constants: Array, length: float, currents: Array) -> Array:
+    def _stretch(self, begin: Array, given: _Given, length: float, currents: Array) -> Array:
         """States at equally spaced times from `begin` over `length` seconds; the current runs straight."""
-        parameters = np.append(constants, [length, currents[0], currents[-1]])
+        parameters = np.append(given.constants, [length, currents[0], currents[-1]])
         try:
             after = np.asarray(self._integrator(x0=begin, p=parameters)["xf"])
         except RuntimeError as error:
@@ -139,12 +145,12 @@ class PhaseSimulator:
             ) from error
         return np.column_stack([begin, after])
 
-    def _watch(self, stretch: Array, constants: Array, currents: Array) -> Array:
-        columns = np.repeat(constants[:, None], stretch.shape[1], axis=1)
+    def _watch(self, stretch: Array, given: _Given, currents: Array) -> Array:
+        columns = np.repeat(given.inputs[:, None], stretch.shape[1], axis=1)
         return np.asarray(self._of_stretch(stretch[: self.phase.state_size], currents[None, :], columns))
 
     def _look(
-        self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, constants: Array
+        self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, given: _Given
     ) -> None:
         """Note the events that happen within a stretch. Those that wait for the same thing are looked at once."""
         time = when[0]
@@ -153,14 +159,14 @@ class PhaseSimulator:
             if np.isfinite(found.times.get(name, 0.0)) or not np.any(watched[i] >= 0.0):
                 continue
             same = [known[1:] for known in seen if np.array_equal(known[0], watched[i])]
-            share, state = same[0] if same else self._crossing(stretch, constants, when, i, watched[i])
+            share, state = same[0] if same else self._crossing(stretch, given, when, i, watched[i])
             seen.append((watched[i], share, state))
             found.times[name] = time + share
             if name == self.phase.phase.ends:
                 found.end = state
 
     def _crossing(
-        self, stretch: Array, constants: Array, when: tuple[float, float, Array], event: int, gap: Array
+        self, stretch: Array, given: _Given, when: tuple[float, float, Array], event: int, gap: Array
     ) -> tuple[float, Array]:
         """Time within a stretch at which a gap passes zero, and the state there: looked at once more, then linear."""
         _, length, currents = when
@@ -169,10 +175,10 @@ class PhaseSimulator:
         first = int(np.argmax(gap >= 0.0))
         steps = len(self._shares) - 1
         within = np.linspace(currents[first - 1], currents[first], steps + 1)
-        close = self._stretch(stretch[:, first - 1], constants, length / steps, within)
+        close = self._stretch(stretch[:, first - 1], given, length / steps, within)
 
         def near(place: int) -> float:
-            return float(self._watched(close[: self.phase.state_size, place], within[place], constants)[event])
+            return float(self._watched(close[: self.phase.state_size, place], within[place], given.inputs)[event])
 
         # Looking at a sample costs as much as integrating up to it, so few are looked at: by halves.
         low, high = (0, near(0)), (steps, near(steps))
@@ -185,7 +191,7 @@ class PhaseSimulator:
         return float(share * length), close[:, low[0]] + part * (close[:, high[0]] - close[:, low[0]])
 
     def _summary(
-        self, found: _Found, pieces: list[tuple[Array, Array, Array]], constants: Array, profile: CurrentProfile
+        self, found: _Found, pieces: list[tuple[Array, Array, Array]], given: _Given, profile: CurrentProfile
     ) -> tuple[dict[str, float], Trajectory]:
         """Values of the phase's events and paths, and its trajectory up to the event that ends it."""
         # The last sample of a stretch is the first of the next.
@@ -196,14 +202,14 @@ class PhaseSimulator:
         if found.end is not None:
             end = found.times[self.phase.phase.ends]
             keep = times < end
-            now = self._watched(found.end[: self.phase.state_size], profile.at(np.array([end])), constants)
+            now = self._watched(found.end[: self.phase.state_size], profile.at(np.array([end])), given.inputs)
             times = np.append(times[keep], end)
             states = np.column_stack([states[:, keep], found.end])
             watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])
         size = self.phase.state_size
         integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
         values = dict.fromkeys(self._events, np.inf) | found.times
-        highest = self._highest(times, states, watched, constants, profile)
+        highest = self._highest(times, states, watched, given, profile)
         for row, sampled in zip(self.phase.paths, watched[len(self._events) :], strict=True):
             whole = sampled[-1] if row.reduce == "end" else integrals.get(row.name, highest.get(row.name, 0.0))
             # Of a phase that never ends there is a maximum; what it adds up to, or is at its end, there is not.
@@ -211,7 +217,7 @@ class PhaseSimulator:
         return values, Trajectory(times=times, states=states[:size], currents=profile.at(times))
 
     def _highest(
-        self, times: Array, states: Array, watched: Array, constants: Array, profile: CurrentProfile
+        self, times: Array, states: Array, watched: Array, given: _Given, profile: CurrentProfile
     ) -> dict[str, float]:
         """The maxima of the phase's paths; where one is at a sample between others, what lies around it is looked at
         once more: a cold side peaks within seconds of a current's reversal."""
@@ -224,16 +230,16 @@ class PhaseSimulator:
             found[row.name] = float(watched[i, place])
             if 0 < place < len(times) - 1:
                 if place not in near:
-                    both = [self._between(times, states, constants, profile, first) for first in (place - 1, place)]
+                    both = [self._between(times, states, given, profile, first) for first in (place - 1, place)]
                     near[place] = np.concatenate(both, axis=1)
                 found[row.name] = max(found[row.name], float(np.max(near[place][i])))
         return found
 
-    def _between(self, times: Array, states: Array, constants: Array, profile: CurrentProfile, first: int) -> Array:
+    def _between(self, times: Array, states: Array, given: _Given, profile: CurrentProfile, first: int) -> Array:
         """What is watched between a sample and the next."""
         length = times[first + 1] - times[first]
         currents = profile.at(times[first] + length * self._shares)
-        return self._watch(self._stretch(states[:, first], constants, length, currents), constants, currents)
+        return self._watch(self._stretch(states[:, first], given, length, currents), given, currents)
 
     @cached_property
     def _standing(self) -> tuple[Any, Any]:
@@ -244,10 +250,10 @@ class PhaseSimulator:
         through once for each of the unknowns, which takes 1.5 s to build where a layer softens beside lips.
         """
         size = self.phase.state_size
-        unknowns = ca.SX.sym("unknowns", size + 1)
-        inputs = ca.SX.sym("inputs", len(self.model.names))
+        unknowns = ca.MX.sym("unknowns", size + 1)
+        inputs = ca.MX.sym("inputs", len(self.model.names))
         state, profile = unknowns[:size], unknowns[size]
-        gap = self.phase.watch([self.phase.phase.ends])(state, profile, inputs)
+        gap = self.phase.watch_in_parts([self.phase.phase.ends])(state, profile, inputs)
         rates = self.phase.rates(state, profile, inputs)
         equations = ca.vertcat(rates, gap)
         slopes = ca.vertcat(ca.jacobian(rates, unknowns), ca.jacobian(gap, unknowns))

@@ -14,7 +14,8 @@ from tvimdesign.solve.nlp.transcription import ORDER, radau
 def on_finer_grid(unknowns: Array, coarse: Problem, fine: Problem, inputs: Array) -> Array:
     """The unknowns of `fine` where those of `coarse` are `unknowns`, at the inputs that they stand for.
 
-    States are what the collocation's polynomials are at the finer points. No current of the problems is free.
+    States are what the collocation's polynomials are at the finer points. Where a current is free, both problems have
+    the same elements.
     """
     parts = [unknowns[: len(coarse.free)]]
     left = iter(np.split(unknowns, np.cumsum([len(coarse.free), *(one.unknowns.numel() for one in coarse.blocks)])))
@@ -26,31 +27,33 @@ def on_finer_grid(unknowns: Array, coarse: Problem, fine: Problem, inputs: Array
         after, phase = block.phase.phase.after, block.phase
         begin = phase.initial(inputs) if after is None else phase.begin(ends[after], inputs)
         ends[phase.phase.name] = states[:, -1]
-        finer = at_points(np.column_stack([np.asarray(begin).ravel(), states]), other.states.shape[1] // ORDER)
+        every = np.column_stack([np.asarray(begin).ravel(), states])
+        finer = at_points(every, other.states.shape[1] // fine.order, coarse.order, fine.order)
         parts += [finer.ravel(order="F"), own[-1:]]
     return np.concatenate([*parts, next(left)])
 
 
-def at_points(every: Array, elements: int) -> Array:
-    """States at the points of so many equal elements, from those at the start and at the points of fewer."""
-    return np.column_stack([_at(place, every) for place in _points(elements)])
+def at_points(every: Array, elements: int, order: int = ORDER, finer: int = ORDER) -> Array:
+    """States at the points of so many equal elements of the order `finer`, from those at the start and at the points of
+    fewer, of another `order`."""
+    return np.column_stack([_at(place, every, order) for place in _points(elements, finer)])
 
 
-def _points(elements: int) -> Iterator[float]:
+def _points(elements: int, order: int) -> Iterator[float]:
     """The collocation points over a whole time of one."""
     for element in range(elements):
-        yield from (element + radau()[0]) / elements
+        yield from (element + radau(order)[0]) / elements
 
 
-def _at(place: float, every: Array) -> Array:
+def _at(place: float, every: Array, order: int) -> Array:
     """The states at a share of the time, by the polynomial of the element that it lies in."""
-    count = (every.shape[1] - 1) // ORDER
+    count = (every.shape[1] - 1) // order
     element = min(int(place * count), count - 1)
-    nodes = np.append(0.0, radau()[0])
+    nodes = np.append(0.0, radau(order)[0])
     shape = np.array([
         np.prod([(place * count - element - other) / (node - other) for other in nodes if other != node])
         for node in nodes
     ])  # fmt: skip
-    first = element * ORDER
-    value: Array = every[:, first : first + ORDER + 1] @ shape
+    first = element * order
+    value: Array = every[:, first : first + order + 1] @ shape
     return value

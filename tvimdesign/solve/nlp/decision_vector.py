@@ -39,8 +39,8 @@ class DecisionVector:
             end = cycle.values[block.event]
             end = end if np.isfinite(end) else trajectory.times[-1]
             name = block.phase.phase.name
-            points = guess(trajectory, self.problem.elements(name), ramps.get(name, (0, 0.0))).ravel(order="F")
-            parts += [points, np.array([np.log(max(end, 1e-3))])]
+            grid = (self.problem.elements(name), ramps.get(name, (0, 0.0)), self.problem.order)
+            parts += [guess(trajectory, *grid).ravel(order="F"), np.array([np.log(max(end, 1e-3))])]
         parts += [np.full(current.nodes, sizes[current.phase] / current.upper) for current in currents]
         for balance in self.problem.balances:
             begin = cycle.balances.get(balance.phase)

@@ -24,7 +24,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
-from tvimdesign.solve.nlp.transcription import Block, at_each, phase_block
+from tvimdesign.solve.nlp.transcription import ORDER, Block, at_each, phase_block
 
 Array = NDArray[np.float64]
 
@@ -105,19 +105,20 @@ class Problem:
         objectives: Sequence[str] = (),
         back_offs: Callable[[Any], dict[str, Any]] | None = None,
         mixtures: Sequence[Mixture] = (),
+        order: int = ORDER,
     ) -> None:
-        """Write objective and constraints. `minimize` names the outputs whose weighted sum is least.
+        """Write objective and constraints on so many `elements` of time of an `order`.
 
-        Those that are `traded` get a row each that bounds a sum of them, with factors that are parameters.
-        `reserves` gives, for the device's inputs, what is added to the residuals of some limits, by name. The shares of
-        records in a mixture are free numbers that add up to one.
+        `minimize` names the outputs whose weighted sum is least. Those that are `traded` get a row each that bounds a
+        sum of them, with factors that are parameters. `reserves` gives, for the device's inputs, what is added to the
+        residuals of some limits, by name. The shares of records in a mixture are free numbers that add up to one.
         """
         self.model = model
         self.free = tuple(free)
         self.limits = tuple(limits)
         self.objectives = tuple(objectives)
         self.minimize = tuple(dict.fromkeys([*minimize, *objectives]))
-        self._elements = elements
+        self._elements, self.order = elements, order
         self.free_currents = tuple(currents)
         self._reserves = back_offs
         self.mixtures = tuple(mixtures)
@@ -254,7 +255,7 @@ class Problem:
                 start = phase.begin(blocks[self.model.phases[after].phase.ends].states[:, -1], inputs)
             nodes = self.currents_at_nodes(row.phase, inputs)
             ramp = self._ramp(row.phase, inputs)
-            blocks[event] = phase_block(phase, event, self.elements(row.phase), inputs, start, nodes, ramp)
+            blocks[event] = phase_block(phase, event, self.elements(row.phase), inputs, start, nodes, ramp, self.order)
         return list(blocks.values())
 
     def _ramp(self, phase: str, inputs: Any) -> tuple[int, Any]:

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 MANY = 12
@@ -97,12 +99,12 @@ class Opened:
 def opened(function: Any, arguments: Sequence[Sequence[Any]], moving: Sequence[Sequence[int]]) -> Opened:
     """A function with one result at some `arguments`, entry by entry, of which the rows `moving` move.
 
-    The first argument is the state, whose entries are alike: sums of many of them get symbols. A function of few
-    entries of it is left as it is, and so is one of MX.
+    The first argument is the state, whose entries are alike: sums of many of them get symbols. A function of which no
+    result hangs on many entries of it is left as it is, and so is one of MX.
     """
     columns = list(zip(arguments, moving, strict=True))
     moved = ca.vertcat(*(column[row] for column, rows in columns for row in rows))
-    if len(moving[0]) < 2 * MANY or not function.is_a("SXFunction"):
+    if not (function.is_a("SXFunction") and _many_of(function, moving[0])):
         value = function.call([ca.vertcat(*column) for column in arguments], True, False)[0]
         return Opened(moved, value, type(value)(0, 1), type(value)(0, 1))
     operations = _Operations(function, moving)
@@ -129,6 +131,15 @@ def opened(function: Any, arguments: Sequence[Sequence[Any]], moving: Sequence[S
         values[after[0]] = found
     value = ca.SX(function.sparsity_out(0), ca.vertcat(*results))
     return Opened(moved, value, ca.vertcat(*terms), ca.vertcat(*definitions))
+
+
+def _many_of(function: Any, moving: Sequence[int]) -> bool:
+    """Whether a result depends on many of the first argument's entries that move."""
+    if len(moving) < 2 * MANY:
+        return False
+    pattern = function.jac_sparsity(0, 0)
+    entries = np.isin(pattern.get_triplet()[1], moving)
+    return bool(np.bincount(np.array(pattern.row(), dtype=np.int64)[entries]).max(initial=0) >= MANY)
 
 
 class _Operations:

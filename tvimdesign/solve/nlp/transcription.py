@@ -1,8 +1,9 @@
 """One phase as equations: direct collocation of the heat equation over an unknown final time.
 
-Five Radau points on each of a few equal elements over an unknown time; the last point of an element is the start of the
-next, so the states need no continuity equations. States have no bounds. The current is straight between evenly spaced
-nodes; a ramp to the first of them, as long as the supply's slew makes it, has elements of its own before the others.
+Radau points on each of a few equal elements over an unknown time, five unless asked for otherwise; the last point of an
+element is the start of the next, so the states need no continuity equations. States have no bounds. The current is
+straight between evenly spaced nodes; a ramp to the first of them, as long as the supply's slew makes it, has elements
+of its own before the others.
 Source: Biegler, Nonlinear Programming (2010), ch. 10.
 """
 
@@ -25,9 +26,9 @@ Array = NDArray[np.float64]
 
 
 @cache
-def radau() -> tuple[Array, Array, Array]:
+def radau(order: int = ORDER) -> tuple[Array, Array, Array]:
     """Collocation points on (0, 1], derivative matrix [start and points, points], quadrature weights."""
-    points = ca.collocation_points(ORDER, "radau")
+    points = ca.collocation_points(order, "radau")
     derivative, _, weights = ca.collocation_coeff(points)
     return np.array(points), np.asarray(derivative), np.asarray(weights).ravel()
 
@@ -69,26 +70,26 @@ class Block:
         return ca.vertcat(ca.vec(self.states), self.log_time)
 
 
-def moments(elements: int, duration: float, ramp: tuple[int, float] = (0, 0.0)) -> Array:
+def moments(elements: int, duration: float, ramp: tuple[int, float] = (0, 0.0), order: int = ORDER) -> Array:
     """The collocation points [s] of equal elements over a duration, after those of a ramp: its elements and seconds."""
     count, before = ramp
-    rising = _evenly(count) * before if count else np.zeros(0)
-    return np.concatenate([rising, before + _evenly(elements) * duration])
+    rising = _evenly(count, order) * before if count else np.zeros(0)
+    return np.concatenate([rising, before + _evenly(elements, order) * duration])
 
 
-def _evenly(elements: int) -> Array:
+def _evenly(elements: int, order: int) -> Array:
     """The points of equal elements as fractions of their time."""
-    return np.concatenate([(element + radau()[0]) / elements for element in range(elements)])
+    return np.concatenate([(element + radau(order)[0]) / elements for element in range(elements)])
 
 
-def between_nodes(elements: int, nodes: int, ramp_elements: int) -> Array:
+def between_nodes(elements: int, nodes: int, ramp_elements: int, order: int = ORDER) -> Array:
     """Matrix that takes currents at evenly spaced nodes to the start and every collocation point [nodes, points].
 
     With a ramp, the start is at zero current and the ramp's elements lead to the first node.
     """
     places = np.linspace(0.0, 1.0, nodes)
-    found = np.array([np.interp(_evenly(elements), places, row) for row in np.eye(nodes)])
-    rising = np.append(0.0, _evenly(ramp_elements)) if ramp_elements else np.ones(1)
+    found = np.array([np.interp(_evenly(elements, order), places, row) for row in np.eye(nodes)])
+    rising = np.append(0.0, _evenly(ramp_elements, order)) if ramp_elements else np.ones(1)
     return np.hstack([np.eye(nodes)[:, :1] * rising, found])
 
 
@@ -100,22 +101,23 @@ def phase_block(
     start: Any,
     nodes: Any,
     ramp: tuple[int, Any] = (0, 0.0),
+    order: int = ORDER,
 ) -> Block:
     """Write the equations of a phase for symbolic inputs, starting state and currents at the nodes (MX).
 
     A current that is not there from the start rises from zero to its first node over a `ramp`: elements and seconds.
     """
-    weights = radau()[2]
+    weights = radau(order)[2]
     log_time = ca.MX.sym(f"log_time_{event}")
     ramp_elements, ramp_time = ramp
     lengths = [ramp_time / ramp_elements] * ramp_elements if ramp_elements else []
     lengths += [ca.exp(log_time) / elements] * elements
-    states = ca.MX.sym(f"states_{event}", phase.state_size, len(lengths) * ORDER)
-    currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel(), ramp_elements))
+    states = ca.MX.sym(f"states_{event}", phase.state_size, len(lengths) * order)
+    currents = ca.mtimes(nodes.T, between_nodes(elements, nodes.numel(), ramp_elements, order))
     every = ca.horzcat(start, states)
-    slopes = ca.mtimes(every, _differences(len(lengths)))
+    slopes = ca.mtimes(every, _differences(len(lengths), order))
     rates = at_each(phase, phase.rates, states, currents[:, 1:], inputs)
-    steps = ca.horzcat(*(ca.repmat(length, 1, ORDER) for length in lengths))
+    steps = ca.horzcat(*(ca.repmat(length, 1, order) for length in lengths))
     gap = phase.watch_in_parts([event])(states[:, -1], currents[:, -1], inputs)
     return Block(
         event=event,
@@ -130,12 +132,12 @@ def phase_block(
     )
 
 
-def _differences(elements: int) -> Any:
+def _differences(elements: int, order: int) -> Any:
     """Matrix that takes the start and every point to derivatives at every point over an element's length (DM)."""
-    _, derivative, _ = radau()
-    blocks = ca.DM(elements * ORDER + 1, elements * ORDER)
-    for first in range(0, elements * ORDER, ORDER):
-        blocks[first : first + ORDER + 1, first : first + ORDER] = derivative
+    _, derivative, _ = radau(order)
+    blocks = ca.DM(elements * order + 1, elements * order)
+    for first in range(0, elements * order, order):
+        blocks[first : first + order + 1, first : first + order] = derivative
     return blocks
 
 
@@ -146,7 +148,7 @@ def at_each(phase: PhaseFunctions, function: Any, states: Any, currents: Any, in
     return varying.map(count)(states, currents, ca.repmat(constants(inputs), 1, count))
 
 
-def guess(trajectory: Trajectory, elements: int, ramp: tuple[int, float] = (0, 0.0)) -> Array:
+def guess(trajectory: Trajectory, elements: int, ramp: tuple[int, float] = (0, 0.0), order: int = ORDER) -> Array:
     """Values for a block's states from a simulated trajectory, one column a point, with the ramp drawn in."""
-    times = moments(elements, trajectory.times[-1], ramp)
+    times = moments(elements, trajectory.times[-1], ramp, order)
     return trajectory.at(times / (times[-1] or 1.0))

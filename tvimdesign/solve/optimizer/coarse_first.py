@@ -1,4 +1,4 @@
-"""Searches of a problem with as few elements of time as it can have, whose optima lead to those of the problem itself.
+"""Searches of a problem with as few points of time as it can have, whose optima lead to those of the problem itself.
 
 An iteration of the coarse problem takes a third to six tenths of the time, and most iterations are for where to begin.
 """
@@ -12,21 +12,25 @@ from tvimdesign.solve.nlp.coarse_to_fine import on_finer_grid
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import Start, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.nlp.transcription import ORDER
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 
 FEWEST = 1
 """Elements of a phase; a freezing one has more (`Problem.elements`)."""
+LOWEST = 2
+"""Points of an element where currents are free, and each of their pieces is an element."""
 
 
 def coarse_of(optimizer: Optimizer) -> Optimizer | None:
-    """The coarse problem; None where it would have more than half of the elements, or other unknowns than states."""
+    """The coarse problem; None where it would have more than half of the points, or other unknowns than states."""
     problem = optimizer.problem
     phases = [block.phase.phase.name for block in problem.blocks]
+    order = LOWEST if optimizer.currents else ORDER
     few, every = (sum(problem.elements(name, asked) for name in phases) for asked in (FEWEST, None))
-    if optimizer.currents or problem.balances or 2 * few > every:
+    if problem.balances or 2 * few * order > every * ORDER:
         return None
-    return optimizer.with_elements(FEWEST)
+    return optimizer.on_grid(FEWEST, order)
 
 
 def first_optimum(grids: Sequence[Optimizer], solve: Callable[[Optimizer], Run]) -> tuple[Run, Optimizer]:

@@ -29,6 +29,7 @@ from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Problem
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, Run, Trace
+from tvimdesign.solve.nlp.transcription import ORDER
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
@@ -86,8 +87,8 @@ class Optimizer:
         """Seconds after which a run of each solver ends."""
         self.points: Known = {}
         """What is known of the derivatives of the functions that problems of this device call."""
-        self._grids: dict[int, Optimizer] = {}
-        """This problem with other counts of elements, once they are built."""
+        self._grids: dict[tuple[int, int], Optimizer] = {}
+        """This problem with other counts and orders of elements, once they are built."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def _device(self) -> DeviceFunctions:
@@ -142,21 +143,22 @@ class Optimizer:
         other._begin()
         return other
 
-    def with_elements(self, elements: int) -> Optimizer:
-        """The same problem with so many elements of time, built once for all that differ in their records alone."""
-        if elements not in self._grids:
+    def on_grid(self, elements: int, order: int) -> Optimizer:
+        """The same problem with so many elements of time of an order, built once for all that differ in their records
+        alone."""
+        if (elements, order) not in self._grids:
             first = copy(self)
             first.__dict__.pop("_compiled", None)
-            first.problem = self._problem(list(self.problem.limits), self.problem.objectives, elements)
+            first.problem = self._problem(list(self.problem.limits), self.problem.objectives, elements, order)
             first._solvers, first._limits = {}, {}
-            self._grids[elements] = first
-        other = copy(self._grids[elements])
+            self._grids[elements, order] = first
+        other = copy(self._grids[elements, order])
         other.study, other.model, other.multistart = self.study, self.model, self.multistart
         other.seconds, other.start_values, other.margins = self.seconds, self.start_values, self.margins
         other.vector = DecisionVector(other.problem, self.model)
         return other
 
-    def _problem(self, kept: list[Constraint], objectives: Sequence[str], elements: int) -> Problem:
+    def _problem(self, kept: list[Constraint], objectives: Sequence[str], elements: int, order: int = ORDER) -> Problem:
         back_offs = None
         if self.study.robust and self.study.robust.sigma is not None:
             from tvimdesign.solve.nlp.back_off import back_offs_of
@@ -164,7 +166,7 @@ class Optimizer:
             back_offs = back_offs_of(self.model, self.study, kept)
         return Problem(
             self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents, objectives, back_offs,
-            self.mixtures,
+            self.mixtures, order,
         )  # fmt: skip
 
     def kept_constraints(self, limits: list[Constraint]) -> list[Constraint]:
