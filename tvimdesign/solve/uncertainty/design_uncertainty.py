@@ -68,7 +68,8 @@ class UncertaintyModel:
         moving = dict.fromkeys([*study.tolerances, *free, *counting])
         self.names = [name for name in moving if isinstance(resolved.values.get(name), int | float)]
         self._early = _phases_of(table, limited)
-        self._model = BatchModel(resolved, self.names, self.outputs) if self.outputs and self.names else None
+        drawn = bool(self.outputs and self.names)
+        self._model = BatchModel(resolved, self.names, self.outputs, self._early) if drawn else None
         self._pace: Pace | None = None
 
     def fits(self, resolved: ResolvedModule) -> bool:
