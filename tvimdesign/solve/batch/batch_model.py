@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,7 @@ class BatchModel:
     def __init__(
         self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str], often: Collection[str] = ()
     ) -> None:
-        """Simulate the module as drawn, which sets the pace, and compile. All inputs but the `moving` are constants.
+        """Compile. All inputs but the `moving` are constants.
 
         Phases that are gone through `often`, by name, are compiled to run as fast as can be.
         """
@@ -38,7 +39,11 @@ class BatchModel:
         places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
         self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
         self._simulator = Simulator(model)
-        self._pace = self.pace_at(model.start)
+
+    @cached_property
+    def _pace(self) -> Pace | None:
+        """That of the module as drawn, for who gives none."""
+        return self.pace_at(self._simulator.model.start)
 
     def pace_at(self, inputs: Array) -> Pace | None:
         """How the design with these inputs goes through its cycle; None where nothing hangs on that."""
