@@ -179,7 +179,7 @@ def _common(first: cq.Solid, *others: cq.Solid) -> tuple[float, Place | None]:
         tools.Append(other.wrapped)
     operation.SetArguments(arguments)
     operation.SetTools(tools)
-    operation.SetCheckInverted(aFlag=False)  # none is: that volumes are the model's is a check of its own
+    operation.SetCheckInverted(theCheck=False)  # none is: that volumes are the model's is a check of its own
     operation.Build()
     if not operation.IsDone():
         return nan, None
