@@ -22,7 +22,7 @@ _DIGEST = hashlib.sha256().digest_size
 
 
 def find_code(*compiled: str) -> bytes | None:
-    """What was kept of a text and its compiler, or what else it was made from; None where there is none that is whole."""
+    """What was kept of a text and its compiler, or what else it is of; None where there is none that is whole."""
     folder = kept_folder(_KIND)
     if folder is None:
         return None
