@@ -26,7 +26,7 @@ def png_bytes(points: NDArray[np.uint8], resolution: float | None = None) -> byt
     if resolution is not None:
         dots = round(resolution * _METRE)
         parts.append((b"pHYs", struct.pack(">IIB", dots, dots, 1)))
-    parts += [(b"IDAT", zlib.compress(lines, _COMPRESSION)), (b"IEND", b"")]
+    parts += [(b"IDAT", zlib.compress(lines.data, _COMPRESSION)), (b"IEND", b"")]
     return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(name, data) for name, data in parts)
 
 

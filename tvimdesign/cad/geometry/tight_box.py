@@ -49,4 +49,4 @@ def _is_saddle(face: cq.Face) -> bool:
         return False
     surface = BRepAdaptor_Surface(face.wrapped)
     ring = surface.Torus().MajorRadius() > surface.Torus().MinorRadius()
-    return ring and 0.5 * pi <= surface.FirstVParameter() <= surface.LastVParameter() <= 1.5 * pi
+    return bool(ring and 0.5 * pi <= surface.FirstVParameter() <= surface.LastVParameter() <= 1.5 * pi)

@@ -111,7 +111,7 @@ def load_without_help() -> None:
     """Load matplotlib without the tables of properties that it writes into its help: a quarter of the time."""
     from matplotlib import artist
 
-    artist.kwdoc = lambda _artist: ""
+    artist.kwdoc = lambda artist: ""  # noqa: ARG005 - matplotlib's own signature
 
 
 def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
