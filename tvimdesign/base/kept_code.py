@@ -1,4 +1,4 @@
-"""Machine code kept from one run to the next, by what it was compiled from.
+"""Machine code, and the like that takes long to make, kept from one run to the next by what it was made from.
 
 A file is named by the hash of what was compiled and by whom; it begins with the hash of the code behind it, so that a
 file that does not read back whole is none.
@@ -22,7 +22,7 @@ _DIGEST = hashlib.sha256().digest_size
 
 
 def find_code(*compiled: str) -> bytes | None:
-    """The machine code that was kept of a text and its compiler; None where there is none that is whole."""
+    """What was kept of a text and its compiler, or what else it is of; None where there is none that is whole."""
     folder = kept_folder(_KIND)
     if folder is None:
         return None
@@ -39,7 +39,7 @@ def find_code(*compiled: str) -> bytes | None:
 
 
 def keep_code(code: bytes, *compiled: str) -> None:
-    """Keep machine code for the next run, where there is a place for it; nothing is lost where there is none."""
+    """Keep what was made for the next run, where there is a place for it; nothing is lost where there is none."""
     folder = kept_folder(_KIND)
     if folder is None:
         return

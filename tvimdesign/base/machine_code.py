@@ -12,11 +12,14 @@ import llvmlite.binding as llvm
 
 from tvimdesign.base.kept_code import find_code, keep_code
 
+_MOST = 1
+"""How hard the compiler tries at most: with more nothing runs faster."""
+
 
 class _Effort:
-    """How hard the compiler tries, in this process."""
+    """How hard the compiler tries in this process, but for what runs often."""
 
-    level = 1
+    level = _MOST
 
 
 def compile_quickly() -> None:
@@ -59,10 +62,14 @@ class Lines:
 class MachineCode:
     """A compiled module; its machine code lives as long as this object."""
 
-    def __init__(self, text: str) -> None:
-        """Compile the text of a module, or take what an earlier run has kept of it."""
-        machine = _machine()
-        compiler = (f"llvmlite {llvmlite.__version__}", _processor(), f"effort {_Effort.level}")
+    def __init__(self, text: str, often: bool = False) -> None:
+        """Compile the text of a module, or take what an earlier run has kept of it.
+
+        What runs `often` is compiled as well as can be, also in a process that compiles quickly.
+        """
+        effort = _MOST if often else _Effort.level
+        machine = _machine(effort)
+        compiler = (f"llvmlite {llvmlite.__version__}", _processor(), f"effort {effort}")
         code = find_code(text, *compiler)
         if code is None:
             code = _compiled(text, machine)
@@ -85,12 +92,12 @@ def _compiled(text: str, machine: Any) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def _machine() -> Any:
+def _machine(effort: int) -> Any:
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     target = llvm.Target.from_default_triple()
     return target.create_target_machine(
-        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=_Effort.level, jit=True
+        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=effort, jit=True
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -36,9 +36,13 @@ class SolidCheck:
         """What to make of it."""
         return "failure" if not self.ok else "warning" if self.warned else "pass"
 
+    def fields(self) -> dict[str, Any]:
+        """What it is made of again."""
+        return dict(vars(self))
+
     def plain(self) -> dict[str, Any]:
         """All of it, for a JSON file."""
-        return asdict(self) | {"level": self.level, "basis": "sampled" if self.resolution else "exact"}
+        return self.fields() | {"level": self.level, "basis": "sampled" if self.resolution else "exact"}
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ import typer
 from tvimdesign.base import interrupts
 from tvimdesign.base.errors import FolderWarning, InputError, OutputError, RenamedWarning, TvimError
 from tvimdesign.base.interrupts import heeding_interrupts, ignore_interrupts, raise_pending
+from tvimdesign.base.one_thread import ask_for_one_thread
 from tvimdesign.cli.commands import app
 from tvimdesign.cli.output_streams import drop_what_cannot_be_written, flush_output, speak_plainly
 
@@ -24,6 +25,7 @@ def main() -> None:
     """Run the command line; every error is a message and an exit code, never a traceback."""
     warnings.showwarning = _show_warning
     speak_plainly()
+    ask_for_one_thread()  # before numpy is loaded, here and in the processes that a command starts
     gc.set_threshold(200_000, 20, 20)  # a command makes many objects and keeps most: looking for garbage costs 5 %
     atexit.register(ignore_interrupts)
     with heeding_interrupts():

@@ -9,7 +9,6 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-import yaml
 from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table as Grid
@@ -17,6 +16,7 @@ from rich.text import Text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.progress import wide_console
@@ -82,7 +82,7 @@ def _text(row: Quantity) -> str:
 def _words() -> dict[str, tuple[str, ...]]:
     """What people look for, with what the table says instead."""
     text = files("tvimdesign.report").joinpath("row_words.yaml").read_text(encoding="utf-8")
-    return {word: tuple(terms) for word, terms in yaml.safe_load(text).items()}
+    return {word: tuple(terms) for word, terms in plain_data(text).items()}
 
 
 def _print_groups(rows: Sequence[Quantity], mode: str, console: Console) -> None:

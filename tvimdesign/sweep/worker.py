@@ -18,9 +18,7 @@ from typing import Any
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
-
-ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Libraries start no threads of their own: there is a process for each core."""
+from tvimdesign.base.one_thread import NAMES
 
 
 def packed(job: Any, folder: Path) -> str:
@@ -32,7 +30,7 @@ def main() -> int:
     """Answer cells until there are no more."""
     follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
-    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
+    os.environ.update(dict.fromkeys(NAMES, "1"))  # there is a process for each core
     from tvimdesign.sweep.chunks import ChunkAnswers
     from tvimdesign.sweep.shards import ShardWriter
 

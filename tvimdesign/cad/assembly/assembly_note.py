@@ -8,8 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import yaml
-
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly_figures import Figures
 from tvimdesign.cad.assembly.bill_of_materials import Item
@@ -126,7 +125,7 @@ def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
 @cache
 def told() -> list[dict[str, Any]]:
     """All steps of the data file."""
-    written: list[dict[str, Any]] = yaml.safe_load(_STEPS.read_text("utf-8"))
+    written: list[dict[str, Any]] = plain_data(_STEPS.read_text("utf-8"))
     return written
 
 

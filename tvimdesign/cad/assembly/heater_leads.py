@@ -7,11 +7,10 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-import yaml
-
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device.core.heat.heater_fuse import heater_fuse
 from tvimdesign.study.design import Design
 
@@ -128,7 +127,7 @@ class Thermistor(NamedTuple):
 def thermistors() -> tuple[Thermistor, ...]:
     """The thermistors of the data file, the first choice first."""
     found = []
-    for one in yaml.safe_load(_THERMISTORS.read_text("utf-8"))["thermistors"]:
+    for one in plain_data(_THERMISTORS.read_text("utf-8"))["thermistors"]:
         sizes = [parse_quantity(one[name], "m") for name in ("diameter", "length") if name in one]
         most = parse_quantity(one["temperature"], "degC")
         bead = Bead(*sizes) if sizes else None
@@ -167,7 +166,7 @@ class Wire(NamedTuple):
 @cache
 def wires() -> tuple[Wire, ...]:
     """The sizes of the data file, the thinnest first."""
-    listed = yaml.safe_load(_WIRES.read_text("utf-8"))["wires"]
+    listed = plain_data(_WIRES.read_text("utf-8"))["wires"]
     return tuple(
         Wire(one["gauge"], parse_quantity(one["section"], "m^2"), parse_quantity(one["current"], "A")) for one in listed
     )
@@ -176,4 +175,4 @@ def wires() -> tuple[Wire, ...]:
 @cache
 def _source() -> str:
     """Where the ratings are from, in words."""
-    return str(yaml.safe_load(_WIRES.read_text("utf-8"))["source"])
+    return str(plain_data(_WIRES.read_text("utf-8"))["source"])

@@ -31,6 +31,7 @@ from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, is_of_structure, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION, Production
 from tvimdesign.cad.geometry.spring_solids import free_coil
+from tvimdesign.cad.geometry.tight_box import tight_box
 from tvimdesign.cad.inspection.casting import casting_checks
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
@@ -144,7 +145,7 @@ def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
     off = max(off, abs(found.area / reported.area - 1.0))
     beside = dist(found.centroid, reported.centroid)
     if beside > off:  # else it is less than that over any size; the tightest box takes as long as all else here
-        off = max(off, beside / max(solid.BoundingBox().DiagonalLength, 1.0))
+        off = max(off, beside / max(tight_box(solid).DiagonalLength, 1.0))
     text = f"{what.name}: volume, area and centroid read back from STEP as the file says they are"
     return [SolidCheck(file_names.step(what.name), off, _READ_BACK, off <= _READ_BACK, text)]
 

@@ -15,7 +15,7 @@ import shutil
 import tempfile
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -84,7 +84,7 @@ class Cache:
             "reads": reads,
             "needs": {need: result.digest for need, result in needs.items()},
             "files": files,
-            "checks": [asdict(check) for check in checks],
+            "checks": [check.fields() for check in checks],
         }
         text = json.dumps(trace, sort_keys=True)
         (made / _TRACE).write_text(text, encoding="utf-8")

@@ -15,7 +15,6 @@ import tempfile
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
@@ -73,7 +72,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
         without = [f"without it there is no {', '.join(done.lost)}"] if done.lost else []
         kept = f"the other {len(files)} files are in {out}" if files else "no parts were made"
         raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
-    checks = [asdict(check) for result in done.results.values() for check in result.checks]
+    checks = [check.fields() for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []
     notes += [f"what was kept of {name} is damaged: it is made anew" for name in store.damaged]
     notes += _not_kept()

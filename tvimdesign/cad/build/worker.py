@@ -15,7 +15,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from enum import IntEnum
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
@@ -273,7 +273,7 @@ def _done(
     try:
         design, dims, titles, reads = subject.watched(work.named)
         checks = work.do(Job(design, dims, titles, needs, folder, progress))
-        return {"checks": [asdict(check) for check in checks], "reads": reads}
+        return {"checks": [check.fields() for check in checks], "reads": reads}
     except TvimError as error:
         return {"error": str(error) if str(error).startswith(work.name) else f"{work.name}: {error}"}
     except Exception as error:  # the kernel raises a dozen classes, and none of them names the part

@@ -9,8 +9,7 @@ from math import degrees, floor, hypot
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad.drawing.iso_286 import Limits, limit_deviations, standard_tolerance
 from tvimdesign.cad.drawing.iso_1101 import Frame
 from tvimdesign.cad.drawing.number_text import figure
@@ -262,5 +261,5 @@ def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> T
 @cache
 def told() -> dict[str, Any]:
     """What the data file says of the parts' drawings."""
-    reported: dict[str, Any] = yaml.safe_load(_DATA.read_text(encoding="utf-8"))
+    reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
     return reported

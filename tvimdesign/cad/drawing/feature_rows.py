@@ -15,6 +15,7 @@ from tvimdesign.cad.drawing.iso_1101 import Frame
 from tvimdesign.cad.drawing.number_text import around, figure
 from tvimdesign.cad.drawing.sectors import CORNER, Sector, sectors
 from tvimdesign.cad.geometry.features import Cylinder, upright_cylinders
+from tvimdesign.cad.geometry.tight_box import tight_box
 from tvimdesign.cad.geometry.upright_walls import Pair, Wall, pairs, upright_walls
 
 Point = tuple[float, float]
@@ -63,7 +64,7 @@ class FeatureRow:
 
 def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow]:
     """Rows for all upright faces but the round ones about the axis without a thread: the section has these."""
-    box = solid.BoundingBox()
+    box = tight_box(solid)
     cylinders, walls = upright_cylinders(solid), upright_walls(solid)
     bounded, arcs, ends = sectors(cylinders, walls)
     beside, alone = pairs(ends)

@@ -9,9 +9,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import yaml
-
 from tvimdesign.base.errors import GeometryError
+from tvimdesign.base.yaml_data import plain_data
 
 _DATA = Path(__file__).with_name("iso_286.yaml")
 _MICRON = 1e-3
@@ -66,5 +65,5 @@ def _at(row: Sequence[int], size: float) -> int:
 @cache
 def told() -> dict[str, Any]:
     """What the data file has of ISO 286."""
-    reported: dict[str, Any] = yaml.safe_load(_DATA.read_text(encoding="utf-8"))
+    reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
     return reported

@@ -17,6 +17,8 @@ from OCP.HLRAlgo import HLRAlgo_Projector
 from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape
 from OCP.TopoDS import TopoDS_Shape
 
+from tvimdesign.cad.geometry.tight_box import tight_box
+
 Array = NDArray[np.float64]
 Point = tuple[float, float]
 _CHORD = 0.01
@@ -99,7 +101,7 @@ def half_section(solid: cq.Solid, azimuth: float) -> View:
 @lru_cache(maxsize=1)
 def _room(solid: cq.Solid) -> float:
     """The side of a cube about the origin that holds the solid with room to spare."""
-    box = solid.BoundingBox()
+    box = tight_box(solid)
     return float(2.0 * (box.DiagonalLength + box.center.Length))
 
 

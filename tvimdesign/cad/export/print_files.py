@@ -20,6 +20,7 @@ from tvimdesign.cad.export.mesh import Array, Mesh, face_meshes
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.production import Production
+from tvimdesign.cad.geometry.tight_box import tight_box
 
 _DIGITS = (6, 5, 7)
 """Decimals of a millimetre to which a mesh's vertices are merged. A coordinate can lie where one rounding splits it
@@ -54,7 +55,7 @@ def as_printed(
         ]  # fmt: skip
         wider = _one_solid(solid.cut(*tools)) if tools else solid
     lying = wider.rotate(cq.Vector(), cq.Vector(1, 0, 0), 180.0) if making.down == "top" else wider
-    return _one_solid(lying.translate(cq.Vector(0, 0, -lying.BoundingBox().zmin)), moved=True)
+    return _one_solid(lying.translate(cq.Vector(0, 0, -tight_box(lying).zmin)), moved=True)
 
 
 def _one_solid(shape: cq.Shape, *, moved: bool = False) -> cq.Solid:

@@ -22,6 +22,7 @@ from tvimdesign.cad.export.mesh import Mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, is_of_structure, kind_of
 from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.cad.geometry.tight_box import tight_box
 from tvimdesign.cad.inspection.apart import PlacedBodies
 from tvimdesign.device.core.springs.leg_on_pin import pin_distance
 from tvimdesign.study.design import Design
@@ -109,7 +110,7 @@ def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Soli
 
 def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Diameter and height of the whole module at rest against the quantities, to rounding."""
-    boxes = [solid.BoundingBox() for solid in placed.values()]
+    boxes = [tight_box(solid) for solid in placed.values()]
     height = max(box.zmax for box in boxes) - min(box.zmin for box in boxes)
     width = max(box.ymax for box in boxes) - min(box.ymin for box in boxes)
     yield _against("envelope_height", height, dims.envelope_height, ENVELOPE_TOLERANCE)
@@ -135,7 +136,7 @@ def interference_checks(
 
     Of pairs that are surely `apart` it is nothing, and is not computed.
     """
-    boxes = {name: solid.BoundingBox() for name, solid in placed.items()}
+    boxes = {name: tight_box(solid) for name, solid in placed.items()}
     pairs = [pair for pair in combinations(placed, 2) if wanted(*pair)]
     near = [pair for pair in pairs if _overlap(*(boxes[name] for name in pair))]
     shared = _shared(placed, [pair for pair in near if not apart(*pair)])
@@ -178,6 +179,7 @@ def _common(first: cq.Solid, *others: cq.Solid) -> tuple[float, Place | None]:
         tools.Append(other.wrapped)
     operation.SetArguments(arguments)
     operation.SetTools(tools)
+    operation.SetCheckInverted(theCheck=False)  # none is: that volumes are the model's is a check of its own
     operation.Build()
     if not operation.IsDone():
         return nan, None

@@ -15,6 +15,7 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.production import Production
 from tvimdesign.cad.geometry.solids import cylinder, join
+from tvimdesign.cad.geometry.tight_box import tight_box
 
 LAND = 2.0
 """Width of the dam around the part [mm]; assumed, 1 to 4: the lid lies on it, and what runs over it breaks off."""
@@ -54,7 +55,7 @@ def mould(dims: Dimensions, part: cq.Solid) -> cq.Shape:
 def lid(dims: Dimensions, part: cq.Solid) -> cq.Shape:
     """Upper piece: a plate with pockets for the part's keys, and holes that slip over the pins."""
     _, top = levels(dims)
-    upper = max(part.BoundingBox().zmax, top) + PLATE
+    upper = max(tight_box(part).zmax, top) + PLATE
     holes = [cylinder(radius + dims.slip_clearance, top, upper, at) for radius, at in _pins(dims, part)]
     return _plate(dims, part, top, upper).cut(part, *holes)
 

@@ -54,4 +54,5 @@ def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Tripl
     camera.SetFocalPoint(*middle)
     camera.SetPosition(*(np.array(camera.GetPosition()) + offset))
     camera.SetParallelScale(0.5 * _MARGIN * max(float(np.ptp(along)), float(np.ptp(across)) * aspect))
+    renderer.UseFXAAOn()
     lit(renderer)

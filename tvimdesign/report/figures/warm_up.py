@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 from tvimdesign.report.figures import bounds_figure, cycle_figures, module_figures
 from tvimdesign.report.figures.theme.axes import log_ticks
 from tvimdesign.report.figures.theme.canvas import new_figure, place, png
@@ -19,3 +21,4 @@ def warm_up() -> None:
     logarithmic.semilogy([1.0, 1e3])
     log_ticks(logarithmic.yaxis)
     png(figure)
+    import_module("fontTools.subset")  # what cuts a PDF's fonts

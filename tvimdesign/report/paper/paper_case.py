@@ -14,10 +14,10 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
-import yaml
 
 from tvimdesign.base.record import Entry, Record
 from tvimdesign.base.units import from_si, pretty, to_si
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Input, table_for
 from tvimdesign.report.paper.paper_claims import from_paper
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -39,7 +39,7 @@ class Alternative:
 def case() -> dict[str, Any]:
     """The pair, the ranges and the choices as they stand in the file."""
     text = resources.files("tvimdesign.report.paper").joinpath("paper_case.yaml").read_text(encoding="utf-8")
-    loaded: dict[str, Any] = yaml.safe_load(text)
+    loaded: dict[str, Any] = plain_data(text)
     return loaded
 
 

@@ -7,16 +7,15 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-import yaml
-
 from tvimdesign.base.units import to_si
+from tvimdesign.base.yaml_data import plain_data
 
 
 @cache
 def claims() -> dict[str, Any]:
     """What the paper states: values with units, and the places."""
     text = resources.files("tvimdesign.report.paper").joinpath("paper_claims.yaml").read_text(encoding="utf-8")
-    loaded: dict[str, Any] = yaml.safe_load(text)
+    loaded: dict[str, Any] = plain_data(text)
     return loaded
 
 

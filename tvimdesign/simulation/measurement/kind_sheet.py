@@ -9,10 +9,9 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import yaml
-
 from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import parse_quantity, to_si
+from tvimdesign.base.yaml_data import plain_data
 
 if TYPE_CHECKING:
     from tvimdesign.simulation.measurement.reading.data_file import Block
@@ -114,7 +113,7 @@ def _changes(block: Block, name: str) -> bool:
 @cache
 def kind_sheets() -> dict[str, KindSheet]:
     """Every kind by its name."""
-    tree = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+    tree = plain_data(_FILE.read_text(encoding="utf-8"))
     return {
         name: KindSheet(
             name, entry["room"], entry["about"], tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ())),

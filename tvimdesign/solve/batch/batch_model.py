@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,18 +23,27 @@ SLOW = 0.1
 class BatchModel:
     """Some outputs of one module as a function of some of its inputs, compiled for columns of them."""
 
-    def __init__(self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str]) -> None:
-        """Simulate the module as drawn, which sets the pace, and compile. All inputs but the `moving` are constants."""
+    def __init__(
+        self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str], often: Collection[str] = ()
+    ) -> None:
+        """Compile. All inputs but the `moving` are constants.
+
+        Phases that are gone through `often`, by name, are compiled to run as fast as can be.
+        """
         model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
         needed = {base for name in outputs for base in (name.partition("@")[0], *resolved.table.ancestors(name))}
         supplied = [name for name in model.switch_names if name in needed]
-        self.cycle = CycleKernel(model, moving, supplied) if supplied else None
+        self.cycle = CycleKernel(model, moving, supplied, often=often) if supplied else None
         names = self.cycle.names if self.cycle else ()
         seen = np.ones(len(model.switch_names))
         places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
         self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
         self._simulator = Simulator(model)
-        self._pace = self.pace_at(model.start)
+
+    @cached_property
+    def _pace(self) -> Pace | None:
+        """That of the module as drawn, for who gives none."""
+        return self.pace_at(self._simulator.model.start)
 
     def pace_at(self, inputs: Array) -> Pace | None:
         """How the design with these inputs goes through its cycle; None where nothing hangs on that."""

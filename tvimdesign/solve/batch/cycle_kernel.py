@@ -52,8 +52,12 @@ class CycleKernel:
         steps: Steps = STEPS,
         freezing: Steps = FREEZING,
         earlier: Steps = EARLIER,
+        often: Collection[str] = (),
     ) -> None:
-        """Compile what the wanted supplied rows need; all inputs but the `moving` are constants."""
+        """Compile what the wanted supplied rows need; all inputs but the `moving` are constants.
+
+        Phases that are gone through `often`, by name, are compiled to run as fast as can be.
+        """
         self.model = model
         rows = {row.name: row for row in model.table.supplied if row.name in wanted}
         self.names = tuple(rows)
@@ -65,6 +69,7 @@ class CycleKernel:
                 [row.name for row in phase.paths if row.name in rows],
                 [row.name for row in phase.steadies if row.name in rows],
                 freezing if phase.phase.after else earlier if self._before_end(phase, rows) else steps,
+                often=name in often,
             )
             for name, phase in model.phases.items()
             if any(row.phase == name for row in rows.values()) or phase.phase.ends in ending

@@ -26,12 +26,12 @@ _BLOCK = 512 * LANES
 class Kernel:
     """A CasADi function of vectors, compiled for columns of designs."""
 
-    def __init__(self, function: Any) -> None:
-        """Compile. Raises NotImplementedError naming an operation that has no vector form."""
+    def __init__(self, function: Any, often: bool = False) -> None:
+        """Compile, what runs `often` as well as can be. Raises NotImplementedError naming what has no vector form."""
         scalar = function if function.is_a("SXFunction") else function.expand()
         self.rows_in = sum(scalar.numel_in(i) for i in range(scalar.n_in()))
         self.rows_out = sum(scalar.numel_out(i) for i in range(scalar.n_out()))
-        self._code = Code(module_text(scalar))
+        self._code = Code(module_text(scalar), often)
 
     def __call__(self, columns: Array, workers: int = 1, out: Array | None = None) -> Array:
         """Evaluate: one row for each scalar of all arguments, one column a design, to rows of results."""

@@ -68,8 +68,12 @@ class PhaseKernel:
         paths: Sequence[str],
         steadies: Sequence[str],
         steps: Steps,
+        often: bool = False,
     ) -> None:
-        """Write and compile the Newton step, what is watched, and what stays the same all through the phase."""
+        """Write and compile the Newton step, what is watched, and what stays the same all through the phase.
+
+        Many more designs go through a phase that is gone through `often` than through others.
+        """
         self.steps, self.after, self.size = steps, phase.phase.after, phase.state_size
         self.events, self.paths, self.steadies = list(events), list(paths), list(steadies)
         reduced = np.array([row.reduce for row in phase.paths if row.name in paths], dtype=str)
@@ -80,9 +84,9 @@ class PhaseKernel:
         inputs = ca.SX(ca.DM(model.start))
         for i, name in enumerate(moving):
             inputs[model.index[name]] = free[i]
-        self._write(phase, free, inputs, phase.phase.sign * inputs[model.index[phase.phase.current_input]])
+        self._write(phase, free, inputs, phase.phase.sign * inputs[model.index[phase.phase.current_input]], often)
 
-    def _write(self, phase: PhaseFunctions, free: Any, inputs: Any, profile: Any) -> None:
+    def _write(self, phase: PhaseFunctions, free: Any, inputs: Any, profile: Any, often: bool) -> None:
         state, base, step = ca.SX.sym("state", self.size), ca.SX.sym("base", self.size), ca.SX.sym("step")
         watched = [_inlined(phase.watch(names), state, profile, inputs) for names in (self.events, self.paths)]
         rates = _inlined(phase.rates, state, profile, inputs)
@@ -100,8 +104,9 @@ class PhaseKernel:
         )
         self._constants = _kernel([free], ca.vertcat(*expressions, *bare))
         self._begin = _kernel([free, before], begin)
-        self._newton = _kernel([state, base, step, constants], after)
-        self._gaps = _kernel([state, constants], gaps)
+        self._newton = _kernel([state, base, step, constants], after, often)
+        # A kernel for each event: one costs a hundred times as much as another, and is asked for until it has come.
+        self._gaps = [_kernel([state, constants], gaps[i]) for i in range(len(self.events))]
         self._samples = _kernel([state, constants], samples) if self.paths else None
         if self.steadies:
             self._balance(phase, free, inputs)
@@ -132,7 +137,7 @@ class PhaseKernel:
         passage = Passage({}, np.full((self.size, count), np.nan))
         sums = np.full((len(self.paths), count), np.inf)
         lost = np.isnan(state[0])
-        begun = self._gaps(integrate.watched(state)) >= 0.0
+        begun = integrate.gaps(np.full(times.shape, fill_value=True)) >= 0.0
         times[begun] = 0.0
         if self.ends is not None:
             passage.end[:, begun[self.ends]] = state[:, begun[self.ends]]
@@ -140,10 +145,11 @@ class PhaseKernel:
         usual = pace / self.steps.of_pace
         step = self.steps.first * usual
         while integrate.time < self.horizon and not np.all(np.isfinite(times) | lost):
-            window = integrate.window(min(step, (self.horizon - integrate.time) / self.steps.in_window))
+            open_still = np.isinf(times) & ~lost
+            window = integrate.window(min(step, (self.horizon - integrate.time) / self.steps.in_window), open_still)
             if keep is not None:
                 keep += [(window.begin + i * window.step, one) for i, one in enumerate(window.states[:-1])]
-            passed = np.isinf(times) & ~lost & (window.gaps >= 0.0)
+            passed = open_still & (window.gaps >= 0.0)
             for event in np.flatnonzero(passed.any(axis=1)).tolist():
                 here = np.flatnonzero(passed[event])
                 found = integrate.close(window, event, here, paths=event == self.ends)
@@ -211,8 +217,15 @@ class _March:
         kernel = self.phase._samples
         return kernel(self.watched(state, constants)) if kernel else np.empty((0, state.shape[1]))
 
-    def window(self, step: float) -> _Window:
-        """Go on by some steps."""
+    def gaps(self, asked: NDArray[np.bool_]) -> Array:
+        """What the events have come to, a row each; no numbers of those that nobody has `asked` of any design."""
+        found, watched = np.full(asked.shape, np.nan), self.watched(self.state)
+        for event in np.flatnonzero(asked.any(axis=1)).tolist():
+            found[event] = self.phase._gaps[event](watched)[0]
+        return found
+
+    def window(self, step: float, asked: NDArray[np.bool_]) -> _Window:
+        """Go on by some steps; `asked` are the events to look at, by design."""
         begin, states, sums = self.time, [], []
         for _ in range(self.phase.steps.in_window):
             states.append(self.state)
@@ -223,7 +236,7 @@ class _March:
         self.time = begin + step * self.phase.steps.in_window
         states.append(self.state)
         sums.append(self.sums)
-        return _Window(begin, step, states, sums, self.phase._gaps(self.watched(self.state)))
+        return _Window(begin, step, states, sums, self.gaps(asked))
 
     def _added(self, sums: Array, before: Array, now: Array, step: Array | float) -> Array:
         """Integrals by the trapezoid, maxima of the samples, and of what is wanted at the end the last sample."""
@@ -292,7 +305,7 @@ class _March:
         return low
 
     def _gap(self, states: Array, constants: Array, event: int) -> Array:
-        found: Array = self.phase._gaps(self.watched(states, constants))[event]
+        found: Array = self.phase._gaps[event](self.watched(states, constants))[0]
         return found
 
 
@@ -300,5 +313,5 @@ def _inlined(function: Any, *arguments: Any) -> Any:
     return ca.densify(function.call(list(arguments), True, False)[0])
 
 
-def _kernel(arguments: Sequence[Any], result: Any) -> Kernel:
-    return Kernel(ca.Function("kernel", list(arguments), [result], {"cse": True}))
+def _kernel(arguments: Sequence[Any], result: Any, often: bool = False) -> Kernel:
+    return Kernel(ca.Function("kernel", list(arguments), [result], {"cse": True}), often)

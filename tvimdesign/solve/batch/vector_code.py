@@ -254,9 +254,9 @@ def _write_log1p(w: VectorLines) -> str:
 class Code:
     """A compiled module; its machine code lives as long as this object."""
 
-    def __init__(self, text: str) -> None:
-        """Compile for the processor this runs on."""
-        self._code = MachineCode(text)
+    def __init__(self, text: str, often: bool = False) -> None:
+        """Compile for the processor this runs on, what runs `often` as well as can be."""
+        self._code = MachineCode(text, often)
         pointer, number = ctypes.c_void_p, ctypes.c_int64
         self._call = self._code.function("kernel", (pointer, pointer, number, number, number, number))
 

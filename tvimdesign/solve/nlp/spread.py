@@ -159,7 +159,7 @@ def drawn_values(
     found = []
     for done in range(0, samples, CHUNK):
         drawn = points.random(min(CHUNK, samples - done)).T
-        found.append(function(_inputs(contributors, drawn)))
+        found.append(function(inputs_at(contributors, drawn)))
     return np.concatenate(found, axis=1)
 
 
@@ -181,7 +181,8 @@ def power_of_two(samples: int) -> int:
     return 1 << max(samples - 1, 1).bit_length()
 
 
-def _inputs(contributors: Sequence[Contributor], drawn: Array) -> Array:
+def inputs_at(contributors: Sequence[Contributor], drawn: Array) -> Array:
+    """Values of inputs at points of the unit cube, a row an input, a column a module."""
     inside = np.clip(drawn, _EDGE, 1.0 - _EDGE)
     return np.array([contributor.ppf(row) for contributor, row in zip(contributors, inside, strict=True)])
 

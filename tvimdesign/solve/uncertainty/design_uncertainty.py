@@ -17,6 +17,7 @@ from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
 from tvimdesign.solve.sensitivity.output_sensitivity import behind_profiles
 from tvimdesign.solve.uncertainty.contributors import contributors_of
 from tvimdesign.solve.uncertainty.intervals import Interval, covered, draw, intervals
+from tvimdesign.solve.uncertainty.sobol_points import sobol_points
 from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, before_measuring, unmeasured_inputs
 
 Array = NDArray[np.float64]
@@ -68,7 +69,8 @@ class UncertaintyModel:
         moving = dict.fromkeys([*study.tolerances, *free, *counting])
         self.names = [name for name in moving if isinstance(resolved.values.get(name), int | float)]
         self._early = _phases_of(table, limited)
-        self._model = BatchModel(resolved, self.names, self.outputs) if self.outputs and self.names else None
+        drawn = bool(self.outputs and self.names)
+        self._model = BatchModel(resolved, self.names, self.outputs, self._early) if drawn else None
         self._pace: Pace | None = None
 
     def fits(self, resolved: ResolvedModule) -> bool:
@@ -114,10 +116,8 @@ class UncertaintyModel:
         if not limits or not contributors:
             return None
         places = [contributor.name for contributor in contributors]
-        drawn = spread.monte_carlo(
-            lambda columns: self._rows(resolved, columns, places, workers, self._early),
-            contributors, modules, resolved.study.solver.seed,
-        ).values  # fmt: skip
+        points = sobol_points(len(contributors), modules, resolved.study.solver.seed)
+        drawn = self._rows(resolved, spread.inputs_at(contributors, points.T), places, workers, self._early)
         return spread.share_kept(np.all(_kept(limits, self.outputs, drawn), axis=0))
 
     def _before(self, resolved: ResolvedModule, draws: int, workers: int) -> dict[str, tuple[float, float]]:

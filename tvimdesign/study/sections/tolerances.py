@@ -8,10 +8,9 @@ from functools import cache
 from importlib import resources
 from typing import Any, Literal
 
-import yaml
-
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Input, Output, Table
 from tvimdesign.study.study import Robust, Tolerance
 from tvimdesign.study.text.mistakes import one_of, quoted, step
@@ -28,7 +27,7 @@ _MOST_SIGMAS = 6.0
 def standard_entries() -> dict[str, dict[str, Any]]:
     """The usual tolerances by row, as they stand in the file."""
     file = resources.files("tvimdesign.study.sections").joinpath("tolerances.yaml")
-    found: dict[str, dict[str, Any]] = yaml.safe_load(file.read_text(encoding="utf-8"))
+    found: dict[str, dict[str, Any]] = plain_data(file.read_text(encoding="utf-8"))
     return found
 
 

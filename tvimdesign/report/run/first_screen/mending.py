@@ -8,9 +8,8 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-import yaml
-
 from tvimdesign.base.errors import TvimError
+from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Table
 from tvimdesign.solve.nlp.constraints import advice_of, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
@@ -28,7 +27,7 @@ VARY = "vary the current or a size, and write "
 def hints() -> dict[str, dict[str, Any]]:
     """What `warnings.yaml` holds: of each advice, and of what else is warned of."""
     file = resources.files("tvimdesign.report.run.first_screen").joinpath("warnings.yaml")
-    found: dict[str, dict[str, Any]] = yaml.safe_load(file.read_text(encoding="utf-8"))
+    found: dict[str, dict[str, Any]] = plain_data(file.read_text(encoding="utf-8"))
     return found
 
 
@@ -50,7 +49,7 @@ def mending(check: ConstraintCheck, answer: StudyResult, table: Table) -> str:
     """
     lines: Sequence[str] = hint(check.output).get("mend", ())
     for line in lines:
-        words = yaml.safe_load(line).get("module", {})
+        words = plain_data(line).get("module", {})
         if words and _only_words(words, table) and _mends(check, words, answer, table):
             return line
     last = lines[-1] if lines else ""

@@ -13,8 +13,10 @@ from tvimdesign.report.output.number_entry import finite, number_entry
 from tvimdesign.report.output.uncertainty_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import Yield
+from tvimdesign.solve.uncertainty.contributors import contributors_of
 from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.intervals import Interval, Swing
+from tvimdesign.solve.uncertainty.sobol_points import sobol_points
 from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
@@ -45,8 +47,13 @@ class Uncertainty:
         self.own = bool(study.tolerances)
         required = [name for one in study.require for name in (one.output, *self.table.output(one.output).also_limited)]
         self.asked = list(dict.fromkeys([*required, *study.minimize, *FIRST_SCREEN]))
-        start = resolve_study(study)
-        self.model = UncertaintyModel(self._tolerant(start), self.asked, list(study.vary))
+        self._start = self._tolerant(resolve_study(study))
+        self.model = UncertaintyModel(self._start, self.asked, list(study.vary))
+
+    def draw_ahead(self) -> None:
+        """Draw the modules, as shares of what varies, before there is a design: what does so takes long to load."""
+        if contributors := contributors_of(self._start):
+            sobol_points(len(contributors), MODULES, self.study.solver.seed)
 
     def _tolerant(self, resolved: ResolvedModule) -> ResolvedModule:
         """A module with the tolerances that count."""

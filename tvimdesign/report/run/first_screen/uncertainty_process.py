@@ -72,13 +72,13 @@ def main() -> None:
     follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a third of the time; the process is short
-    for needed in ("scipy.special", "scipy.stats"):  # loaded while the solver works, used when modules are drawn
-        import_module(needed)
+    import_module("scipy.special")  # loaded while the solver works, used when modules are drawn
     from tvimdesign.base.machine_code import compile_quickly
     from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
 
     compile_quickly()  # some thousand modules are drawn: the compiler would take longer than they do
     uncertainty = Uncertainty(Study.model_validate_json(sys.stdin.readline()))
+    uncertainty.draw_ahead()
     line = sys.stdin.readline()
     if line:
         print(json.dumps(uncertainty.data(Design.model_validate_json(line)), allow_nan=False))

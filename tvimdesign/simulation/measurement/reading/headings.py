@@ -8,10 +8,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import yaml
-
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import parse_quantity
+from tvimdesign.base.yaml_data import plain_data
 
 _FILE = Path(__file__).with_name("headings.yaml")
 _IN_BRACKETS = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])]")
@@ -31,7 +30,7 @@ class Heading(NamedTuple):
 @cache
 def known() -> dict[str, Any]:
     """The content of `headings.yaml`."""
-    content: dict[str, Any] = yaml.safe_load(_FILE.read_text(encoding="utf-8"))
+    content: dict[str, Any] = plain_data(_FILE.read_text(encoding="utf-8"))
     return content
 
 

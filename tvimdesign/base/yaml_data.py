@@ -1,0 +1,14 @@
+"""Reads this package's own YAML, by the C library where there is one: a tenth of the time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+def plain_data(text: str) -> Any:
+    """What a text holds: mappings, lists, text and numbers."""
+    return yaml.load(text, Loader=_LOADER)
