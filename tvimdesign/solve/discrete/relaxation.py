@@ -17,7 +17,13 @@ from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.box_search import BoxSearch
-from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, coarse_search_from, first_optimum, search_from
+from tvimdesign.solve.optimizer.coarse_first import (
+    all_refined,
+    coarse_of,
+    coarse_search_from,
+    first_optimum,
+    search_from,
+)
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -279,7 +285,7 @@ class Relaxation:
         return self._named(best, box) if best.start.converged else None
 
     def _modules(self, begins: Sequence[Array]) -> list[Array]:
-        """Those of some inputs at which there is a module; all where there is at none: no search begins at the others."""
+        """Those of some inputs at which there is a module, all where there is at none: no search begins at others."""
         return [begin for begin in begins if np.isfinite(self._screen.broken(begin))] or list(begins)
 
     def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:

@@ -41,7 +41,7 @@ class FeasibilityScreen:
         self._limits = self._residuals(self._unknowns)
         self._count = self._limits.numel()
         self._at: Any = ca.Function("residuals", [self._unknowns], [self._limits]).expand()
-        self._sum, self._worst = self._solver(self._count), self._solver(min(self._count, 1))
+        self._sum, self._worst = self._solver(max(self._count, 1)), self._solver(1)
 
     def _solver(self, count: int) -> Any:
         """IPOPT for the least sum of so many slacks: one for each limit, or one for all."""
@@ -82,8 +82,8 @@ class FeasibilityScreen:
         """Whether no search from some inputs comes to a point that keeps the limits.
 
         That is so where the sum of breaches has a least value above nothing from each of them, and where the worst
-        breach, from the first and the last, is brought to nothing neither. Where a search for the sum does not converge
-        nothing is said. Raises KeyboardInterrupt where an interrupt ended one.
+        breach is not brought to nothing from the first and the last either. Nothing is said where a search for the
+        sum does not converge. Raises KeyboardInterrupt where an interrupt ended one.
         """
         if not all(self._least(self._sum, within, begin) > ALGEBRAIC_TOLERANCE for begin in begins):
             return False
@@ -91,14 +91,14 @@ class FeasibilityScreen:
         return not any(self._least(self._worst, within, begin) <= ALGEBRAIC_TOLERANCE for begin in ends)
 
     def _least(self, solver: Any, within: Mapping[str, Ends], begin: Array) -> float:
-        """The worst breach at the least point that a search from some inputs comes to; no number if it comes to none."""
+        """The worst breach where a search from some inputs makes it, or the sum, least; NaN where it has no end."""
         optimizer = self._optimizer
         free, count = len(optimizer.free), solver.size1_in("x0") - len(optimizer.free)
         lower, upper = (ends[:free] for ends in optimizer.vector.bounds(within))
         start = np.array([one.to_unknown(begin[optimizer.model.index[one.name]]) for one in optimizer.free])
         start = np.clip(start, lower, upper)
         broken = np.nan_to_num(np.maximum(np.asarray(self._at(start)).ravel(), 0.0))
-        slacks = (broken if count == self._count else np.max(broken, keepdims=True)) + _ROOM
+        slacks = (broken if count == self._count else np.max(broken, initial=0.0, keepdims=True)) + _ROOM
         least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
         found = solver(
             x0=np.append(start, slacks), lbg=np.append(least, np.full(self._count, -np.inf)),
