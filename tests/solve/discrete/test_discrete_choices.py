@@ -285,8 +285,8 @@ def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
     optimizer = Optimizer(study)
     screen, begin = FeasibilityScreen(optimizer), optimizer.model.start
     thin, thick = {"wire_diameter": (1.5e-3, 1.6e-3)}, {"wire_diameter": (1.5e-3, 2.4e-3)}
-    assert screen.impossible(thin, begin)
-    assert not screen.impossible(thick, begin)
+    assert screen.impossible(thin, [begin])
+    assert not screen.impossible(thick, [begin])
     # Of thin wire by hand: k = E d^4 / (64 D n) in N.m per radian, four springs, D and n as small as they may be.
     rate = 196.5e9 * 1.6e-3**4 / (64.0 * 12e-3 * 3.0)
     stress = 32.0 * rate * given(study)["stroke"] / (math.pi * 1.6e-3**3)

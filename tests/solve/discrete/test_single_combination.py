@@ -35,21 +35,40 @@ def tree() -> tuple[Relaxation, Run]:
 
 
 @pytest.mark.parametrize(
-    ("cold", "box", "certain"),
-    [(NO_DESIGN, ((1, 1),), True), (NO_DESIGN, ((0, 1),), False), (OVER, ((1, 1),), False)],
-)
+    ("cold", "box", "certain", "searches"),
+    [(NO_DESIGN, ((1, 1),), True, [True, True]), (OVER, ((1, 1),), False, [True, True]),
+     (NO_DESIGN, ((0, 1),), False, [False])],
+)  # fmt: skip
 def test_a_warm_run_that_is_cut_short_leaves_several_combinations_open_and_not_one(
-    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch, cold: str, box: Box, certain: bool
-) -> None:
+    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch,
+    cold: str, box: Box, certain: bool, searches: list[bool],
+) -> None:  # fmt: skip
+    """Several are searched coarsely, from one place alone: their halves are asked the same."""
     relaxation, near = tree
+    asked: list[bool] = []
 
     def ending(status: str) -> Callable[..., Any]:
-        return lambda *_, **__: replace(near, start=replace(near.start, status=status, converged=False))
+        def ended(*_: Any, **named: bool) -> Run:
+            asked.extend(named.values())
+            return replace(near, start=replace(near.start, status=status, converged=False))
+
+        return ended
 
     monkeypatch.setattr(relaxation, "_screened", lambda *_: False)
     monkeypatch.setattr(relaxation, "_beside", ending(OVER))
-    monkeypatch.setattr(relaxation, "_solved", ending(cold))
+    monkeypatch.setattr(relaxation, "_searched", ending(cold))
     assert relaxation.best_within(box, near) == (None, certain)
+    assert asked == searches
+
+
+def test_no_search_begins_where_there_is_no_module_if_another_place_has_one(
+    tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    relaxation, near = tree
+    here, nowhere = relaxation.optimizer.model.start, near.inputs * 1.5
+    monkeypatch.setattr(relaxation._screen, "broken", lambda inputs: np.inf if inputs is nowhere else 0.0)
+    assert relaxation._modules([nowhere, here]) == [here]
+    assert relaxation._modules([nowhere]) == [nowhere]
 
 
 def beginning_nowhere(relaxation: Relaxation, monkeypatch: pytest.MonkeyPatch, near: Run) -> list[str]:

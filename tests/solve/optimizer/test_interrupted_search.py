@@ -59,4 +59,4 @@ def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optim
         with pytest.raises(KeyboardInterrupt):
             simulator.run(simulator.model.start)
         with pytest.raises(KeyboardInterrupt):
-            screen.impossible({}, optimizer.model.start)
+            screen.impossible({}, [optimizer.model.start])

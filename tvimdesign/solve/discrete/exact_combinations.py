@@ -11,7 +11,7 @@ from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Run, Trace
-from tvimdesign.solve.optimizer.coarse_first import search_from
+from tvimdesign.solve.optimizer.coarse_first import coarse_search_from, search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 
@@ -64,7 +64,7 @@ class ExactCombinations:
             return None
         found = exact.optimizer.solve(warm=run)
         if not found.start.converged:
-            found = search_from(exact.optimizer, run.inputs)
+            found = coarse_search_from(exact.optimizer, run.inputs, {})
         return found if found.start.converged else None
 
 

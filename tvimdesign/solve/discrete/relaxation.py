@@ -17,7 +17,13 @@ from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.box_search import BoxSearch
-from tvimdesign.solve.optimizer.coarse_first import all_refined, coarse_of, first_optimum, search_from
+from tvimdesign.solve.optimizer.coarse_first import (
+    all_refined,
+    coarse_of,
+    coarse_search_from,
+    first_optimum,
+    search_from,
+)
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -64,7 +70,7 @@ class Relaxation:
 
     def hopeless(self) -> bool:
         """Whether a search from the study's own start comes to no design that keeps the arithmetic limits."""
-        return self._screen.impossible({}, self.optimizer.model.start)
+        return self._screen.impossible({}, [self.optimizer.model.start])
 
     def starts(self, most: int | None = None) -> list[Run]:
         """A run from every start, or so many at `most`, with every size free; and what different optima they are."""
@@ -212,7 +218,8 @@ class Relaxation:
         Certain means that limits which depend on no switch cannot be kept, or that searches from the run nearby and
         from every free optimum all came to points where nothing brings the limits nearer. A warm run that is over
         before it came to such a point leaves a box of several combinations to be divided; of a single one the search
-        that begins afresh where it began tells more.
+        that begins afresh where it began tells more. A box that will be divided unless a design is found in it is
+        searched from one more place, coarsely: its halves are asked the same.
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, near)
@@ -228,11 +235,14 @@ class Relaxation:
                 statuses.append(run.start.status)
         if close and self._screened(ends, begins):
             return None, True
-        for begin in begins[:-1] if self.found_in_boxes else begins:
-            run = self._in_boxes(ends, begin) if self.found_in_boxes else self._solved(ends, begin=begin)
+        for begin in self._modules(begins[:-1] if self.found_in_boxes else begins):
+            divided = not is_one(box) and not {NO_DESIGN, NO_MODULE}.issuperset(statuses)
+            run = self._searched(ends, begin, certain=not divided)
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
+            if divided and run.start.status != NO_MODULE:
+                break
         if all(status == NO_MODULE for status in statuses):
             return self._from_elsewhere(ends)
         return None, all(status == NO_DESIGN for status in statuses)
@@ -274,9 +284,13 @@ class Relaxation:
         best = min(runs, key=order)
         return self._named(best, box) if best.start.converged else None
 
+    def _modules(self, begins: Sequence[Array]) -> list[Array]:
+        """Those of some inputs at which there is a module, all where there is at none: no search begins at others."""
+        return [begin for begin in begins if np.isfinite(self._screen.broken(begin))] or list(begins)
+
     def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
-        """Whether the limits that depend on no switch cannot be kept, from the first of some inputs and the last."""
-        if not all(self._screen.impossible(ends, begin) for begin in (begins[0], begins[-1])):
+        """Whether the limits that depend on no switch cannot be kept, from any of some inputs."""
+        if not self._screen.impossible(ends, self._modules(begins)):
             return False
         self.work.screened += 1
         return True
@@ -327,6 +341,16 @@ class Relaxation:
             unknowns[i] = free.to_unknown(point[index[free.name]])
         run = self.optimizer.solve(ends, begin=point, unknowns=unknowns, beginning="near")
         self.work.count(run.start, warm=True)
+        return run
+
+    def _searched(self, ends: Mapping[str, Ends], begin: Array, *, certain: bool) -> Run:
+        """A search within some ends that begins afresh; by the coarse problem alone where that says enough."""
+        if self.found_in_boxes:
+            return self._in_boxes(ends, begin)
+        if certain:
+            return self._solved(ends, begin=begin)
+        run = coarse_search_from(self.optimizer, begin, ends)
+        self.work.count(run.start, warm=False)
         return run
 
     def _in_boxes(

@@ -2,11 +2,14 @@
 
 The switch makes nearly all of the unknowns of a study's problem, and IPOPT takes longest where there is no design. The
 limits of arithmetic alone are a few dozen functions of the free numbers; what cannot keep those keeps no more of them.
+
+Two measures are made small, as either alone ends in valleys: the sum of what each limit gives, and the worst. In the
+worst a dozen limits give alike, at edges where the geometry's own rules change, and IPOPT often goes to and fro there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,6 +23,8 @@ from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 _IPOPT = {"print_level": 0, "sb": "yes", "max_iter": 100, "tol": 1e-9, "mu_init": 1e-2}
+_ROOM = 1e-2
+"""What slacks begin with beyond what the first point needs."""
 NOWHERE = 1e3
 """What a point counts as breaking a limit by at which there is no module."""
 
@@ -27,20 +32,27 @@ Array = NDArray[np.float64]
 
 
 class FeasibilityScreen:
-    """The arithmetic limits of one problem, and the least by which the worst of them is broken within some ends."""
+    """The arithmetic limits of one problem, and the least by which they are broken within some ends."""
 
     def __init__(self, optimizer: Optimizer) -> None:
         """Write the problem; nothing is solved yet."""
         self._optimizer = optimizer
-        unknowns, worst = ca.MX.sym("free", len(optimizer.free)), ca.MX.sym("worst")
-        residuals = self._residuals(unknowns)
-        inputs = optimizer.problem.with_unknowns(ca.MX(ca.DM(optimizer.model.start)), unknowns)
-        rows = ca.vertcat(optimizer.problem.shares_less_one(inputs), residuals - worst)
-        function = ca.Function("screen", [ca.vertcat(unknowns, worst), ca.MX.sym("none", 0)], [worst, rows], *NLP)
-        self._count = residuals.numel()
+        self._unknowns = ca.MX.sym("free", len(optimizer.free))
+        self._limits = self._residuals(self._unknowns)
+        self._count = self._limits.numel()
+        self._at: Any = ca.Function("residuals", [self._unknowns], [self._limits]).expand()
+        self._sum, self._worst = self._solver(max(self._count, 1)), self._solver(1)
+
+    def _solver(self, count: int) -> Any:
+        """IPOPT for the least sum of so many slacks: one for each limit, or one for all."""
+        slacks, problem = ca.MX.sym("slacks", count), self._optimizer.problem
+        inputs = problem.with_unknowns(ca.MX(ca.DM(self._optimizer.model.start)), self._unknowns)
+        broken = self._limits - (slacks if count == self._count else ca.repmat(slacks, self._count, 1))
+        known = [ca.vertcat(self._unknowns, slacks), ca.MX.sym("none", 0)]
+        rows = ca.vertcat(problem.shares_less_one(inputs), broken)
+        function = ca.Function("screen", known, [ca.sum1(slacks), rows], *NLP)
         options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
-        self._at: Any = ca.Function("residuals", [unknowns], [residuals]).expand()
-        self._solver: Any = ca.nlpsol("screen", "ipopt", function.expand(), options)
+        return ca.nlpsol("screen", "ipopt", function.expand(), options)
 
     def broken(self, inputs: Array) -> float:
         """The most by which some inputs break a limit, as a share of its scale; infinite at no geometry."""
@@ -66,19 +78,33 @@ class FeasibilityScreen:
         values = model.outputs(wanted)(inputs, np.full(len(model.switch_names), np.nan))  # read by none of them
         return ca.vertcat(*(limit.residual(values[wanted.index(limit.output)]) for limit in limits))
 
-    def impossible(self, within: Mapping[str, Ends], begin: Array) -> bool:
-        """Whether the limits are broken at the best point that a search from some inputs comes to.
+    def impossible(self, within: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
+        """Whether no search from some inputs comes to a point that keeps the limits.
 
-        A search that does not converge says nothing. Raises KeyboardInterrupt where an interrupt ended it.
+        That is so where the sum of breaches has a least value above nothing from each of them, and where the worst
+        breach is not brought to nothing from the first and the last either. Nothing is said where a search for the
+        sum does not converge. Raises KeyboardInterrupt where an interrupt ended one.
         """
+        if not all(self._least(self._sum, within, begin) > ALGEBRAIC_TOLERANCE for begin in begins):
+            return False
+        ends = begins[:: max(len(begins) - 1, 1)]
+        return not any(self._least(self._worst, within, begin) <= ALGEBRAIC_TOLERANCE for begin in ends)
+
+    def _least(self, solver: Any, within: Mapping[str, Ends], begin: Array) -> float:
+        """The worst breach where a search from some inputs makes it, or the sum, least; NaN where it has no end."""
         optimizer = self._optimizer
-        count = len(optimizer.free)
-        lower, upper = (ends[:count] for ends in optimizer.vector.bounds(within))
-        start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
+        free, count = len(optimizer.free), solver.size1_in("x0") - len(optimizer.free)
+        lower, upper = (ends[:free] for ends in optimizer.vector.bounds(within))
+        start = np.array([one.to_unknown(begin[optimizer.model.index[one.name]]) for one in optimizer.free])
+        start = np.clip(start, lower, upper)
+        broken = np.nan_to_num(np.maximum(np.asarray(self._at(start)).ravel(), 0.0))
+        slacks = (broken if count == self._count else np.max(broken, initial=0.0, keepdims=True)) + _ROOM
         least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
-        found = self._solver(
-            x0=np.append(np.clip(start, lower, upper), 0.1), lbg=np.append(least, np.full(self._count, -np.inf)),
-            ubg=np.append(largest, np.zeros(self._count)), lbx=np.append(lower, 0.0), ubx=np.append(upper, np.inf),
+        found = solver(
+            x0=np.append(start, slacks), lbg=np.append(least, np.full(self._count, -np.inf)),
+            ubg=np.append(largest, np.zeros(self._count)), lbx=np.append(lower, np.zeros(count)),
+            ubx=np.append(upper, np.full(count, np.inf)),
         )  # fmt: skip
         raise_pending()
-        return bool(self._solver.stats()["success"]) and float(found["f"]) > ALGEBRAIC_TOLERANCE
+        left = np.max(np.asarray(found["x"]).ravel()[free:], initial=0.0)
+        return float(left) if solver.stats()["success"] else np.nan

@@ -109,6 +109,16 @@ def search_from(
     return fine
 
 
+def coarse_search_from(optimizer: Optimizer, begin: Array, within: Mapping[str, Ends]) -> Run:
+    """The optimum that the coarse problem leads to from a start, where there is one; else the coarse run as it ended.
+
+    For a search that is of use only if it finds something.
+    """
+    coarse = coarse_of(optimizer)
+    run = (coarse or optimizer).solve(within, begin=begin)
+    return refined(optimizer, coarse, run) if coarse and run.start.converged else run
+
+
 def _after(coarse: Start, fine: Start) -> Start:
     """A run that another one led to, with the work of both."""
     return replace(fine, iterations=coarse.iterations + fine.iterations, seconds=coarse.seconds + fine.seconds)
