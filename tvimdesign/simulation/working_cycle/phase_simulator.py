@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,6 +21,7 @@ from tvimdesign.simulation.working_cycle.trajectory import Array, Trajectory
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
 _EQUAL_STRETCHES = 64  # of a shorter one; each after them is twice as long, too, as another event may take for ever
 MOST_STEPS = 50  # of Newton; a steady state takes less than ten
+_FEW = 5  # every fifth sample of a stretch is looked at first
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
 
 
@@ -40,6 +41,8 @@ class _Given(NamedTuple):
     inputs: Array
     constants: Array
     """What its rates need that follows from the inputs alone."""
+    of_peaks: Array
+    """What its peaks need that does."""
 
 
 class PhaseSimulator:
@@ -52,14 +55,20 @@ class PhaseSimulator:
         self._shares = np.linspace(0.0, 1.0, steps + 1)
         self._integrals = [row.name for row in phase.paths if row.reduce == "integral"]
         self._events = [row.name for row in phase.events]
+        self._peaks = [row.name for row in phase.paths if row.reduce == "maximum"]
+        self._last = [row.name for row in phase.paths if row.reduce == "end"]
         state = ca.SX.sym("state", phase.state_size)
         integrals = ca.SX.sym("integrals", len(self._integrals))
         length, first, last, time = (ca.SX.sym(name) for name in ("length", "first", "last", "time"))
         profile = first + (last - first) * time
         self._constants, varying = phase.per_phase(self._changes)
         constants = ca.SX.sym("constants", self._constants.size1_out(0))
-        self._watched = phase.watch_in_parts([*self._events, *(row.name for row in phase.paths)])
-        self._of_stretch = self._watched.map(steps + 1)
+        self._waiting = phase.watch_in_parts(self._events)
+        self._of_peaks, follow = phase.per_phase(phase.watch(self._peaks))
+        self._followed, self._followed_once = follow.map(steps + 1), follow
+        self._at_end = phase.watch_in_parts(self._last)
+        self._few = np.unique(np.append(np.arange(0, steps, _FEW), steps))
+        self._waiting_at_few = self._waiting.map(len(self._few))
         self._integrator = ca.integrator(
             phase.phase.name,
             "cvodes",
@@ -106,9 +115,8 @@ class PhaseSimulator:
             length = min(length, profile.next_corner(time) - time, horizon - time)
             currents = profile.at(time + length * self._shares)
             states = self._stretch(begin, given, length, currents)
-            watched = self._watch(states, given, currents)
-            self._look(found, (time, length, currents), states, watched, given)
-            pieces.append((time + length * self._shares, states, watched))
+            self._look(found, (time, length, currents), states, given)
+            pieces.append((time + length * self._shares, states, self._follow(states, given, currents)))
             begin, time = states[:, -1], time + length
             rate = np.asarray(self.phase.rates(begin[: self.phase.state_size], currents[-1], inputs)).ravel()
             constant = np.isinf(profile.next_corner(time))
@@ -130,7 +138,8 @@ class PhaseSimulator:
         """State at the start, integrals last, and what stays the same all through the phase."""
         start = self.phase.initial(inputs) if before is None else self.phase.begin(before, inputs)
         begin = np.append(np.asarray(start).ravel(), np.zeros(len(self._integrals)))
-        return begin, _Given(inputs, np.asarray(self._constants(inputs)).ravel())
+        constants, of_peaks = (np.asarray(one(inputs)).ravel() for one in (self._constants, self._of_peaks))
+        return begin, _Given(inputs, constants, of_peaks)
 
     def _stretch(self, begin: Array, given: _Given, length: float, currents: Array) -> Array:
         """States at equally spaced times from `begin` over `length` seconds; the current runs straight."""
@@ -145,22 +154,46 @@ class PhaseSimulator:
             ) from error
         return np.column_stack([begin, after])
 
-    def _watch(self, stretch: Array, given: _Given, currents: Array) -> Array:
-        columns = np.repeat(given.inputs[:, None], stretch.shape[1], axis=1)
-        return np.asarray(self._of_stretch(stretch[: self.phase.state_size], currents[None, :], columns))
+    def _follow(self, stretch: Array, given: _Given, currents: Array) -> Array:
+        """What has its peak in the phase, at every sample, a row each."""
+        constants = np.repeat(given.of_peaks[:, None], stretch.shape[1], axis=1)
+        function = self._followed if stretch.shape[1] > 1 else self._followed_once
+        return np.asarray(function(stretch[: self.phase.state_size], currents[None, :], constants))
 
-    def _look(
-        self, found: _Found, when: tuple[float, float, Array], stretch: Array, watched: Array, given: _Given
-    ) -> None:
+    def _waits(self, stretch: Array, given: _Given, currents: Array, sought: Sequence[bool]) -> Array:
+        """What the events wait for, zero or more once they happen, a row each; NaN at samples that need no look.
+
+        Few are looked at, all where one of what is `sought` may have happened between them, and what lies between two
+        where it has: the moduli of a layer's slices are most of a simulation's work.
+        """
+        states, few, sought_rows = stretch[: self.phase.state_size], self._few, np.array(sought)
+        found = np.full((len(self._events), stretch.shape[1]), np.nan)
+        inputs = np.repeat(given.inputs[:, None], len(few), axis=1)
+        found[:, few] = some = np.asarray(self._waiting_at_few(states[:, few], currents[None, few], inputs))
+        happened = np.any(some >= 0.0, axis=1) & sought_rows
+        near = np.max(some, axis=1) > -np.max(np.abs(np.diff(some, axis=1)), axis=1)
+        between: set[int] = set()
+        if np.any(near & ~happened & sought_rows):
+            between = set(range(stretch.shape[1]))
+        for row in some[happened]:
+            first = int(np.argmax(row >= 0.0))
+            between |= set(range(few[first - 1], few[first])) if first else set()
+        for k in between - set(few.tolist()):
+            found[:, k] = np.asarray(self._waiting(states[:, k], currents[k], given.inputs)).ravel()
+        return found
+
+    def _look(self, found: _Found, when: tuple[float, float, Array], stretch: Array, given: _Given) -> None:
         """Note the events that happen within a stretch. Those that wait for the same thing are looked at once."""
-        time = when[0]
+        time, _, currents = when
+        sought = [not np.isfinite(found.times.get(name, 0.0)) for name in self._events]
+        waits = self._waits(stretch, given, currents, sought)
         seen: list[tuple[Array, float, Array]] = []
         for i, name in enumerate(self._events):
-            if np.isfinite(found.times.get(name, 0.0)) or not np.any(watched[i] >= 0.0):
+            if not (sought[i] and np.any(waits[i] >= 0.0)):
                 continue
-            same = [known[1:] for known in seen if np.array_equal(known[0], watched[i])]
-            share, state = same[0] if same else self._crossing(stretch, given, when, i, watched[i])
-            seen.append((watched[i], share, state))
+            same = [known[1:] for known in seen if np.array_equal(known[0], waits[i], equal_nan=True)]
+            share, state = same[0] if same else self._crossing(stretch, given, when, i, waits[i])
+            seen.append((waits[i], share, state))
             found.times[name] = time + share
             if name == self.phase.phase.ends:
                 found.end = state
@@ -178,7 +211,7 @@ class PhaseSimulator:
         close = self._stretch(stretch[:, first - 1], given, length / steps, within)
 
         def near(place: int) -> float:
-            return float(self._watched(close[: self.phase.state_size, place], within[place], given.inputs)[event])
+            return float(self._waiting(close[: self.phase.state_size, place], within[place], given.inputs)[event])
 
         # Looking at a sample costs as much as integrating up to it, so few are looked at: by halves.
         low, high = (0, near(0)), (steps, near(steps))
@@ -196,50 +229,48 @@ class PhaseSimulator:
         """Values of the phase's events and paths, and its trajectory up to the event that ends it."""
         # The last sample of a stretch is the first of the next.
         times = np.concatenate([pieces[0][0][:1], *(piece[0][1:] for piece in pieces)])
-        states, watched = (
+        states, followed = (
             np.concatenate([pieces[0][k][:, :1], *(piece[k][:, 1:] for piece in pieces)], axis=1) for k in (1, 2)
         )
         if found.end is not None:
             end = found.times[self.phase.phase.ends]
             keep = times < end
-            now = self._watched(found.end[: self.phase.state_size], profile.at(np.array([end])), given.inputs)
+            now = self._follow(found.end[:, None], given, profile.at(np.array([end])))
             times = np.append(times[keep], end)
             states = np.column_stack([states[:, keep], found.end])
-            watched = np.column_stack([watched[:, keep], np.asarray(now).ravel()])
+            followed = np.column_stack([followed[:, keep], now])
         size = self.phase.state_size
-        integrals = dict(zip(self._integrals, states[size:, -1], strict=True))
-        values = dict.fromkeys(self._events, np.inf) | found.times
-        highest = self._highest(times, states, watched, given, profile)
-        for row, sampled in zip(self.phase.paths, watched[len(self._events) :], strict=True):
-            whole = sampled[-1] if row.reduce == "end" else integrals.get(row.name, highest.get(row.name, 0.0))
-            # Of a phase that never ends there is a maximum; what it adds up to, or is at its end, there is not.
-            values[row.name] = np.inf if row.reduce != "maximum" and found.end is None else float(whole)
+        values = dict.fromkeys((*self._events, *self._integrals, *self._last), np.inf) | found.times
+        values |= self._highest(times, states, followed, given, profile)
+        # Of a phase that never ends there is a maximum; what it adds up to, or is at its end, there is not.
+        if found.end is not None:
+            last = self._at_end(found.end[:size], profile.at(times[-1:]), given.inputs)
+            numbers = zip((*self._integrals, *self._last), (*states[size:, -1], *np.asarray(last).ravel()), strict=True)
+            values |= {name: float(number) for name, number in numbers}
         return values, Trajectory(times=times, states=states[:size], currents=profile.at(times))
 
     def _highest(
-        self, times: Array, states: Array, watched: Array, given: _Given, profile: CurrentProfile
+        self, times: Array, states: Array, followed: Array, given: _Given, profile: CurrentProfile
     ) -> dict[str, float]:
-        """The maxima of the phase's paths; where one is at a sample between others, what lies around it is looked at
+        """The maxima of the phase's peaks; where one is at a sample between others, what lies around it is looked at
         once more: a cold side peaks within seconds of a current's reversal."""
         found: dict[str, float] = {}
         near: dict[int, Array] = {}
-        for i, row in enumerate(self.phase.paths, start=len(self._events)):
-            if row.reduce != "maximum":
-                continue
-            place = int(np.argmax(watched[i]))
-            found[row.name] = float(watched[i, place])
+        for i, name in enumerate(self._peaks):
+            place = int(np.argmax(followed[i]))
+            found[name] = float(followed[i, place])
             if 0 < place < len(times) - 1:
                 if place not in near:
                     both = [self._between(times, states, given, profile, first) for first in (place - 1, place)]
                     near[place] = np.concatenate(both, axis=1)
-                found[row.name] = max(found[row.name], float(np.max(near[place][i])))
+                found[name] = max(found[name], float(np.max(near[place][i])))
         return found
 
     def _between(self, times: Array, states: Array, given: _Given, profile: CurrentProfile, first: int) -> Array:
-        """What is watched between a sample and the next."""
+        """What has its peak between a sample and the next."""
         length = times[first + 1] - times[first]
         currents = profile.at(times[first] + length * self._shares)
-        return self._watch(self._stretch(states[:, first], given, length, currents), given, currents)
+        return self._follow(self._stretch(states[:, first], given, length, currents), given, currents)
 
     @cached_property
     def _standing(self) -> tuple[Any, Any]:

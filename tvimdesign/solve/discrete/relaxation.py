@@ -31,6 +31,8 @@ from tvimdesign.solve.optimizer.starting_points import FEW
 from tvimdesign.solve.optimizer.statuses import FEASIBLE, NO_DESIGN, NO_MODULE
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 
+_SHORT = 100
+"""Generations of a differential evolution that asks once more whether a box is empty."""
 _CLOSE = 0.02
 """Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
 whether the limits can be kept there at all."""
@@ -289,8 +291,15 @@ class Relaxation:
         return [begin for begin in begins if np.isfinite(self._screen.broken(begin))] or list(begins)
 
     def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
-        """Whether the limits that depend on no switch cannot be kept, from any of some inputs."""
+        """Whether the limits that depend on no switch cannot be kept, from any of some inputs.
+
+        Nor from where a short differential evolution over the box leads: other optima mostly lie outside it, and are
+        put to its edge.
+        """
         if not self._screen.impossible(ends, self._modules(begins)):
+            return False
+        begin, worst = least_broken(self.optimizer, self._screen, self.optimizer.study.solver.seed, ends, _SHORT)
+        if worst <= 0.0 or not self._screen.impossible(ends, [self._mixed(begin, ends)]):
             return False
         self.work.screened += 1
         return True

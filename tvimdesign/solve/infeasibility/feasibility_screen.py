@@ -19,6 +19,7 @@ from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
 from tvimdesign.solve.nlp.ipopt import NLP
+from tvimdesign.solve.nlp.mixture import shared
 from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -62,8 +63,15 @@ class FeasibilityScreen:
         return float(np.max(residuals, initial=-np.inf)) if np.all(np.isfinite(residuals)) else np.inf
 
     def worst(self, unknowns: Array) -> Array:
-        """The most by which designs break a limit, a column of the free numbers' unknowns each."""
-        residuals = np.asarray(self._at(unknowns)).reshape(self._count, np.shape(unknowns)[1])  # there may be no limit
+        """The most by which designs break a limit, a column of the free numbers' unknowns each.
+
+        Shares of records count by what they are of their sum.
+        """
+        points = np.array(unknowns)
+        for mixture in self._optimizer.mixtures:
+            places = [place for place, free in enumerate(self._optimizer.free) if free.name in mixture.shares]
+            points[places] = np.apply_along_axis(shared, 0, points[places])
+        residuals = np.asarray(self._at(points)).reshape(self._count, points.shape[1])  # there may be no limit
         worst: Array = np.max(residuals, axis=0, initial=-1.0)
         return np.nan_to_num(worst, nan=NOWHERE, posinf=NOWHERE)
 

@@ -61,10 +61,10 @@ def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> A
 
 
 def least_broken(
-    optimizer: Optimizer, screen: FeasibilityScreen, seed: int, within: Mapping[str, Ends]
+    optimizer: Optimizer, screen: FeasibilityScreen, seed: int, within: Mapping[str, Ends], most: int = _GENERATIONS
 ) -> tuple[Array, float]:
-    """Where a differential evolution ends, some numbers within ends of their own: the inputs, and the most by which
-    they break an arithmetic limit. It ends at the first design that keeps them all.
+    """Where a differential evolution of so many generations at `most` ends, some numbers within ends of their own: the
+    inputs, and the most by which they break an arithmetic limit. It ends at the first design that keeps them all.
     """
     from scipy.optimize import Bounds, OptimizeResult, differential_evolution  # a search that ends well needs no scipy
 
@@ -80,7 +80,7 @@ def least_broken(
         return screen.worst(unknowns)
 
     found = differential_evolution(
-        worst, Bounds(lower, upper), maxiter=_GENERATIONS, popsize=_EACH, seed=seed,
+        worst, Bounds(lower, upper), maxiter=most, popsize=_EACH, seed=seed,
         polish=False, tol=0.0, updating="deferred", vectorized=True, callback=look,
     )  # fmt: skip
     inputs: Array = optimizer.model.start.copy()
