@@ -10,6 +10,7 @@ worst a dozen limits give alike, at edges where the geometry's own rules change,
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -42,7 +43,14 @@ class FeasibilityScreen:
         self._limits = self._residuals(self._unknowns)
         self._count = self._limits.numel()
         self._at: Any = ca.Function("residuals", [self._unknowns], [self._limits]).expand()
-        self._sum, self._worst = self._solver(max(self._count, 1)), self._solver(1)
+
+    @cached_property
+    def _sum(self) -> Any:
+        return self._solver(max(self._count, 1))
+
+    @cached_property
+    def _worst(self) -> Any:
+        return self._solver(1)
 
     def _solver(self, count: int) -> Any:
         """IPOPT for the least sum of so many slacks: one for each limit, or one for all."""
