@@ -93,6 +93,17 @@ def test_calls_may_need_calls_that_may_share_arguments_and_have_graphs_of_their_
     assert_same(problem, np.array([0.3, 0.7, -0.4, 1.1]), np.array([0.9, -0.5]))
 
 
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_call_of_which_nothing_moves_has_no_derivatives(count: int) -> None:
+    x, p, entry = ca.MX.sym("x", 2), ca.MX.sym("p", 2), ca.SX.sym("entry", 2)
+    one = ca.Function("one", [entry], [ca.sin(entry[0]) * entry[1]])
+    other = ca.Function("other", [entry], [entry[0] ** 2 * entry[1]])
+    still = ca.sum2((one if count == 1 else one.map(count))(ca.repmat(p, 1, count)))
+    moved = other(ca.vertcat(x[0] * still, x[1]))
+    problem = ca.Function("problem", [x, p], [moved * still, ca.vertcat(moved * x[1], still)])
+    assert_same(problem, np.array([0.3, 0.7]), np.array([0.9, 2.0]))
+
+
 def test_a_problem_without_calls_has_derivatives_too() -> None:
     x, p = ca.MX.sym("x", 2), ca.MX.sym("p")
     problem = ca.Function("problem", [x, p], [ca.sin(x[0]) * p, ca.vertcat(x[0] * x[1] ** 2, x[1])])

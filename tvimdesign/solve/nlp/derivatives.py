@@ -227,6 +227,9 @@ def _go_back(calls: Sequence[_Call], multipliers: Any) -> tuple[list[Any], Any, 
     inner, outer, nus = [], ca.MX(0), []
     for call in reversed(calls):
         count = call.before.numel()
+        if not call.moved.numel():  # it stays as it is, whatever the unknowns are
+            multipliers = multipliers[:count]
+            continue
         mu = multipliers[count:]
         nu = ca.MX.sym("nu", call.moved.numel())
         nus.append((nu, ca.mtimes(call.slopes.T, mu)))
