@@ -277,6 +277,10 @@ def test_where_a_design_lies_between_listed_sizes_the_study_is_infeasible_and_to
     assert found.design.status == NO_COMBINATION
     said = complaint(found, study.table)
     assert re.search(r"With wire_diameter 2\.[45]\d* mm there is a design: list values nearer", said)
+    assert "time_limit" not in said
+    assert found.solution is not None
+    late = replace(found, solution=replace(found.solution, out_of_time=60.0))
+    assert "raise `solver.time_limit`" in complaint(late, study.table)
     assert "solver.starts" not in said  # no other start helps
 
 

@@ -48,6 +48,8 @@ def complaint(answer: StudyResult, table: Table) -> str:
         lines.append(
             "Ease a limit, or widen a range under `vary`. The design.json written is the one that comes closest."
         )
+    elif between is not None and solution is not None and solution.out_of_time is not None:
+        lines.append("The time was over before all were searched: raise `solver.time_limit` (or --time-limit).")
     elif between is None:
         lines += endings(solution.starts if solution else ())
         lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")
