@@ -85,7 +85,6 @@ def main() -> None:
     follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
-    load_without_help()
     from tvimdesign.report.figures.warm_up import warm_up
 
     warm_up()
@@ -105,13 +104,6 @@ def main() -> None:
     if not other or os.waitpid(other, 0)[1] == 0:
         os._exit(0)
     raise SystemExit(1)
-
-
-def load_without_help() -> None:
-    """Load matplotlib without the tables of properties that it writes into its help: a quarter of the time."""
-    from matplotlib import artist
-
-    artist.kwdoc = lambda artist: ""  # noqa: ARG005 - matplotlib's own signature
 
 
 def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) -> None:

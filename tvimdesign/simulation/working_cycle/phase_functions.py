@@ -134,7 +134,7 @@ class PhaseFunctions:
         return self._watched[key]
 
     def watch_in_parts(self, wanted: Sequence[str]) -> Any:
-        """The same function as `watch`, put together of four where it asks for the moduli of a layer that melts.
+        """The same function as `watch`, put together of several where it asks for the moduli of a layer that melts.
 
         They are most of an instant's arithmetic, the same for each of the layer's slices, and depend on their
         temperatures alone: apart from the rest, their second derivatives take a fraction of the work.
