@@ -17,7 +17,7 @@ from tvimdesign.device.compression.ring_heat import (
     RIM,
     WITHIN,
 )
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study
@@ -106,7 +106,7 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     tight = TABLE.evaluate(airless, ["stack", "rotor_thickness"])
     thickness = tight["rotor_thickness"]
     root = 0.24 * 6 * 14e-3 * 5e-3 / (3.5e-3 / 3.0 + 0.4e-3)
-    above = 0.24 * 12 * 14e-3 / lumps.ledge_ways(2.5e-3 / thickness)[0]
+    above = 0.24 * 12 * 14e-3 / shape_factors.ledge_ways(2.5e-3 / thickness)[0]
     assert tight["stack"].beside[0].conductance == pytest.approx(1.0 / (1.0 / root + 1.0 / above), rel=1e-6)
     # 0.4 mm of the vanes stand beside the clearance above the blocks.
     volume = 6 * 14e-3 * 5e-3 * (thickness + 0.4e-3)

@@ -10,7 +10,7 @@ from scipy.integrate import solve_bvp
 from scipy.sparse import eye, kron
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import columns, lumps
+from tvimdesign.physics.heat_flow import columns, lumps, shape_factors, strip
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def test_what_a_layer_gives_evenly_falling_leaves_it_as_cold_in_the_mean_as_its_
     heights = (np.arange(deep) + 0.5) / deep
     flux = 1.0 / np.tan(0.5 * np.pi * heights)
     mean = np.mean(layer_that_loses(flux, width, across))
-    share = lumps.FALLING * lumps.gap_end_depth(0.0)
+    share = shape_factors.FALLING * shape_factors.gap_end_depth(0.0)
     sink = 2.0 * (1.0 - heights) * share / width
     column = np.linalg.solve(second_difference(deep, 2.0), -sink)
     assert np.mean(column) == pytest.approx(mean, rel=0.01)
@@ -111,8 +111,8 @@ def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward: float, 
     tanh, wave = np.tanh(steep * width), np.sqrt(coefficient * sheet)
     exact = wave * (onward / wave + tanh) / (1.0 + onward / wave * tanh)
     air = lumps.Surface(1.0, coefficient)
-    bodies = lumps.strip(width, 1.0, sheet / width, air)
-    last, to_end, at_end = lumps.strip_end(bodies[-1].surface, sheet / width / lumps.BEYOND, onward, 300.0)
+    bodies = strip.bodies(width, 1.0, sheet / width, air)
+    last, to_end, at_end = strip.end(bodies[-1].surface, sheet / width / strip.BEYOND, onward, 300.0)
     # What counts at the end meets the same air as the end itself, which takes all at 0.
     assert last.area + at_end < bodies[-1].surface.area
     taken = to_end + coefficient * last.area

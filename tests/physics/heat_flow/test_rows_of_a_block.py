@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import eye, kron
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import lumps, rows
+from tvimdesign.physics.heat_flow import lumps, rows, shape_factors
 from tvimdesign.physics.heat_flow.lumps import Link, Slope
 
 Array = NDArray[np.float64]
@@ -50,7 +50,9 @@ def test_what_is_uneven_over_the_height_of_a_strip_passes_its_edge_as_in_two_dim
     source[0] = 2.0 * (along / slenderness) ** 2 * edge
     found = np.asarray(spsolve(inside.tocsc(), source.ravel())).reshape(along, high)
     passed = 2.0 * along / slenderness * (edge - found[0])
-    assert passed == pytest.approx(edge / lumps.uneven_way(slenderness), abs=0.01 / lumps.uneven_way(slenderness))
+    assert passed == pytest.approx(
+        edge / shape_factors.uneven_way(slenderness), abs=0.01 / shape_factors.uneven_way(slenderness)
+    )
 
 
 def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat() -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow.lumps import ledge_ways
+from tvimdesign.physics.heat_flow.shape_factors import ledge_ways
 from tvimdesign.physics.heat_flow.slab_faces import beyond_constriction, ledge_across
 from tvimdesign.physics.heat_flow.still_air import below_lip, room
 

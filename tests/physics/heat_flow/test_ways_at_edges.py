@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, diags
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import lumps, stepped_sheet
+from tvimdesign.physics.heat_flow import shape_factors, stepped_sheet
 
 Array = NDArray[np.float64]
 
@@ -54,9 +54,11 @@ def test_the_end_of_a_gap_over_a_slot_gives_what_conduction_in_two_dimensions_sa
     kept[slot + 1 :, deep] = kept[slot + 1, 1 : deep + 1] = kept[:, -1] = 0.0
     found = conducted(inside, kept, np.zeros(inside.shape))
     flux = 2.0 * (1.0 - height - found[1, deep + 1 : -1])
-    assert sum(lumps.gap_end(slot / cells)) == pytest.approx(np.sum(flux), rel=0.01)
+    assert sum(shape_factors.gap_end(slot / cells)) == pytest.approx(np.sum(flux), rel=0.01)
     # And how deep it lies in what ends there.
-    assert lumps.gap_end_depth(slot / cells) == pytest.approx(np.sum(0.5 * flux * height * (1.0 - height)), rel=0.01)
+    assert shape_factors.gap_end_depth(slot / cells) == pytest.approx(
+        np.sum(0.5 * flux * height * (1.0 - height)), rel=0.01
+    )
 
 
 @pytest.mark.parametrize("slenderness", [0.3, 0.6, 1.0, 1.7])
@@ -71,7 +73,7 @@ def test_a_ledge_conducts_as_two_dimensions_say(slenderness: float) -> None:
     face = np.mean(found[:wide, -1]) + 0.5 / wide
     ledge = np.mean(found[:wide])
     root = 0.5 * np.mean(found[wide - 1] + found[wide])
-    onto, onward = lumps.ledge_ways(wide / high)
+    onto, onward = shape_factors.ledge_ways(wide / high)
     assert onto == pytest.approx(face - ledge, rel=0.02)
     assert onward == pytest.approx(ledge - root, rel=0.02)
 
@@ -89,7 +91,7 @@ def test_a_slab_that_is_heated_over_a_share_of_its_face_resists_as_conduction_sa
     found = conducted(inside, kept, source)
     # Half a cell lies between the face and the first row, which the heated share passes in less width.
     onto = np.mean(found[1, heated]) - np.mean(found[1, 1:-1]) + 0.5 / high * (1.0 / share - 1.0)
-    assert lumps.constriction(share) == pytest.approx(onto, rel=0.01, abs=1e-3)
+    assert shape_factors.constriction(share) == pytest.approx(onto, rel=0.01, abs=1e-3)
 
 
 @pytest.mark.parametrize("share", [0.25, 0.7])
@@ -123,4 +125,4 @@ def test_heat_from_a_lip_s_side_spreads_in_lip_and_plate_as_in_two_dimensions(pl
     before, behind = away < -plate, (away > wide + plate) & (away < long)
     before[0] = False
     at_side = [np.polyfit(away[places], mean[places], 1)[1] for places in (before, behind)]
-    assert lumps.constriction(lip / (lip + plate)) == pytest.approx(side - np.mean(at_side), rel=0.2)
+    assert shape_factors.constriction(lip / (lip + plate)) == pytest.approx(side - np.mean(at_side), rel=0.2)

@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse import diags, identity, kron
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import shape_factors
 
 
 def in_two_dimensions(slenderness: float, across: int = 60) -> float:
@@ -30,8 +30,8 @@ def in_two_dimensions(slenderness: float, across: int = 60) -> float:
 
 @pytest.mark.parametrize("slenderness", [0.7, 1.3, 2.0, 4.0])
 def test_faces_are_as_far_from_the_mean_as_conduction_in_two_dimensions_says(slenderness: float) -> None:
-    assert lumps.way_to_faces(slenderness) == pytest.approx(in_two_dimensions(slenderness), rel=0.01)
+    assert shape_factors.way_to_faces(slenderness) == pytest.approx(in_two_dimensions(slenderness), rel=0.01)
 
 
 def test_a_long_bar_has_its_mean_a_third_of_the_way_from_the_middle_to_its_faces() -> None:
-    assert lumps.way_to_faces(1e4) == pytest.approx(1.0 / 3.0, rel=1e-3)
+    assert shape_factors.way_to_faces(1e4) == pytest.approx(1.0 / 3.0, rel=1e-3)

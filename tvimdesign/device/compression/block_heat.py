@@ -14,7 +14,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import columns, heat, lumps, rows
+from tvimdesign.physics.heat_flow import columns, heat, lumps, rows, strip
 from tvimdesign.physics.layers import film
 
 quantities = QuantityGroup(shared.group)
@@ -136,12 +136,12 @@ def rotor_beside(
     # What of a vane stands beside the clearance above the blocks counts as plate.
     upper = (rotor_vanes.area * vane_height - pcl_area * plate_depth) * structure_density * structure_specific_heat
     vanes = lumps.Lump(vane_ways[0], above_vanes * capacity + upper, outside._replace(area=above_vanes))
-    first, *others = lumps.strip(heated, capacity, k * heated / rotor_thickness, lumps.Surface(1.0, 0.0))
+    first, *others = strip.bodies(heated, capacity, k * heated / rotor_thickness, lumps.Surface(1.0, 0.0))
     along = k * rotor_thickness * ring_width * ways_along[0]
-    others[-1] = others[-1]._replace(surface=outside._replace(area=heated, behind=lumps.BEYOND * rotor_thickness / k))
+    others[-1] = others[-1]._replace(surface=outside._replace(area=heated, behind=strip.BEYOND * rotor_thickness / k))
     # The lower tenth is divided in what is above blocks and above pads.
     blocks = 1.0 - pads_share
-    first = first._replace(conductance=lumps.STRIP[0] * along, capacity=blocks * first.capacity)
+    first = first._replace(conductance=strip.STRIP[0] * along, capacity=blocks * first.capacity)
     others[0] = others[0]._replace(conductance=blocks * others[0].conductance)
     return (vanes, first, *others)
 

@@ -16,8 +16,9 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link, Place
+from tvimdesign.physics.heat_flow import lumps, shape_factors
+from tvimdesign.physics.heat_flow.lumps import Body, Link, Place
+from tvimdesign.physics.heat_flow.strip import BEYOND, STRIP, WAYS
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
@@ -107,7 +108,7 @@ def around_pads(
 
 
 def _divided(whole: Body) -> list[Body]:
-    """A strip that is heated at its edge, in three bodies from there on (`lumps.STRIP`)."""
+    """A strip that is heated at its edge, in three bodies from there on (`strip.STRIP`)."""
     surface = whole.surface
     return [Body(share * whole.capacity, surface._replace(area=share * surface.area)) for share in STRIP]
 
@@ -165,7 +166,7 @@ def floor_links(
     Heat goes along the ring from below the pads through what is below the blocks, which loses or takes heat evenly on
     the way. What is below pads has its mean temperature a quarter of its length from either end (a sixth where both
     ends take as much, a third where one takes all), what is heated at its end a third of its length away. What a body
-    of a row differs from its row's mean takes the way of a cosine over the depth (`lumps.uneven_way`).
+    of a row differs from its row's mean takes the way of a cosine over the depth (`shape_factors.uneven_way`).
     """
     pads = pads_share * heated_length
     blocks, sheet = heated_length - pads, structure_conductivity * floor_thickness * ring_width
@@ -173,9 +174,9 @@ def floor_links(
     out = out / (heated_length + plate_depth + wall_depth)
     to_walls = sheet / (0.25 * pads + WAYS[0] * wall_depth)
     to_vanes, to_pads, across = lumps.heated_between(sheet / blocks, 3.0 * sheet / plate_depth, 4.0 * sheet / pads)
-    turned = lumps.uneven_way(wall_depth / floor_thickness) * floor_thickness
+    turned = shape_factors.uneven_way(wall_depth / floor_thickness) * floor_thickness
     uneven_walls = sheet / (0.25 * pads + turned)
-    turned = lumps.uneven_way(plate_depth / floor_thickness) * floor_thickness
+    turned = shape_factors.uneven_way(plate_depth / floor_thickness) * floor_thickness
     uneven_vanes = lumps.heated_between(sheet / blocks, sheet / turned, 4.0 * sheet / pads)[0]
     found = []
     found += [*_evened(FLOOR, uneven_vanes - to_vanes), *_evened(BELOW_PADS, uneven_walls - to_walls)]
@@ -259,7 +260,7 @@ def stack_links(
     along it conducts along as well, like a strip of a third of its width. Above tiles there is more air.
     """
     blocks, pads = (("around", FLOOR[0]), ("beside", ABOVE[0])), (("around", BELOW_PADS[0]), ("around", ABOVE_PADS))
-    to_faces = lumps.way_to_faces(2.0 * block_depth / block_height)
+    to_faces = shape_factors.way_to_faces(2.0 * block_depth / block_height)
     below_pads = tuple((("around", i), share) for i, share in zip(BELOW_PADS, STRIP, strict=True))
     sloping = {blocks[0]: lumps.Slope(below_pads, ("around", BELOW_VANES), slope_share)}
     found = []
@@ -317,7 +318,7 @@ def side_links(
     Tiles heat a vane over their own height.
     """
     housing, pads = ("around", HOUSING), pad_height / block_height * peltier_thickness * open_sides
-    onto = WAYS[0] * wall_depth + lumps.constriction(pad_height / block_height) * pad_height
+    onto = WAYS[0] * wall_depth + shape_factors.constriction(pad_height / block_height) * pad_height
     into_walls = structure_conductivity * (heated_area - cold_area) / onto
     return (
         Link(("layer", 0), housing, open_sides * block_depth),

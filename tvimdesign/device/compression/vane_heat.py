@@ -1,7 +1,7 @@
 """What the vanes of rotor and housing pass to floor and rotor plate: through their roots, and through the clearance at
 their other end.
 
-A vane meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`lumps.ledge_ways`).
+A vane meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import lumps
-from tvimdesign.physics.heat_flow.lumps import STRIP, Link
+from tvimdesign.physics.heat_flow import lumps, shape_factors
+from tvimdesign.physics.heat_flow.lumps import Link
+from tvimdesign.physics.heat_flow.strip import STRIP
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
@@ -83,4 +84,4 @@ def vane_links(
 
 def _into(sheet: Scalar, width: Scalar, depth: Scalar) -> Scalar:
     """Conductance [W/K] from a strip of a face to the mean of what lies before it, k L of its length."""
-    return sheet / lumps.ledge_ways(width / depth)[0]
+    return sheet / shape_factors.ledge_ways(width / depth)[0]

@@ -1,7 +1,7 @@
 """Ways along the pads' cold sides to what takes their heat: ledges touch a share of them, a sink the rest.
 
 The legs conduct k_x along and k_y up: a slab of the mean k = (k_x k_y)^(1/2), its depth stretched by (k_x/k_y)^(1/2).
-The side itself is a sheet on it. Half of a pad's width is the slab's height (`lumps.constriction`). Air in the open
+The side itself is a sheet on it. Half of a pad's width is the slab's height (`constriction`). Air in the open
 windows takes too little heat to count.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, peltier
+from tvimdesign.physics.heat_flow import peltier, shape_factors
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
 
 quantities = QuantityGroup(shared.group)
@@ -52,11 +52,11 @@ def cold_side_slab(
 def cold_to_ledges(cold_side_slab: ColdSide, heated_area: Scalar, cold_area: Scalar) -> Scalar:
     """Resistance from where the cold sides have their mean temperature to the ledges they lie on [K/W]."""
     share = (heated_area - cold_area) / heated_area
-    return lumps.constriction(share, cold_side_slab.sheet, cold_side_slab.depth) / cold_side_slab.conductance
+    return shape_factors.constriction(share, cold_side_slab.sheet, cold_side_slab.depth) / cold_side_slab.conductance
 
 
 @quantities.helper()
 def cold_to_sink(cold_side_slab: ColdSide, heated_area: Scalar, cold_area: Scalar) -> Scalar:
     """Resistance from where the cold sides have their mean temperature to a sink in the windows [K/W]."""
     share = cold_area / heated_area
-    return lumps.constriction(share, cold_side_slab.sheet, cold_side_slab.depth) / cold_side_slab.conductance
+    return shape_factors.constriction(share, cold_side_slab.sheet, cold_side_slab.depth) / cold_side_slab.conductance

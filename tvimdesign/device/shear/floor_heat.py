@@ -14,10 +14,11 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, slab_faces
-from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
+from tvimdesign.physics.heat_flow import lumps, shape_factors, slab_faces, strip
+from tvimdesign.physics.heat_flow.lumps import Body, Link
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
 from tvimdesign.physics.heat_flow.slab_faces import ACROSS
+from tvimdesign.physics.heat_flow.strip import BEYOND, STRIP, WAYS
 from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
@@ -57,7 +58,7 @@ def floor_end(
     counts there."""
     along = structure_conductivity * floor_web * edge_length**2 / (BEYOND * beside_area)
     face = floor_in_air._replace(area=STRIP[-1] * beside_area, behind=floor_web / 3.0 / structure_conductivity)
-    return lumps.strip_end(face, along, housing_ring * floor_web / floor_thickness, ambient_temperature)
+    return strip.end(face, along, housing_ring * floor_web / floor_thickness, ambient_temperature)
 
 
 @quantities.helper()
@@ -140,13 +141,13 @@ def pad_wall(
 ) -> Scalar:
     """Conductance [W/K] from one side of the pads into the first body of the floor beside half of their pockets.
 
-    A spreader's edge heats a share of that body's height (`lumps.constriction`).
+    A spreader's edge heats a share of that body's height (`shape_factors.constriction`).
     """
     way = WAYS[0] * beside_area / edge_length
     along = structure_conductivity * 0.5 * pad_depth * edge_length / way
     if heater_form == CUT:
         return lumps.in_series(pad_edge, along)
-    crowded = lumps.constriction(spreader_depth / (0.5 * pad_depth))
+    crowded = shape_factors.constriction(spreader_depth / (0.5 * pad_depth))
     return lumps.in_series(pad_edge, along, structure_conductivity * edge_length / crowded)
 
 
@@ -176,7 +177,7 @@ def stack_links(
     slender, face = ledge / floor_web, around_pads[LEDGES].surface
     onto, to_root, under = (
         way / (structure_conductivity * edge_length)
-        for way in (*lumps.ledge_ways(slender), slab_faces.ledge_across(slender))
+        for way in (*shape_factors.ledge_ways(slender), slab_faces.ledge_across(slender))
     )
     beyond = (bare + first) / (structure_conductivity * floor_web * edge_length)
     upper, lower, ledges = ("around", CORNER), ("around", UPPER[0]), ("around", LEDGES)

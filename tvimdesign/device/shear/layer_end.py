@@ -16,7 +16,7 @@ from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.still_air import below_lip
@@ -112,8 +112,8 @@ def cold_end(melt_lip: str, end_wall: EndWall | None) -> ColdEnd | None:
     # Slices that fall evenly are this much above the wall in their sum, twice as much as the half of a bare layer.
     fall = layer * (2.0 - layer)
     return ColdEnd(
-        of_layer=k * layer * lumps.sink_of_slices(end.deep / width, end.colder / width) * width,
-        of_pads=k * (end.wall - fall * lumps.FALLING * end.deep),
+        of_layer=k * layer * shape_factors.sink_of_slices(end.deep / width, end.colder / width) * width,
+        of_pads=k * (end.wall - fall * shape_factors.FALLING * end.deep),
         near=k * end.near,
         contact=0.5 * end_wall.contacts,
         free=end_wall.free,
@@ -158,16 +158,16 @@ def side_links(
     """From the liner's rim to the plate, and from the layer's free side through the air of the gap, to the floor's
     corner and to the plate beside it.
 
-    `lumps.gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
-    it comes from within the layer (`lumps.gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot
+    `gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
+    it comes from within the layer (`gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot
     side gives it (`still_air.below_lip`), and the lip gets the rest (`lip_heat`).
     """
     conductivity, slot = air_beside
-    near, far = lumps.gap_end(slot) if melt_lip == NO_LIP else below_lip(slot)[::-1]
+    near, far = shape_factors.gap_end(slot) if melt_lip == NO_LIP else below_lip(slot)[::-1]
     through = edge_length * conductivity
     if melt_lip != NO_LIP:
         return (*liner_rim, Link(HOT, FLOOR, near * through))
-    corner = structure_conductivity * edge_length * lumps.corner_shape(near)
-    inside = lumps.FALLING * lumps.gap_end_depth(slot) / (near + far)
+    corner = structure_conductivity * edge_length * shape_factors.corner_shape(near)
+    inside = shape_factors.FALLING * shape_factors.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
     return (*liner_rim, to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))

@@ -13,7 +13,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import lumps, shape_factors, strip
 
 quantities = QuantityGroup(shared.group)
 
@@ -87,7 +87,7 @@ def plate_to_edge(
 ) -> Scalar:
     """Conductance [W/K] from where the plate above the arcs has its mean temperature to their edges."""
     width, sheet = pcl_area / edge_length, structure_conductivity * backing_depth
-    return sheet * edge_length / (width * lumps.way_in_fin(plate_slenderness))
+    return sheet * edge_length / (width * shape_factors.way_in_fin(plate_slenderness))
 
 
 @quantities.helper()
@@ -106,7 +106,7 @@ def core_share(
 ) -> Scalar:
     """What of the conductance to the core is left from the plate's last body on."""
     across = structure_conductivity * rotor_thickness * edge_length**2 / beside_area
-    onward = lumps.BEYOND * core_and_link.conductance / across
+    onward = strip.BEYOND * core_and_link.conductance / across
     return 1.0 / (1.0 + onward)
 
 
@@ -131,7 +131,7 @@ def rotor_beside(
     Heat goes along it through plate and lip, beside one another.
     """
     capacity = structure_density * structure_specific_heat
-    chain = lumps.strip(
+    chain = strip.bodies(
         beside_area,
         rotor_thickness * capacity,
         structure_conductivity * rotor_thickness * edge_length**2 / beside_area,

@@ -2,7 +2,7 @@
 
 Layer and liner end at one cold wall (`layer_end.end_wall`): the walls of the recess, and below them a lip, if there is
 one. The liner's cells give by their own excess over the plate's edge what such a wall takes beside them of an even
-fall. The plate is that wall's for a share of its depth (`lumps.constriction`).
+fall. The plate is that wall's for a share of its depth (`shape_factors.constriction`).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.layer_end import EndWall
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Link, Lump
 
@@ -28,7 +28,9 @@ def liner_to_wall(liner_sheet: Liner | None, end_wall: EndWall | None) -> Scalar
     above = 1.0 - end_wall.layer
     excess = above - 0.5 * end_wall.sheet
     return (
-        end_wall.conductivity * end_wall.end.rim / (excess - lumps.AT_WALL * end_wall.end.sheet_colder / end_wall.width)
+        end_wall.conductivity
+        * end_wall.end.rim
+        / (excess - shape_factors.AT_WALL * end_wall.end.sheet_colder / end_wall.width)
     )
 
 
@@ -50,7 +52,7 @@ def liner_rim(
     if liner_sheet is None:
         return ()
     film = liner_film_conductivity * liner_thickness / liner_film
-    onto = structure_conductivity / lumps.constriction(liner_depth / rotor_thickness)
+    onto = structure_conductivity / shape_factors.constriction(liner_depth / rotor_thickness)
     whole = edge_length * lumps.in_series(liner_to_wall, film, onto)
     beside = rotor_beside[0].conductance / plate_to_edge
     return (Link(LINER, PLATE, (1.0 - beside) * whole), Link(LINER, BESIDE, beside * whole))

@@ -15,10 +15,11 @@ from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, slab_faces, stepped_sheet, still_air
+from tvimdesign.physics.heat_flow import shape_factors, slab_faces, stepped_sheet, still_air
 from tvimdesign.physics.heat_flow.lip import Lip
-from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Lump, Place
+from tvimdesign.physics.heat_flow.lumps import Lump, Place
 from tvimdesign.physics.heat_flow.star import Arm
+from tvimdesign.physics.heat_flow.strip import STRIP, WAYS
 
 quantities = QuantityGroup(shared.group)
 
@@ -82,7 +83,9 @@ def lip_faces(
     depth = lip_height + rotor_thickness
     share, begin, found = lip_height / depth, 0.0, []
     for covered in lip_over:
-        found.append(slab_faces.beyond_constriction(share, begin / depth, covered / depth) / lumps.constriction(share))
+        found.append(
+            slab_faces.beyond_constriction(share, begin / depth, covered / depth) / shape_factors.constriction(share)
+        )
         begin = begin + covered
     return tuple(found)
 
@@ -100,12 +103,12 @@ def lip_root(
     """Places whose mean is the strip's temperature at the arcs' edge: what lips begin from, and its mean in depth.
 
     The latter lies on the way from above the arcs to the first body beside them. What heat through a lip's side and
-    through the plate crowd less for one another (`lumps.constriction`) is a resistance below zero before that.
+    through the plate crowd less for one another (`shape_factors.constriction`) is a resistance below zero before that.
     """
     if melt_lip == NO_LIP:
         return None
     share = lip_height / (lip_height + rotor_thickness)
-    together = lumps.constriction(share) * share / (1.0 - share)
+    together = shape_factors.constriction(share) * share / (1.0 - share)
     way = WAYS[0] * beside_area / edge_length / (rotor_thickness + lip_height)
     whole = structure_conductivity * edge_length / rotor_beside[0].conductance
     from_lip, mean = (way - together) / whole, way / whole
@@ -130,13 +133,13 @@ def lip(
     """What heats and cools a lip; none without lips.
 
     Layer and pads give heat to its side (`cold_end`), and to its lower edge through the clearance. From there it
-    spreads as from a share of the end of a slab that is as deep as plate and lip together (`lumps.constriction`). Its
+    spreads as from a share of the end of a slab that is as deep as plate and lip together (`constriction`). Its
     lower face meets the floor (`lip_faces`).
     """
     if cold_end is None or lip_root is None:
         return None
     share = lip_height / (lip_height + rotor_thickness)
-    onto = lumps.constriction(share) / (1.0 - share)
+    onto = shape_factors.constriction(share) / (1.0 - share)
     (root, mean), (conductivity, slot) = lip_root, air_beside
     arms = [
         Arm(structure_conductivity / onto * edge_length, root),

@@ -9,7 +9,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER, LEDGES, LEGS, SPREADER, UPPER
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps
+from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.still_air import room
 from tvimdesign.physics.polymers import polymer
@@ -50,7 +50,7 @@ def tile_links(
     width = ((pcl_area - heated_area) / edge_length + slot) / peltier_thickness * up / evenly
     found = room(width, evenly / (pad_edge_contact * peltier_thickness))
     through = evenly * edge_length
-    corner = structure_conductivity * edge_length * lumps.corner_shape(found.ceiling)
+    corner = structure_conductivity * edge_length * shape_factors.corner_shape(found.ceiling)
     to_wall = lumps.in_series((found.ceiling + found.floor) * through, corner)
     sides = [Link(LEGS, place, found.tile * through) for place in WALL]
     return (

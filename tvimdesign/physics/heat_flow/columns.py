@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow.lumps import gap_end_depth
+from tvimdesign.physics.heat_flow.shape_factors import gap_end_depth
 from tvimdesign.physics.heat_flow.stack import Stack
 from tvimdesign.physics.heat_flow.walled_end import cooled_end, fallen
 
@@ -60,7 +60,7 @@ def in_sheet(place: Any, slenderness: Any) -> Any:
     """How far a place of a fin is below its mean temperature, over how far its edge is [1].
 
     The profile cosh(x p) over the place p from the middle (0) to the edge (1), x = w (h/k t)^(1/2) as in
-    `lumps.way_in_fin`, nearly `fed_evenly` where that is small.
+    `shape_factors.way_in_fin`, nearly `fed_evenly` where that is small.
     """
     mean = np.sinh(slenderness) / slenderness
     return (np.cosh(slenderness * place) - mean) / (np.cosh(slenderness) - mean)
@@ -69,7 +69,7 @@ def in_sheet(place: Any, slenderness: Any) -> Any:
 def at_end(place: Any, heights: Any, width: Any, slot: Any) -> Any:
     """How far a layer is below its mean over the width for the heat that its end loses, times k/k_gap [1].
 
-    Per excess of its near face at the end of a gap (`lumps.gap_end`), at the `heights` over its depth t and the width
+    Per excess of its near face at the end of a gap (`gap_end`), at the `heights` over its depth t and the width
     w/t. The end's flux is the sum of 2 sin(n pi y/t) over t, so that the layer is below what it would be by
 
         sum 2/(n pi) sin(n pi y/t) cosh(n pi p w/t)/sinh(n pi w/t),

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow.lumps import ZETA_3, Link, Place, Surface, surface_coefficient
+from tvimdesign.physics.heat_flow.lumps import Link, Place, Surface, surface_coefficient
+from tvimdesign.physics.heat_flow.shape_factors import ZETA_3
 
 AMBIENT = ("ambient", 0)
 ACROSS = 1.0 / 6.0
@@ -21,7 +22,7 @@ conductivity."""
 def ledge_across(slenderness: Any) -> Any:
     """How much colder than its mean a ledge's lower face is for heat that comes in evenly by its upper one.
 
-    Over heat over k and length, as `lumps.ledge_ways`: the sum of those terms with alternating signs,
+    Over heat over k and length, as `shape_factors.ledge_ways`: the sum of those terms with alternating signs,
 
         1/(6 r) - (3/4 zeta(3) - sum (-1)^(n + 1) exp(-2 n pi r)/n^3)/(pi^3 r^2).
     """

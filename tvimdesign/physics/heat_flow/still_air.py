@@ -1,7 +1,7 @@
 """Shape factors of still air in rooms with a warm and a cold wall: heat over conductivity, length and excess.
 
 By separation of variables (Carslaw and Jaeger, Conduction of Heat in Solids, ch. V) and by conformal maps (ch. XVI);
-walls that meet at two temperatures have a slot between them, as in `lumps.gap_end`.
+walls that meet at two temperatures have a slot between them, as in `shape_factors.gap_end`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow.lumps import gap_end
+from tvimdesign.physics.heat_flow.shape_factors import gap_end
 
 TERMS = 6
 AT_LIP, AT_EDGE, AT_FLOOR = 0.41, 0.16, 0.294

@@ -33,7 +33,7 @@ class WalledEnd(NamedTuple):
     deep: Any
     """How deep in the layer that heat comes out of it: the integral of q y (t - y)/(2 t^2) dy [1].
 
-    The layer is colder in the mean by that over its width, whatever its profile, as in `lumps.gap_end_depth`. Below a
+    The layer is colder in the mean by that over its width, whatever its profile, as in `gap_end_depth`. Below a
     sheet this is what a layer without one would have that gives as much for each height and kelvin."""
     colder: Any
     """How much colder the layer is in the mean than an even fall, times its width, over twice the mean of that [1]."""

@@ -1,0 +1,137 @@
+"""Shape factors of heat at edges, in ledges, fins and slabs, and how far a mean is from a face; all without units.
+
+By separation of variables and maps of the plane (Carslaw and Jaeger, Conduction of Heat in Solids, ch. V; Incropera,
+Fundamentals of Heat and Mass Transfer, ch. 3 and 4).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+ZETA_3 = 1.2020569032
+INTO_SLOT = 0.2619
+"""Heat per length over k and excess that leaves a warm wall above the slot's mouth for the slot: ln(1/0.4392)/pi, where
+0.4392 is the mouth's height in the map of `gap_end`, the root of sqrt(1 + u) = artanh(1/sqrt(1 + u))."""
+BEFORE_SLOT = 0.27993
+"""What a narrow slot takes of `gap_end_depth` for its width over the gap's: 2/pi^2 times the integral of p coth p up to
+1.19968, where p = coth p."""
+FALLING = 12.0
+"""What a layer gives in all over the `gap_end_depth` of it, where it gives 2 (1 - y/t) of that at each height y/t."""
+
+
+def gap_end(slot: Any) -> tuple[Any, Any]:
+    """Shape factors [1] from the end of a gap to its two walls, heat per length over k and the end's excess.
+
+    The end of a gap between walls of one temperature is warmer than they are by 1 at the one wall, falling evenly to 0
+    at the other. Its series of sines, 2/(n pi) sin(n pi y/t), brings 2/pi (1 + 1/2 + 1/3 + ...) to the first wall and
+    2/pi (1 - 1/2 + 1/3 - ...) = 2/pi ln 2 to the second (by separation of variables, Carslaw and Jaeger, Conduction of
+    Heat in Solids, ch. V). The first sum has no end. It ends at the `slot` between the end and that wall's own edge,
+    over t: by a Schwarz-Christoffel map a quarter plane g away from a warm wall takes 2/pi ln(pi R/(2 g)) over its face
+    within R, which joined to the series is 2/pi ln(t/(2 g)); 0.26 more leave the end for the slot. Written with
+    1 + (t/(2 g))^2, both together are within 1 % of conduction in two dimensions up to g = t/4, 3 % at 0.4 t.
+    """
+    return np.log(1.0 + 0.25 / slot**2) / np.pi + INTO_SLOT, 2.0 / np.pi * np.log(2.0)
+
+
+def gap_end_depth(slot: Any) -> Any:
+    """How much heat through the end of a gap lies deep in what ends there [1]: the integral of q y (t - y)/(2 t^2) dy.
+
+    A layer whose end loses the flux q(y) is colder in the mean by k_gap/k times that, times t over its width, than with
+    q at its faces: its mean over the width has T'' = q/(k w), whatever its profile. The series of `gap_end` is
+    cot(pi y/(2 t)), of which 7 zeta(3)/(2 pi^3) comes. Before a narrow slot g the map has the flux 1/(g s) at
+    y = 2 g/pi (s - artanh(1/s)): less by 2/pi^2 times the integral of p coth p up to artanh(1/s) = s, 0.28 g/t.
+    A fraction with both is within 2 % of conduction in two dimensions up to g = t/3, 3 % at 0.6 t.
+    """
+    whole = 3.5 * ZETA_3 / np.pi**3
+    return whole / (1.0 + BEFORE_SLOT * slot / whole)
+
+
+AT_WALL = 1.2
+"""How much colder a profile is at the end where a wall takes its heat than in the mean: as `sink_of_slices` says."""
+
+
+def sink_of_slices(deep: Any, colder: Any) -> Any:
+    """What a layer's slices give to a wall at its end, over k/t and their excess, for the depth it comes from [1].
+
+    `deep` is `WalledEnd.deep` over the layer's width w/t: how much colder its mean is than an even fall from near to
+    far face. Slices that give x per excess have the profile sinh(x^1/2 (1 - y/t)), the mean of which is below the even
+    fall's by 1/2 - tanh(x^1/2/2)/x^1/2 = x/24 - x^2/240 + ..., here solved for x within 2 % up to 0.08. What is
+    left of the excess follows from how much `colder` the layer is (`WalledEnd.colder` over the width), by a sheet too.
+    """
+    return 2.0 * FALLING * deep / (1.0 - 2.0 * AT_WALL * colder)
+
+
+def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
+    """Ways [1] from a ledge's upper face to its mean, and on to its root, over its height: T k L/Q, heat Q, length L.
+
+    A strip of the height h is heated evenly over its upper face from its free end to the width w = r h, its root, and
+    goes on beyond. Its mean lies w/3 before the root. By separation of variables (Carslaw and Jaeger, ch. V) the face
+    is warmer than that by the sum of 2/(n pi)^2/r - (1 - exp(-2 n pi r))/((n pi)^3 r^2), which is
+
+        1/(3 r) - (zeta(3) - sum exp(-2 n pi r)/n^3)/(pi^3 r^2).
+    """
+    falling = sum(np.exp(-2.0 * n * np.pi * slenderness) / n**3 for n in (1, 2, 3))
+    onto = 1.0 / (3.0 * slenderness) - (ZETA_3 - falling) / (np.pi**3 * slenderness**2)
+    return onto, slenderness / 3.0
+
+
+def constriction(share: Any, sheet: Any = 0.0, depth: Any = np.inf) -> Any:
+    """What a slab resists more where only a `share` of its face up to one side is heated, evenly, times k and length.
+
+    By separation of variables (Carslaw and Jaeger, ch. V) the heated share is warmer than the mean of the face by the
+    sum of 2 sin^2(n pi f)/((n pi)^3 f^2), heat over k and length, in a slab deeper than a third of its height. One of a
+    `depth`, over its height, has the tanh(n pi depth) less of heat along it; a `sheet` on its face, over k and height,
+    n pi as much more.
+    """
+    waves = [n * np.pi for n in range(1, 9)]
+    along = [np.tanh(wave * depth) + wave * sheet for wave in waves]
+    return sum(
+        2.0 * np.sin(wave * share) ** 2 / (wave**3 * share**2 * more) for wave, more in zip(waves, along, strict=True)
+    )
+
+
+def corner_shape(shape: Any) -> Any:
+    """Shape factor [1] of a corner of a solid, over its conductivity, that takes heat along one face as `gap_end` does.
+
+    The flux goes as 1/r from the corner on over a range of ln(R/r) = L = pi/2 of the `shape`. What comes in within r
+    passes the quarter circle at r: the flux's mean of the temperature is 2 L/(3 pi k) per heat and length.
+    """
+    return 3.0 / shape
+
+
+def way_to_faces(slenderness: Any) -> Any:
+    """Way from where a bar has its mean temperature to its two faces, as a share of half its height H.
+
+    A bar of the depth D = `slenderness` H that loses heat evenly over both faces, its two ends each of one temperature.
+    By separation of variables (Carslaw and Jaeger, ch. V) the faces are colder than the mean by q H/k times
+
+        sum 2/(n pi)^2 (1 - 2H/(n pi D) tanh(n pi D/(2H))),
+
+    a third where the bar is long. From the fourth term on the hyperbolic tangent is one.
+    """
+    found = 2.0 / np.pi**2 * (np.pi**2 / 6.0 - sum(n**-2.0 for n in (1, 2, 3)))
+    found = found - 4.0 / (np.pi**3 * slenderness) * (ZETA_3 - sum(n**-3.0 for n in (1, 2, 3)))
+    for n in (1, 2, 3):
+        half = 0.5 * n * np.pi * slenderness
+        found = found + 2.0 / (n * np.pi) ** 2 * (1.0 - np.tanh(half) / half)
+    return found
+
+
+def way_in_fin(slenderness: Any) -> Any:
+    """Way from where a fin that is heated through its face has its mean temperature to its root, over its length w.
+
+    k t T'' = h (T - T_0) with T'(0) = 0 (Incropera, Fundamentals of Heat and Mass Transfer, ch. 3): the mean of the
+    profile cosh is coth x/x - 1/x^2 from the root, x = w (h/k t)^(1/2); a third where the face feeds it evenly.
+    """
+    return 1.0 / (slenderness * np.tanh(slenderness)) - slenderness**-2.0
+
+
+def uneven_way(slenderness: Any) -> Any:
+    """Way into a strip for what differs over its height from the mean there, over that height [1]: 1/(pi tanh(pi r)).
+
+    The first cosine over the height h, cos(pi y/h), falls as cosh(pi x/h) to the strip's other end at w = r h, which no
+    heat passes (by separation of variables, Carslaw and Jaeger, ch. V).
+    """
+    return 1.0 / (np.pi * np.tanh(np.pi * slenderness))
