@@ -59,7 +59,7 @@ def run_page(folder: Path, *, parts: bool = True, more: Mapping[str, bytes] | No
             write_parts(folder / "cad")
             for name, data in (more or {}).items():
                 (folder / "cad" / name).write_bytes(data)
-        write_run_page(results, answered, Told(doubts=answered.reported["doubts"]))
+        write_run_page(results, answered, Told(warnings=answered.warnings))
         results.finish("evaluated", {}, {})
     return folder / FILE
 

@@ -227,7 +227,7 @@ class Result:
                 with PlotProcess() as drawing:
                     drawing.begin(written.path / "plots", asked, self.name)
                     drawing.finish()
-            told = Told(None, uncertainty, self.data.get("doubts", []), self._answered.front.front)
+            told = Told(None, uncertainty, self._answered.warnings, self._answered.front.front)
             write_run_page(written, self._answered, told)
             finish(written, self._answered)
         return Path(folder)

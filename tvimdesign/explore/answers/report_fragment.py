@@ -46,7 +46,7 @@ def _inputs(design: Design) -> set[str]:
 def report_fragment(folder: Path, answered: AnsweredStudy) -> dict[str, Any]:
     """First screen and sections as HTML, with what their figures are drawn from."""
     own = folder / PARTS / design_name(answered.result.design)
-    told = Told(doubts=answered.reported["doubts"], front=answered.front.front)
+    told = Told(warnings=answered.warnings, front=answered.front.front)
     page = run_page(DesignFolder(own), answered, told)
     left_out = {"study", "versions", *(() if (own / "cad").is_dir() else ("assembly",))}
     return {"folder": f"{PARTS}/{own.name}", **finite_data(page_fragment(page, left_out))}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, cast
 
 from tvimdesign.base.errors import InputError, TvimError
@@ -15,6 +16,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RunResults
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
+from tvimdesign.report.run.first_screen.warnings import Warned, warnings_of
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
 from tvimdesign.report.run.why import why
@@ -40,6 +42,11 @@ class AnsweredStudy:
     """The table of sensitivities as CSV, where it was asked for."""
     heat_map: dict[str, Any] = field(default_factory=dict)
     """What its figure is drawn from."""
+
+    @cached_property
+    def warnings(self) -> list[Warned]:
+        """What to tell of the design: the terminal, summary.txt and the page ask for the same."""
+        return warnings_of(self.result, self.study.table, self.reported["doubts"])
 
 
 def answer_study(

@@ -20,6 +20,7 @@ from tvimdesign.device import Table
 from tvimdesign.report.run.first_screen.requirements import lines_of
 from tvimdesign.report.run.first_screen.screen import AFTER, LINES, Told, first_screen
 from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
+from tvimdesign.report.run.first_screen.warnings import warnings_of
 from tvimdesign.report.run.why import binding
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_study, read_study_text
@@ -111,7 +112,7 @@ def case(asked: str) -> Case:
     shipped = name in ("paper_shear", "paper_as_published")
     found = shipped_answer(name) if shipped else answer(study)
     data = Uncertainty(study).data(found.design, 256) if name == asked else {}
-    return Case(study, table, found, Told(12.3, data, record_checks(study)))
+    return Case(study, table, found, Told(12.3, data, warnings_of(found, table, record_checks(study))))
 
 
 CASES = [

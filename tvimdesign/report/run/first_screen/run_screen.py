@@ -19,7 +19,6 @@ from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.first_screen.layout import LABEL, joined
 from tvimdesign.report.run.first_screen.screen import Told, first_screen
 from tvimdesign.report.run.first_screen.uncertainty_process import UncertaintyProcess
-from tvimdesign.report.run.first_screen.warnings import warnings_of
 from tvimdesign.report.run.full_summary import print_full_summary
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
@@ -68,7 +67,7 @@ class RunScreen:
     def told(self, answered: AnsweredStudy, *, timed: bool) -> Told:
         """What is to be told beside the answer; a file is not told the seconds, so that it is the same every time."""
         seconds = time.perf_counter() - self._began if timed else None
-        return Told(seconds, self.uncertainty(), answered.reported["doubts"], answered.front.front)
+        return Told(seconds, self.uncertainty(), answered.warnings, answered.front.front)
 
     def tell(self, answered: AnsweredStudy, folder: ResultsFolder, console: Console | None, *, full: bool) -> None:
         """Write summary.txt, and print the first screen, or everything."""
@@ -84,14 +83,13 @@ def write_summary(answered: AnsweredStudy, folder: ResultsFolder, uncertainty: M
     """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
     stream = io.StringIO()
     file = OwnMarkupConsole(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False)
-    doubts, front = answered.reported["doubts"], answered.front.front
-    _print_all(answered, Told(None, uncertainty, doubts, front), file)
+    _print_all(answered, Told(None, uncertainty, answered.warnings, answered.front.front), file)
     folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")
 
 
 def print_screen(answered: AnsweredStudy, console: Console) -> None:
     """Print the first screen of an answer of which nobody asked how sure it is."""
-    told = Told(doubts=answered.reported["doubts"], front=answered.front.front)
+    told = Told(warnings=answered.warnings, front=answered.front.front)
     show(first_screen(answered.result, answered.study.table, told, console.width), console)
 
 
@@ -104,9 +102,8 @@ def _print_all(answered: AnsweredStudy, told: Told, console: Console) -> None:
 
 def print_tables(answered: AnsweredStudy, uncertainty: Mapping[str, Any], console: Console) -> None:
     """Every table of an answer, for people."""
-    found, table, reported = answered.result, answered.study.table, answered.reported
-    print_full_summary(found, table, console, uncertainty, warnings_of(found, table, reported["doubts"]))
-    names = reported.get("sensitivities_left_out")
+    print_full_summary(answered.result, answered.study.table, console, uncertainty, answered.warnings)
+    names = answered.reported.get("sensitivities_left_out")
     if names:
         console.print(f"Not in sensitivities.csv, as they never happen or follow a profile: {', '.join(names)}.")
     answered.front.show(console)

@@ -12,7 +12,7 @@ from tvimdesign.report.run.first_screen.measured import measured_lines
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
 from tvimdesign.report.run.first_screen.requirements import Line, lines_of, screen_lines
 from tvimdesign.report.run.first_screen.verdict import chosen_lines, current_lines, header, module_lines, trade_lines
-from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
+from tvimdesign.report.run.first_screen.warnings import Warned, warning_lines
 from tvimdesign.solve.result import StudyResult
 
 LINES = 40
@@ -30,8 +30,8 @@ class Told:
     """How long the run took; None where that is not to be told."""
     uncertainty: Mapping[str, Any] = field(default_factory=dict)
     """What `uncertainty_data` says; empty where nothing is known."""
-    doubts: Sequence[str] = ()
-    """What chosen records say against themselves."""
+    warnings: Sequence[Warned] = ()
+    """What `warnings_of` says."""
     front: Any = None
 
 
@@ -52,7 +52,7 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
     left = LINES - AFTER - len(head) - len(top) - len(bottom)
     asked = _some(requirements, width, min(_REQUIREMENTS, left - 1))
     left -= len(asked)
-    return [*head, *asked, *top, *warning_lines(warnings_of(answer, table, told.doubts), width, max(left, 1)), *bottom]
+    return [*head, *asked, *top, *warning_lines(told.warnings, width, max(left, 1)), *bottom]
 
 
 def _some(requirements: Sequence[Line], width: int, most: int) -> list[str]:

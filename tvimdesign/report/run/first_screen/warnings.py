@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
@@ -21,30 +20,8 @@ Warned = tuple[str, str]
 """What is wrong, and what to write in the study."""
 
 
-@dataclass(frozen=True)
-class _Answered:
-    """What the last that was asked is warned of: the terminal, summary.txt (twice) and the page ask for the same."""
-
-    answer: StudyResult
-    table: Table
-    doubts: tuple[str, ...]
-    warnings: tuple[Warned, ...]
-
-
-_last: list[_Answered] = []
-
-
 def warnings_of(answer: StudyResult, table: Table, doubts: Sequence[str]) -> list[Warned]:
-    """What to tell of a design, what matters most first."""
-    for last in _last:
-        if last.answer is answer and last.table is table and last.doubts == tuple(doubts):
-            return list(last.warnings)
-    found = _warnings(answer, table, doubts)
-    _last[:] = [_Answered(answer, table, tuple(doubts), tuple(found))]
-    return found
-
-
-def _warnings(answer: StudyResult, table: Table, doubts: Sequence[str]) -> list[Warned]:
+    """What to tell of a design, what matters most first; `doubts` are what chosen records say against themselves."""
     if not answer.found:
         return [_other("doubt", line=doubt) for doubt in doubts]
     return [

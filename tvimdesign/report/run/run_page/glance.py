@@ -21,7 +21,6 @@ from tvimdesign.report.run.first_screen.verdict import (
     starts,
     trade_lines,
 )
-from tvimdesign.report.run.first_screen.warnings import warnings_of
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.summary_tables import checks_table
 
@@ -49,8 +48,7 @@ def glance(answered: AnsweredStudy, told: Told) -> list[Block]:
     found = facts_of(lines)
     if agree := ", ".join(starts(answer)):
         found.append(("Starts", agree))
-    warnings = warnings_of(answer, table, told.doubts)
-    return [Facts(found), *([Warned(warnings)] if warnings else [])]
+    return [Facts(found), *([Warned(told.warnings)] if told.warnings else [])]
 
 
 def facts_of(lines: Sequence[str]) -> list[tuple[str, str]]:
