@@ -1,12 +1,13 @@
 """Ends commands at random moments by SIGINT, SIGTERM and SIGKILL, and looks at what is left.
 
-    python campaigns/kills.py [--tries 20] [--seed 1] [--jobs 2] [--commands run front ...] [--out FILE]
-                              [--fe-python PATH]
+    python campaigns/kills.py [--tries 20] [--seed 1] [--jobs 2] [--commands run front ...]
+                              [--signals SIGINT ...] [--out FILE] [--fe-python PATH]
 
-After each: no process left two seconds later, no temporary folder, every file whole, the manifest says what happened,
-a front or a sweep that is resumed ends in the same bytes as one that ran through, and an explorer has kept what it said
-that it kept. A moment is so many seconds of processor time of the command and its children, so that it means the same
-beside other work. Tries are appended to FILE, a line each; those in it are not done again.
+After each: the command did not go on, no process left two seconds later, no temporary folder, every file whole, the
+manifest says what happened, a front or a sweep that is resumed ends in the same bytes as one that ran through, and an
+explorer has kept what it said that it kept. A moment is so many seconds of processor time of the command and its
+children, so that it means the same beside other work. Tries are appended to FILE, a line each; those in it are not done
+again.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ import tempfile
 import threading
 import time
 import zipfile
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -35,6 +37,7 @@ from typing import Any
 import explorer_talk
 import psutil
 from ended_commands import COMMANDS, FIRST, GOES_ON, KEPT, NEEDS_FE, ROOT, SERVED, SERVES, SMALL, coarse_python
+from shell_signals import follow_signals
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
 MARK = "TVIMDESIGN_CAMPAIGN"
@@ -101,6 +104,15 @@ def until(process: subprocess.Popen[bytes], seconds: float) -> None:
             return
 
 
+def ended_within(process: subprocess.Popen[bytes], seconds: float) -> tuple[int | None, float]:
+    """Exit code of a command, none where it is at work then, and what it took of the processor meanwhile [s]."""
+    began, before, now = time.monotonic(), processor_time(process), 0.0
+    while process.poll() is None and time.monotonic() < began + seconds:
+        now = max(now, processor_time(process))
+        time.sleep(0.05)
+    return process.returncode, max(now - before, 0.0)
+
+
 def address_of(own: Path) -> str:
     """Where an explorer serves; empty where it does not yet."""
     words = (own / "told.txt").read_text(errors="replace").split()
@@ -149,13 +161,12 @@ def faults_after(one: Try, own: Path, seed: int = 1) -> list[str]:
     ended = process.poll() is not None  # it was through before
     process.send_signal(one.number)
     began = time.monotonic()
-    try:
-        code = process.wait(timeout=30.0 * load())
-    except subprocess.TimeoutExpired:
+    code, more = ended_within(process, 30.0 * load())
+    if code is None:
         process.kill()
         process.wait()
         return [f"still at work 30 s after {one.number.name}"]
-    found = []
+    found = [f"went on for {more:.1f} s of the processor, to its end"] if code == 0 and more > GONE else []
     while at_work(own) and time.monotonic() < began + GONE * load():
         time.sleep(0.05)
     if left := at_work(own):
@@ -238,10 +249,12 @@ def _compared(folder: Path) -> set[Path]:
     return {path for path in found if path.name != "manifest.json" and path.parts[0] != "shards"}
 
 
-def tried(command: str, number: int, *, seed: int, through: Through, folder: Path) -> dict[str, Any]:
+def tried(
+    command: str, number: int, *, signals: Sequence[signal.Signals], seed: int, through: Through, folder: Path
+) -> dict[str, Any]:
     """One try: when and how the command was ended, whether it was resumed, and what was not as it should be."""
     draw = random.Random(f"{command} {seed} {number}")
-    one = Try(command, draw.choice(SIGNALS), draw.uniform(0.3, 0.95 * through.seconds))
+    one = Try(command, draw.choice(signals), draw.uniform(0.3, 0.95 * through.seconds))
     own = folder / f"{command}-{number}"
     own.mkdir()
     faults = faults_after(one, own, number)
@@ -286,6 +299,7 @@ def run_through(command: str, folder: Path) -> Through:
 
 def campaign(asked: argparse.Namespace, folder: Path) -> list[dict[str, Any]]:
     """End each command so many times; every try, the earlier ones too. Failures are printed."""
+    signals = [signal.Signals[name] for name in asked.signals]
     lines = asked.out.read_text().splitlines() if asked.out and asked.out.exists() else []
     every = [json.loads(line) for line in lines]
     there = {(one["command"], one["seed"], one["number"]) for one in every}
@@ -296,7 +310,8 @@ def campaign(asked: argparse.Namespace, folder: Path) -> list[dict[str, Any]]:
         through = run_through(command, folder)
         print(f"{command}: {through.seconds:.1f} s of the processor where it runs through", flush=True)
         with ThreadPoolExecutor(asked.jobs) as pool:
-            for one in pool.map(partial(tried, command, seed=asked.seed, through=through, folder=folder), left):
+            one_try = partial(tried, command, signals=signals, seed=asked.seed, through=through, folder=folder)
+            for one in pool.map(one_try, left):
                 every.append(one)
                 for fault in one["faults"]:
                     when = f"{one['signal']} after {one['after']:.1f} s"
@@ -313,10 +328,13 @@ def main() -> int:
     parser.add_argument("--tries", type=int, default=20, help="of each command")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2, help="tries at once")
+    names = [one.name for one in SIGNALS]
+    parser.add_argument("--signals", nargs="+", choices=names, default=names, help="that end commands")
     parser.add_argument("--commands", nargs="+", choices=list(COMMANDS), help="all that the machine has the tools for")
     parser.add_argument("--out", type=Path, help="file that tries are appended to")
     parser.add_argument("--fe-python", type=Path, help=f"a Python that has netgen and ngsolve, for {NEEDS_FE}")
     asked = parser.parse_args()
+    follow_signals()
     asked.commands = asked.commands or [name for name in COMMANDS if name != NEEDS_FE or asked.fe_python]
     with tempfile.TemporaryDirectory(prefix="kills-") as folder:
         if asked.fe_python:

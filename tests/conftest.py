@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gc
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import Any
 import pytest
 from browsers import said_of_no_browser
 from hypothesis import settings
+from shell_signals import follow_signals
 from support import ROOT, Command, called, environment
 
 pytest_plugins = ["shared_models", "shear_designs"]
@@ -22,12 +22,7 @@ os.environ["NUMBA_DISABLE_JIT"] = "1"
 # As the command line does: tests make many objects and keep most, and looking for garbage among them takes its time.
 gc.set_threshold(200_000, 20, 20)
 
-# A shell lets what it starts in the background ignore interrupts, as nohup does; tests send some, and children inherit
-# what is ignored.
-for _name, _usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):
-    _number = getattr(signal, _name, None)
-    if _number is not None and signal.getsignal(_number) is signal.SIG_IGN:
-        signal.signal(_number, _usual)
+follow_signals()  # tests send some
 
 # A test that is right is right on a machine that is busy, too.
 settings.register_profile("any machine", deadline=None)

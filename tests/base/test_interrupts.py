@@ -2,7 +2,12 @@
 
 import os
 import signal
+import subprocess
+import sys
+import time
 from contextlib import suppress
+from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -56,3 +61,55 @@ def test_an_interrupt_that_cannot_be_raised_where_it_comes_is_kept_without_a_wor
         with pytest.raises(KeyboardInterrupt):
             raise_pending()
     assert not capsys.readouterr().err
+
+
+def test_an_import_is_whole_before_an_interrupt_is_raised(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "outer_module.py").write_text("import inner_module\nthrough = True\n")
+    (tmp_path / "inner_module.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGTERM)\n")
+    with heeding_interrupts(), suppress(KeyboardInterrupt):
+        import_module("outer_module")
+        time.sleep(10.0)
+        pytest.fail("no interrupt came")
+    assert sys.modules["outer_module"].through
+
+
+def test_a_script_that_is_imported_is_interrupted_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "imported_script.py").write_text(
+        "import os, signal\n"
+        "from tvimdesign.base.interrupts import heeding_interrupts\n"
+        "with heeding_interrupts():\n"
+        "    os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    raise ValueError('it went on')\n"
+    )
+    with pytest.raises(KeyboardInterrupt):
+        import_module("imported_script")
+
+
+IMPORTS = """
+import sys
+from tvimdesign.base.interrupts import heeding_interrupts
+try:
+    with heeding_interrupts():
+        print("begins", flush=True)
+        import vtk
+        import time
+        time.sleep(30.0)
+except KeyboardInterrupt:
+    sys.exit(130 if "vtk" in sys.modules else 1)
+"""
+
+
+@pytest.mark.slow
+def test_an_interrupt_while_vtk_is_imported_does_not_end_the_process_by_a_fault() -> None:
+    codes = []
+    for share in range(24):
+        process = subprocess.Popen([sys.executable, "-c", IMPORTS], stdout=subprocess.PIPE)
+        assert process.stdout is not None
+        assert process.stdout.readline()
+        time.sleep(0.02 * share)
+        process.send_signal(signal.SIGINT)
+        codes.append(process.wait(timeout=60.0))
+        process.stdout.close()
+    assert codes == [130] * len(codes)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import signal
 import subprocess
@@ -111,6 +112,28 @@ def test_after_a_signal_a_command_is_interrupted_or_was_through(
 
     monkeypatch.setattr(kills, "start", start)
     assert kills.faults_after(Try("run", signal.SIGTERM, 0.2), tmp_path) == faults
+
+
+def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    goes_on = (
+        "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN)\nwhile time.process_time() < 3.0: pass"
+    )
+
+    def start(_: list[str], own: Path, __: str) -> subprocess.Popen[bytes]:
+        (own / "said.txt").write_text("")
+        return subprocess.Popen([sys.executable, "-S", "-c", goes_on], cwd=own, env=kills.environment(own))
+
+    monkeypatch.setattr(kills, "start", start)
+    (fault,) = kills.faults_after(Try("run", signal.SIGTERM, 0.2), tmp_path)
+    assert fault.startswith("went on for 2.")
+
+
+def test_signals_that_a_shell_has_ignored_are_followed() -> None:
+    asks = "import signal, shell_signals; shell_signals.follow_signals(); print(signal.getsignal(signal.SIGINT))"
+    command = ["sh", "-c", f"trap '' INT; exec {sys.executable} -c '{asks}'"]
+    environment = {**os.environ, "PYTHONPATH": str(Path(kills.__file__).parent)}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert "default_int_handler" in done.stdout
 
 
 def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:

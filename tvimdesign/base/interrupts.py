@@ -1,12 +1,16 @@
-"""Interrupts: SIGINT, SIGTERM and SIGHUP raised as KeyboardInterrupt, again where a library swallows the first."""
+"""Interrupts: SIGINT, SIGTERM and SIGHUP raised as KeyboardInterrupt, again where a library swallows the first, and
+not before a module that is being imported is whole."""
 
 from __future__ import annotations
 
+import _thread
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from types import FrameType
 from typing import Any
 
 _SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
@@ -14,8 +18,10 @@ _TWICE = 1.0
 """Seconds within which the same signal counts once: `timeout` sends it to the process and to its group."""
 _received: list[int] = []
 _times: dict[int, float] = {}
-_heeding: list[None] = []
-"""As long as `heeding_interrupts` are entered and not yet left."""
+_LATER = 0.02
+"""Seconds after which a signal that came within an import is sent again."""
+_heeding: list[int] = []
+"""For each of the `heeding_interrupts` that are entered and not yet left, how many imports were under way then."""
 
 
 @contextmanager
@@ -24,12 +30,14 @@ def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
 
     What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError.
     Where compiled code cannot raise at all, Python tells the exception and goes on; an interrupt is kept without that.
+    Within an import that began in here it is raised when that is through: an exception there ends VTK, which the CAD
+    kernel loads, by SIGSEGV.
     A signal that is ignored, as SIGHUP under nohup, stays ignored.
     """
     every = {number: signal.getsignal(number) for number in numbers}
     before = {number: handler for number, handler in every.items() if handler not in (signal.SIG_IGN, None)}
     told, sys.unraisablehook = sys.unraisablehook, _kept_quietly(sys.unraisablehook)
-    _heeding.append(None)
+    _heeding.append(_imports(sys._getframe()))
     for number in before:
         signal.signal(number, _heed)
     try:
@@ -83,11 +91,33 @@ def _kept_quietly(told: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return tell
 
 
-def _heed(number: int, _: object) -> None:
+def _heed(number: int, frame: FrameType | None) -> None:
     if not _heeding:
+        return
+    if _imports(frame) > _heeding[-1]:
+        _thread.start_new_thread(_send_later, (number,))  # takes no lock that the interrupted code may hold
         return
     now = time.monotonic()
     again, _times[number] = now - _times.get(number, -_TWICE) < _TWICE, now
     if not again:
         _received.append(number)
         raise KeyboardInterrupt
+
+
+def _imports(frame: FrameType | None) -> int:
+    """How many frames of the import system are at work beneath a frame."""
+    found = 0
+    while frame is not None:
+        found += frame.f_code.co_filename.startswith("<frozen importlib")
+        frame = frame.f_back
+    return found
+
+
+def _send_later(number: int) -> None:
+    time.sleep(_LATER)
+    if not _heeding:
+        return
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, number)
+    else:
+        _thread.interrupt_main(signal.Signals(number))
