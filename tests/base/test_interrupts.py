@@ -87,6 +87,31 @@ def test_a_script_that_is_imported_is_interrupted_at_once(tmp_path: Path, monkey
         import_module("imported_script")
 
 
+IN_CYTHON = """
+import os, signal, zipfile
+from scipy.stats import qmc
+from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
+usual = zipfile.crc32
+def crc32(*arguments):  # as SciPy reads the numbers of its sequence
+    zipfile.crc32 = usual
+    os.kill(os.getpid(), signal.SIGINT)
+    return usual(*arguments)
+zipfile.crc32 = crc32
+try:
+    with heeding_interrupts():
+        qmc.Sobol(3)
+        raise_pending()
+        print("it went on")
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+def test_an_interrupt_in_what_cython_cannot_raise_is_not_printed() -> None:
+    done = subprocess.run([sys.executable, "-c", IN_CYTHON], capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("interrupted\n", "")
+
+
 IMPORTS = """
 import sys
 from tvimdesign.base.interrupts import heeding_interrupts

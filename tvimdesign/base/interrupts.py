@@ -29,7 +29,8 @@ def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     """Raise every interrupt as KeyboardInterrupt, and keep it for `raise_pending`; only in the main thread.
 
     What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError.
-    Where compiled code cannot raise at all, Python tells the exception and goes on; an interrupt is kept without that.
+    Where compiled code cannot raise at all, Python tells the exception and goes on, and Cython prints it besides; an
+    interrupt is kept without that.
     Within an import that began in here it is raised when that is through: an exception there ends VTK, which the CAD
     kernel loads, by SIGSEGV.
     A signal that is ignored, as SIGHUP under nohup, stays ignored.
@@ -37,6 +38,7 @@ def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     every = {number: signal.getsignal(number) for number in numbers}
     before = {number: handler for number, handler in every.items() if handler not in (signal.SIG_IGN, None)}
     told, sys.unraisablehook = sys.unraisablehook, _kept_quietly(sys.unraisablehook)
+    printed, sys.excepthook = sys.excepthook, _not_printed(sys.excepthook)
     _heeding.append(_imports(sys._getframe()))
     for number in before:
         signal.signal(number, _heed)
@@ -50,7 +52,7 @@ def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
         _heeding.pop()  # first: what comes while the outermost is left ends nothing any more
         for number, handler in before.items():
             signal.signal(number, handler)
-        sys.unraisablehook = told
+        sys.unraisablehook, sys.excepthook = told, printed
         if not _heeding:
             _received.clear()
             _times.clear()
@@ -87,6 +89,16 @@ def _kept_quietly(told: Callable[[Any], Any]) -> Callable[[Any], Any]:
     def tell(unraisable: Any) -> None:
         if not (_received and issubclass(unraisable.exc_type, KeyboardInterrupt)):
             told(unraisable)
+
+    return tell
+
+
+def _not_printed(printed: Callable[..., Any]) -> Callable[..., Any]:
+    """The same of what prints an exception that nobody has caught."""
+
+    def tell(kind: type[BaseException], error: BaseException, at: Any) -> None:
+        if not (_received and issubclass(kind, KeyboardInterrupt)):
+            printed(kind, error, at)
 
     return tell
 
