@@ -76,9 +76,15 @@ def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column:
     assert reported == expected
 
 
-def test_the_study_in_the_readme_has_an_optimum() -> None:
+def test_the_study_in_the_readme_has_an_optimum_that_every_start_leads_to() -> None:
     study = read_study_text(_blocks("yaml")[0], "README.md")
-    assert answer(study).design.status == "optimal"
+    found = answer(study)
+    assert found.design.status == "optimal"
+    assert found.solution is not None
+    starts = found.solution.free_starts
+    assert [start.converged for start in starts] == [True] * study.solver.starts
+    # Between 20 and 60 each. With a kink where the room for the fillets at the feet changes it was 600, to no end.
+    assert max(start.iterations for start in starts) < 200
 
 
 @pytest.mark.parametrize(

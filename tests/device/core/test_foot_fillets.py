@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
+from hypothesis import given as drawn
+from hypothesis import strategies
 
 from tvimdesign.device import table_for
+from tvimdesign.device.core.layout import EVENED, evened_least
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
@@ -43,3 +47,21 @@ def test_a_fillet_never_touches_the_rim_or_the_other_fillet() -> None:
     near = found(rows, largest_foot_fillet=9.0 * MM, rotor_rim=1.0 * MM)
     rim = near["rotor_radius"] - near["pin_radius"] - 2.0 * MM
     assert near["foot_fillet"] <= max(rim - 0.1 * MM, 0.1 * MM) + 1e-12
+
+
+@drawn(strategies.floats(-5e-3, 5e-3), strategies.floats(-5e-3, 5e-3))
+def test_the_evened_least_is_never_more_than_the_least_and_is_it_away_from_ties(one: float, other: float) -> None:
+    found, least = evened_least(one, other), min(one, other)
+    assert least - EVENED / 6.0 - 1e-12 <= found <= least
+    assert found == evened_least(other, one)
+    if abs(one - other) >= EVENED:
+        assert found == least
+
+
+def test_slope_and_curvature_of_the_evened_least_have_no_jump() -> None:
+    step = 1e-3 * EVENED
+    at = np.arange(-1.5 * EVENED, 1.5 * EVENED, step)
+    slope = np.diff(evened_least(at, 0.0)) / step
+    curvature = np.diff(slope) / step
+    assert np.max(np.abs(np.diff(slope))) < 2e-3  # of one in all
+    assert np.max(np.abs(np.diff(curvature))) < 2e-3 / EVENED
