@@ -96,6 +96,7 @@ def test_a_new_study_is_valid_and_never_replaces_a_file(tvimdesign: Command, tmp
     assert file.read_text() == written
 
 
+@pytest.mark.gate
 def test_the_new_study_runs(process: Command, tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     process("new", file)
@@ -187,6 +188,7 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
     assert "placement_radius" in done.stderr
 
 
+@pytest.mark.gate
 def test_conflicting_requirements_end_in_exit_code_3_and_keep_the_results(process: Command, tmp_path: Path) -> None:
     file = tmp_path / "impossible.yaml"
     file.write_text(
@@ -248,6 +250,7 @@ def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path
     assert json.loads((tmp_path / "out/results.json").read_text())["values"]["response_time"]["value"] is None
 
 
+@pytest.mark.gate
 def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimdesign: Command, tmp_path: Path) -> None:
     # In free air an ampere heats the module more than it cools the layer.
     study = tmp_path / "study.yaml"
@@ -266,6 +269,7 @@ def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimd
     assert (tmp_path / "out/stiffening.csv").stat().st_size > 1000
 
 
+@pytest.mark.gate
 def test_results_are_not_replaced_without_being_asked(tvimdesign: Command, tmp_path: Path) -> None:
     study, out = "studies/paper_as_published.yaml", tmp_path / "out"
     first = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out)
@@ -276,6 +280,7 @@ def test_results_are_not_replaced_without_being_asked(tvimdesign: Command, tmp_p
     assert tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out, "--overwrite").returncode == 0
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("number", "after"),
     [(signal.SIGINT, 0.5), (signal.SIGTERM, 0.5), pytest.param(signal.SIGINT, 1.0, marks=pytest.mark.slow)],

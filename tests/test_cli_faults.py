@@ -47,6 +47,7 @@ def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered:
     assert done.stderr.count(b"\n") == 1
 
 
+@pytest.mark.gate
 def test_a_file_that_cannot_be_written_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = subprocess.run(

@@ -42,6 +42,7 @@ def test_every_command_that_reads_a_study_takes_settings_and_names_them_as_the_p
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.gate
 def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Command, tmp_path: Path) -> None:
     done = tvimdesign("run", "studies/paper_as_published.yaml", "--set", "wire_diameter=2 mm", "--no-cad", "--no-plots",
                       "--json", "--out", tmp_path / "out")  # fmt: skip

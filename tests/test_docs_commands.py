@@ -63,6 +63,7 @@ def _records(page: str, place: Path) -> None:
             file.write_text(text)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("page", QUICK)
 def test_the_commands_of_a_page_work(page: str, tvimdesign: Command, tmp_path: Path) -> None:
     _place(tmp_path)

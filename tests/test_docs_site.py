@@ -71,6 +71,7 @@ def test_every_study_has_a_small_picture() -> None:
     assert all(path.stat().st_size < 40_000 for path in pictures.glob("*.png"))
 
 
+@pytest.mark.gate
 def test_the_site_builds_strictly_and_loads_nothing_from_another_host(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir", str(tmp_path / "site")],

@@ -69,6 +69,7 @@ def _front(folder: Path) -> list[dict[str, Any]]:
     return points
 
 
+@pytest.mark.gate
 @names
 def test_a_study_leaves_a_whole_folder(runs: Runs, study: Path) -> None:
     folder = runs[study.stem]

@@ -14,6 +14,7 @@ import tvimdesign as tvim
 from tvimdesign.device import table_for
 
 
+@pytest.mark.gate
 def test_values_are_quantities_and_choices_words(result: tvim.Result) -> None:
     mass = result["module_mass"]
     assert isinstance(mass, tvim.Quantity)
@@ -98,6 +99,7 @@ def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result) -
         result.plot("cicle")
 
 
+@pytest.mark.gate
 def test_the_command_line_gives_the_same_and_writes_the_same(
     result: tvim.Result, tvimdesign: Command, tmp_path: Path
 ) -> None:
@@ -169,6 +171,7 @@ def test_show_prints_what_a_run_prints(result: tvim.Result, capsys: pytest.Captu
     assert "The paper's module, re-optimised" in capsys.readouterr().out
 
 
+@pytest.mark.gate
 def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
     study = tvim.example("paper_shear").set(  # `front_shear` asks for a yield at every point: a minute of the processor
         {"front.points": 3, "front.of": ["response_time", "module_mass"], "solver.starts": 1}

@@ -83,6 +83,7 @@ def test_a_cell_without_a_design_says_why_and_the_others_are_kept() -> None:
     assert sweep[1].result is None
 
 
+@pytest.mark.gate
 def test_requirements_may_be_swept(study: tvim.Study) -> None:
     lean = study.set({"solver.starts": 1})
     sweep = lean.sweep({"require.holding_torque": [">= 10 N.m", ">= 14 N.m"]}, progress=False)
@@ -129,6 +130,7 @@ def test_the_study_s_own_section_is_swept_and_a_sample_lies_between_its_ends() -
     assert own.sweep(method="latin_hypercube", count=4, seed=4, progress=False)[0].at != sweep[0].at
 
 
+@pytest.mark.gate
 def test_workers_and_a_folder_give_the_table_of_this_process(grid: tvim.Sweep, tmp_path: Path) -> None:
     study = tvim.example("paper_as_published")
     outputs = ["spring_stiffness"]

@@ -54,6 +54,7 @@ def others(reference: Reference) -> list[np.ndarray]:
     return [reference.begin, *reference.random_starts(2)]
 
 
+@pytest.mark.gate
 def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> None:
     constant = ("soft_reach", "stiff_reach", "key_width_margin", "key_pitch_margin", "hub_recess_margin", *SEAT)
     kept = [i for i, limit in enumerate(reference.limits, start=1) if limit.output not in constant]

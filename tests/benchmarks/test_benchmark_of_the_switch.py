@@ -33,6 +33,7 @@ def test_equations_by_hand_and_compiled_are_the_same(model: DeviceFunctions) -> 
         assert change == pytest.approx(2.0 * slope @ shift, rel=1e-4, abs=1e-10)
 
 
+@pytest.mark.gate
 def test_all_rows_find_the_same_times(model: DeviceFunctions) -> None:
     machine = switch.compiled(model)
     ours = switch.by_tvimdesign(model)(0.0)

@@ -37,6 +37,7 @@ def test_importing_cad_does_not_load_the_kernel() -> None:
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
+@pytest.mark.gate
 def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     design, report, steps, _ = made
     assert report.failed == ()
@@ -224,6 +225,7 @@ def test_a_crash_names_the_part() -> None:
         _report(Path(), {"progress": "rotor"}, -11, 60.0, "")
 
 
+@pytest.mark.gate
 def test_no_design_is_an_input_error(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such file"):
         make_cad(tmp_path / "none.json", tmp_path / "cad")

@@ -20,6 +20,7 @@ from tvimdesign.explore.states.history import open_kept, write_kept
 from tvimdesign.explore.states.source import open_source
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("command", "number", "after"),
     [

@@ -64,6 +64,7 @@ def shown_by_simulation(unity: DeviceFunctions, simulator: Simulator) -> dict[st
     return dict(zip(EVENTS, jacobian, strict=True))
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("event", EVENTS)
 def test_response_times_have_the_derivatives_that_simulations_show(
     event: str, unity: DeviceFunctions, cycle: Cycle, shown_by_simulation: dict[str, Array], table: Table

@@ -29,6 +29,7 @@ def run(study: Path, out: Path) -> None:
     subprocess.run([sys.executable, "-m", "tvimdesign", *words], check=True, env=environment(), capture_output=True)
 
 
+@pytest.mark.gate
 def test_a_requirement_is_dragged_the_optimum_moves_and_what_binds_lights_up(explorer: Explorer) -> None:
     page, power = explorer.page, explorer.knob("peak_power <=")
     current = explorer.knob("current").get_by_role("textbox").first

@@ -21,6 +21,7 @@ from tvimdesign.study.design import read_design
 from tvimdesign.study.tree import tree_of_file
 
 
+@pytest.mark.gate
 def test_the_newest_of_a_drag_is_answered_and_those_between_are_passed_over(tmp_path: Path) -> None:
     async def drag() -> tuple[list[dict[str, Any]], dict[str, Any], dict[str, Any]]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:

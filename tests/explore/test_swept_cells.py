@@ -66,6 +66,7 @@ def _table(folder: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
+@pytest.mark.gate
 def test_the_page_begins_at_the_best_cell_and_draws_those_with_an_answer(swept: Path) -> None:
     source = open_source(swept)
     rows = _table(swept)

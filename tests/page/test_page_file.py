@@ -24,6 +24,7 @@ PAGE = Page(
 VENDOR = ROOT / "tvimdesign/page/static/vendor"
 
 
+@pytest.mark.gate
 def test_the_page_of_a_run_is_valid_html(report: Path) -> None:
     html5lib.HTMLParser(strict=True).parse(report.read_text("utf-8"))
     names = re.findall(r'\bid="([^"]+)"', report.read_text("utf-8"))

@@ -187,6 +187,7 @@ def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: 
     assert found.page.url == alone.as_uri()
 
 
+@pytest.mark.gate
 def test_the_page_of_a_run_carries_the_files_of_its_parts(report: Path) -> None:
     carried = re.findall(r'data-file="([^"]+)"', report.read_text("utf-8"))
     assert carried[0] == "cad/step/housing.step"

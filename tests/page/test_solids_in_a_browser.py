@@ -46,6 +46,7 @@ def solids(screen: Opened) -> Iterator[Solids]:
     found.figure.get_by_role("combobox", name="View").select_option("corner")
 
 
+@pytest.mark.gate
 def test_a_part_is_hidden_and_shown_by_the_tree(solids: Solids) -> None:
     before = solids.picture()
     box = solids.figure.get_by_role("checkbox", name="housing", exact=True)

@@ -75,6 +75,7 @@ def test_an_interrupted_run_keeps_it_and_says_where(
     assert given(read_study(out / "best_so_far.yaml")) == given(best)
 
 
+@pytest.mark.gate
 def test_a_design_that_is_found_is_kept_until_it_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(SMALL)

@@ -22,6 +22,7 @@ def published() -> StudyResult:
     return shipped_answer("paper_as_published")
 
 
+@pytest.mark.gate
 def test_the_papers_ratio_is_told_with_the_stiffness_as_drawn(published: StudyResult) -> None:
     by = {one.text: one.as_drawn for one in published.idealizations}
     assert list(by) == ["leg_model: ignored", "transmission: unity"]

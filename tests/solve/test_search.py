@@ -186,6 +186,7 @@ def test_listed_sizes_are_as_good_as_solving_each_on_its_own() -> None:
     assert best.objective == pytest.approx(min(alone), rel=1e-5)
 
 
+@pytest.mark.gate
 def test_listed_records_are_compared_by_one_measure() -> None:
     text = SMALL.replace("vary:", "vary:\n  spring_material: {choose: [stainless_302, music_wire]}")
     solution = _solve(_study(text))
@@ -217,6 +218,7 @@ def test_a_limit_on_one_time_while_another_is_minimised_holds() -> None:
     assert solution.values["near_face_time"] <= limit * 1.002
 
 
+@pytest.mark.gate
 def test_energy_can_be_minimised_and_bounded() -> None:
     small = SMALL.replace("[0.5 A, 2 A]", "[0.5 A, 2 A]\n  pcl_outer_radius: [30 mm, 40 mm]").replace(
         "40 N.m", "20 N.m"

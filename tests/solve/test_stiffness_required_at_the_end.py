@@ -36,6 +36,7 @@ def _answer(more: str = "", criterion: str = "mean") -> StudyResult:
     return answer(study)
 
 
+@pytest.mark.gate
 def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None:
     """The threshold is arithmetic of the hot point; the impedance at the end is read off the simulated layer."""
     found = _answer(criterion="softening").design.values

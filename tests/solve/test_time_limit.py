@@ -108,6 +108,7 @@ def test_a_search_without_a_design_when_the_time_is_over_says_what_to_do(monkeyp
     assert math.isfinite(solution.objective)
 
 
+@pytest.mark.gate
 def test_the_search_for_the_conflict_ends_with_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = clock_until("looking for the design that breaks least", monkeypatch)
     quick = SEARCHED.replace('">= 2 N.m"', '">= 2 N.m", response_time: "<= 1 s"').replace("starts: 6", "starts: 1")

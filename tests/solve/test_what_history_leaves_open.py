@@ -47,6 +47,7 @@ def test_softening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_tim
     assert "softening_time" not in stated.intervals
 
 
+@pytest.mark.gate
 def test_stiffening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_time() -> None:
     found = answered("current: 1.5 A", cold=60.0)
     low, high = found.intervals["stiffening_time"]

@@ -13,6 +13,7 @@ from tvimdesign.solve.result import answer
 from tvimdesign.study import Study
 
 
+@pytest.mark.gate
 def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.MonkeyPatch) -> None:
     study = Study.model_validate(shipped_answer("paper_as_published").design.study)
     order: list[Any] = []
@@ -23,6 +24,7 @@ def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.M
     assert order[1:] == ["histories"]
 
 
+@pytest.mark.gate
 def test_where_a_search_ends_without_a_design_nothing_is_handed_on() -> None:
     known = shipped_answer("paper_shear")
     assert known.solution

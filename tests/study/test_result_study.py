@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import pytest
 from support import ROOT, Command
 
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
@@ -30,6 +31,7 @@ def values_of(folder: Path) -> dict[str, float | str]:
     return found
 
 
+@pytest.mark.gate
 def test_a_result_as_a_study_is_answered_the_same_to_the_last_digit(tvimdesign: Command, tmp_path: Path) -> None:
     (tmp_path / "searched.yaml").write_text(SEARCHED)
     words, again = ["--no-cad", "--no-plots", "--out"], tmp_path / "again.yaml"

@@ -72,6 +72,7 @@ def test_parquet_has_the_same_numbers(one_process: Path, tmp_path: Path) -> None
     pd.testing.assert_frame_equal(kept[list(expected)], expected, check_dtype=False)
 
 
+@pytest.mark.gate
 def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(
     study_file: Path, one_process: Path, tmp_path: Path
 ) -> None:
@@ -89,6 +90,7 @@ def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(
     assert (last["reused"], last["computed"]) == (6, 0)
 
 
+@pytest.mark.gate
 def test_parts_of_an_array_share_a_folder_and_the_last_gathers(
     tvimdesign: Command, study_file: Path, one_process: Path, tmp_path: Path
 ) -> None:

@@ -3,8 +3,12 @@
 import subprocess
 import sys
 
+import pytest
+
 CODE = """
 import sys
+
+import pytest
 from tvimdesign.cad.build.load_kernel import load_kernel
 load_kernel()
 import cadquery
@@ -16,6 +20,7 @@ print(few, sum(name.startswith("vtkmodules.") for name in sys.modules), vtk.vtkV
 """
 
 
+@pytest.mark.gate
 def test_vtk_is_not_loaded_whole_with_the_kernel_and_can_be_afterwards() -> None:
     said = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True).stdout
     few, whole, version = (int(word) for word in said.split())

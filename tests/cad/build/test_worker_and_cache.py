@@ -217,6 +217,7 @@ def test_a_child_does_one_piece_of_work_after_another_and_another_takes_the_plac
     assert not any(psutil.pid_exists(int(one)) for one in by.values())
 
 
+@pytest.mark.gate
 def test_children_that_are_spawned_do_the_same_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As on a system where a fork is not safe: they import all anew, and all that they are given is sent to them."""
     pool = of_elsewhere(tmp_path, monkeypatch)

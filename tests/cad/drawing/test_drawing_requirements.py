@@ -150,6 +150,7 @@ def test_what_is_bought_whole_has_nominal_sizes_and_no_place(case: str) -> None:
         assert sum(text.startswith("flats ") for text in said) == 2
 
 
+@pytest.mark.gate
 def test_every_seat_is_a_face_of_its_part() -> None:
     for case, mode, kinds in (
         (BEARING_BLOCKS, "compression", ("housing", "rotor", "adjuster", "cover")),

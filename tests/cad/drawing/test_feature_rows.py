@@ -105,6 +105,7 @@ def test_a_wall_that_runs_behind_a_vane_is_no_part_of_it() -> None:
     assert told_of_vanes == ["2× vane R12 to R20, 85.94° between ends, middle every 180° from 0°, h 1 to 5 (4)"]
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(("mode", "changes"), DESIGNS)
 def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Mapping[str, float | str]) -> None:
     design = design_of("dimensioned", changes, mode)

@@ -26,6 +26,7 @@ def test_rays_meet_a_box_where_its_faces_are() -> None:
     assert outside.missed.all()
 
 
+@pytest.mark.gate
 def test_rays_meet_what_every_triangle_held_against_every_ray_says() -> None:
     work = box(23.0, 11.0, 5.0).faces(">Z").workplane().hole(6.0).edges("|Z").fillet(2.0)
     triangles = Triangles(solid_mesh(one_solid(work)))

@@ -60,6 +60,7 @@ def base(inputs: dict[str, Any]) -> dict[str, Any]:
     return inputs
 
 
+@pytest.mark.gate
 @settings(max_examples=12, deadline=None)
 @given(
     change=st.sampled_from(

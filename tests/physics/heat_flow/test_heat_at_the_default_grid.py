@@ -101,6 +101,7 @@ def front_over_exact(
     )
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("stefan", [0.5, *(pytest.param(one, marks=pytest.mark.slow) for one in (0.1, 1.0, 2.0))])
 def test_front_of_one_phase_advances_as_stefan_found(stefan: float, bare_stack: Make, integrate: Run) -> None:
     speed = brentq(lambda x: np.sqrt(np.pi) * x * np.exp(x**2) * erf(x) - stefan, 1e-3, 3.0)

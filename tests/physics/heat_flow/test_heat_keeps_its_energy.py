@@ -61,6 +61,7 @@ def face_times(stack: heat.Stack, current: float = 1.5, cells: int = 12) -> tupl
     return float(found.t_events[0][0]), float(found.t_events[1][0])
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("current", [1.5, -1.0])
 def test_electrical_energy_is_stored_or_lost_to_a_millionth(current: float) -> None:
     stack = stack_of(FLEXIBLE, 2.5, cold_capacity=4.0)

@@ -78,6 +78,7 @@ def heated() -> tuple[Array, float, float]:
     return run(stack, heat.initial_state(stack, 8, AMBIENT), 1.5, 120.0)
 
 
+@pytest.mark.gate
 def test_heat_is_kept_to_a_millionth_from_heating_to_freezing(heated: tuple[Array, float, float]) -> None:
     melting, freezing = cycle_stack(), cycle_stack(freezing=FREEZING)
     state, supplied, lost = heated

@@ -207,6 +207,7 @@ def test_a_study_without_a_design_leaves_the_other_its_results(tvimdesign: Comma
     assert {front["study"] for front in reported["fronts"]["fronts"]} == {"shear"}
 
 
+@pytest.mark.gate
 def test_a_process_that_dies_is_told_and_the_other_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     evaluated = SHEAR[: SHEAR.index("vary:")] + SHEAR[SHEAR.index("operating_points:") :]
     (path,) = written(tmp_path, there=evaluated)

@@ -33,6 +33,7 @@ def outcome(tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     )
 
 
+@pytest.mark.gate
 def test_what_is_drawn_of_both_is_what_was_drawn(outcome: Outcome) -> None:
     assert "optimised" in outcome.found["s"]
     assert "optimised" not in outcome.found["c"]

@@ -48,6 +48,7 @@ def _files(out: Path) -> dict[str, bytes]:
     return {**found, "compare.json": json.dumps(told).encode()}
 
 
+@pytest.mark.gate
 def test_each_job_answers_its_studies_and_the_last_compares(
     tvimdesign: Command, pair: list[Path], expected: dict[str, bytes], tmp_path: Path
 ) -> None:

@@ -40,6 +40,7 @@ def shown(resolved: ResolvedModule) -> Callable[[str], dict[str, Any]]:
     return data
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("test", TESTS)
 def test_an_editor_finds_no_fault_with_a_virtual_test(test: str, shown: Callable[[str], dict[str, Any]]) -> None:
     assert faults(signed(trial_figure(shown(test)))) == []

@@ -61,6 +61,7 @@ def _record(name: str) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.gate
 def test_the_results_say_their_format_and_are_of_the_schema(reported: dict[str, Any]) -> None:
     jsonschema.Draft202012Validator.check_schema(results_schema())
     jsonschema.validate(reported, results_schema())

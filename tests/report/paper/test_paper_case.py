@@ -75,6 +75,7 @@ def test_the_ranges_are_those_that_the_studies_state() -> None:
                 assert f"{end:.8g}" in line, name
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("mode", MODES)
 def test_the_machine_s_rules_hold_at_both_ends_of_every_dimension(mode: str) -> None:
     model = paper_case._model(mode)

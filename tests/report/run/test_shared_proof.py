@@ -82,6 +82,7 @@ def _begun(study: Study) -> Begin:
     return caught[0]
 
 
+@pytest.mark.gate
 def test_the_jobs_of_an_array_prove_the_same(
     tvimdesign: Command, study_file: Path, expected: dict[str, bytes], tmp_path: Path
 ) -> None:
@@ -97,6 +98,7 @@ def test_the_jobs_of_an_array_prove_the_same(
     assert _files(tmp_path) == expected
 
 
+@pytest.mark.gate
 def test_a_run_that_was_killed_goes_on_with_what_is_kept(
     tvimdesign: Command, study_file: Path, expected: dict[str, bytes], tmp_path: Path, begin: Begin
 ) -> None:
@@ -115,6 +117,7 @@ def test_a_run_that_was_killed_goes_on_with_what_is_kept(
     assert _files(tmp_path) == expected
 
 
+@pytest.mark.gate
 def test_a_block_is_solved_alike_whoever_solves_it_and_whatever_before(begin: Begin) -> None:
     work = proof_asked(begin).work
     assert isinstance(work, ProofWork)

@@ -27,6 +27,7 @@ def _said(text: str, **module: float) -> str:
     return " ".join(stream.getvalue().split())
 
 
+@pytest.mark.gate
 def test_a_run_says_where_small_motions_say_little_of_the_joint() -> None:
     # In a hold of 10 s a printed structure creeps as its loss says: frozen blocks are left as well.
     said = _said(COMPRESSION)

@@ -72,6 +72,7 @@ def test_blocks_are_parts_of_one_draw(study_file: Path) -> None:
     assert [part.tobytes() for part in parts] == [whole[:, at : at + 16].tobytes() for at in (0, 16, 32, 48)]
 
 
+@pytest.mark.gate
 def test_the_jobs_of_an_array_draw_the_same_bytes(
     tvimdesign: Command, study_file: Path, expected: dict[str, bytes], tmp_path: Path
 ) -> None:
@@ -88,6 +89,7 @@ def test_the_jobs_of_an_array_draw_the_same_bytes(
     assert _tables(tmp_path) == expected
 
 
+@pytest.mark.gate
 def test_another_draw_is_computed_anew(study_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shared_draws, "BLOCK", 64)
     drawn = []

@@ -67,6 +67,7 @@ NOUGHT = ("energy_gain", "backlash", "contact_lost")
 """What is nothing in a bonded layer, however it came to be where it is."""
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("name", TESTS)
 def test_60_degrees_is_never_one_number_and_30_and_100_always_are(done: Done, name: str) -> None:
     for found in done(name).findings:

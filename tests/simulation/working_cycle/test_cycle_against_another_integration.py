@@ -58,6 +58,7 @@ def pair(request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions]) 
     return fine(model).run(model.start), values
 
 
+@pytest.mark.gate
 def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[str, float]]) -> None:
     # 1 % is what the product promises; twelve cells in the layer and sixteen in the rotor reach half of it; eight
     # in the rotor, as by default, are 0.54 % off in the thin one.

@@ -56,6 +56,7 @@ def _worst(model: DeviceFunctions, names: list[str], count: int) -> float:
     return worst
 
 
+@pytest.mark.gate
 def test_the_switch_is_within_the_accuracy_asked_for(build: Build) -> None:
     assert _worst(build(), SOFTENING, 4) < WITHIN
     assert _worst(build(), AT_THE_END, 4) < WITHIN

@@ -90,6 +90,7 @@ def alone(found: Solution) -> dict[tuple[float, ...], float]:
     return by_brute_force(listed(), found.reference, starts=1)
 
 
+@pytest.mark.gate
 def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
     found: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
@@ -135,6 +136,7 @@ def test_solving_every_combination_finds_the_same_and_says_so(
     assert "Every combination was then solved" in tally_in_words(proven)
 
 
+@pytest.mark.gate
 def test_every_combination_is_as_good_as_solved_alone_and_cold(
     found: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:

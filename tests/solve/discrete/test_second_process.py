@@ -58,6 +58,7 @@ def _by_two(study: Study, monkeypatch: pytest.MonkeyPatch) -> Choosing:
     return found
 
 
+@pytest.mark.gate
 def test_two_processes_find_what_one_finds(study: Study, alone: Choosing, monkeypatch: pytest.MonkeyPatch) -> None:
     used: list[Task] = []
     use = TwoProcesses._used
@@ -75,6 +76,7 @@ def test_two_processes_find_what_one_finds(study: Study, alone: Choosing, monkey
     assert (together.solved, together.pruned) == (alone.solved, alone.pruned)
 
 
+@pytest.mark.gate
 def test_a_process_that_dies_leaves_its_tasks(
     study: Study, alone: Choosing, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip

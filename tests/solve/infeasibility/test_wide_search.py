@@ -31,6 +31,7 @@ solver: {cells: 8, starts: 1}
 """Its one free number changes nothing but the working cycle."""
 
 
+@pytest.mark.gate
 def test_designs_from_all_over_keep_the_arithmetic_limits_and_differ() -> None:
     optimizer = Optimizer(read_study(ROOT / "studies/paper_shear.yaml"))
     screen = FeasibilityScreen(optimizer)

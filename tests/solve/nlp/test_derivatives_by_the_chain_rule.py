@@ -71,6 +71,7 @@ def assert_same(problem: Any, x: Array, p: Array) -> None:
         np.testing.assert_allclose(mine.full(), theirs.full(), rtol=0.0, atol=1e-13 * largest)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("text", [SHEAR, COMPRESSION, CYCLE, ROBUST], ids=["shear", "compression", "cycle", "robust"])
 def test_derivatives_of_a_problem_are_those_of_the_whole(text: str) -> None:
     study = read_study_text(text, "a test")

@@ -123,6 +123,7 @@ def test_stiffening_and_holding_have_the_derivatives_that_simulations_show(
         assert exact * size == pytest.approx(shown * size, abs=1e-3 * scale), row
 
 
+@pytest.mark.gate
 def test_the_cycle_depends_on_what_one_expects_it_to(solved: Solved, build: Callable[..., DeviceFunctions]) -> None:
     by = {row: dict(zip(VARIABLES, (solved.gradients[row][build().index[name]] for name in VARIABLES), strict=True))
           for row in WANTED}  # fmt: skip

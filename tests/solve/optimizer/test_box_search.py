@@ -83,6 +83,7 @@ def broken(optimizer: Optimizer, inputs: Array) -> float:
     return max(float(limit.residual(values[limit.output])) for limit in optimizer.problem.limits)
 
 
+@pytest.mark.gate
 def test_boxes_lead_from_a_design_to_an_optimum_that_ipopt_does_not_find_from_it(
     optimizer: Optimizer, design: Array
 ) -> None:
@@ -106,6 +107,7 @@ def test_boxes_keep_what_is_to_be_within_ends(optimizer: Optimizer, design: Arra
     assert broken(optimizer, found.inputs) <= CYCLE_TOLERANCE
 
 
+@pytest.mark.gate
 def test_a_search_ends_where_boxes_lead_nowhere(optimizer: Optimizer, design: Array) -> None:
     """Ends that no module is within: the last word is that of the solver, and boxes are few."""
     search = BoxSearch(optimizer, {"core_radius": (0.0158, 0.016), "pcl_inner_radius": (0.009, 0.0095)})
@@ -114,6 +116,7 @@ def test_a_search_ends_where_boxes_lead_nowhere(optimizer: Optimizer, design: Ar
     assert len(search.runs) <= 20
 
 
+@pytest.mark.gate
 def test_a_study_none_of_whose_starts_comes_to_a_design_is_searched_in_boxes(optimizer: Optimizer) -> None:
     """From designs all over the ranges, until two come to the same optimum."""
     study = optimizer.study

@@ -55,6 +55,7 @@ def test_a_time_that_is_limited_already_is_left_as_it_is() -> None:
 LISTED = STUDY.replace("}\nmin", ", pcl_thickness: {from: 0.8 mm, to: 1.2 mm, step: 0.4 mm}}\nmin")
 
 
+@pytest.mark.gate
 def test_a_search_that_goes_beyond_the_horizon_begins_again_before_it_looks_through_lists(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -104,6 +104,7 @@ def _numbers(front: Front) -> list[tuple[float, ...]]:
     return [tuple(point.values[name] for name in front.outputs) for point in front.points]
 
 
+@pytest.mark.gate
 def test_a_front_has_the_points_that_were_asked_for_and_no_failure(pair: Front, triple: Front) -> None:
     assert (pair.failures, triple.failures) == ((), ())
     assert len(pair.points) == 7

@@ -58,6 +58,7 @@ def simulated(output: str, **changes: float) -> float:
     return float(simulator().run(inputs, phases=phases).values[output])
 
 
+@pytest.mark.gate
 def test_an_interval_is_that_of_a_plain_loop_through_the_table() -> None:
     moved = [one for one in unmeasured_inputs(module()) if one.name in TABLE.ancestors(ALGEBRAIC)]
     points = qmc.Sobol(len(moved), rng=7).random(256)
@@ -111,6 +112,7 @@ def test_one_at_a_time_is_what_a_simulation_says_at_both_ends(place: int) -> Non
         assert simulated("softening_time", **{swing.moved.name: end}) == pytest.approx(expected, rel=0.01)
 
 
+@pytest.mark.gate
 def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
     interval = found().intervals["softening_time"]
     half = interval.to_halve

@@ -100,6 +100,7 @@ def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
     assert asked.design.values["springs_mass"] < 0.97 * sigma.design.values["springs_mass"]
 
 
+@pytest.mark.gate
 def test_what_a_yield_costs_is_told() -> None:
     asked, _ = _solved(f"{ALGEBRAIC}robust: {{yield: 90 %}}\n")
     plain, _ = _solved(ALGEBRAIC)
@@ -152,6 +153,7 @@ def _inputs(optimizer: Optimizer, front: Front) -> list[NDArray[np.float64]]:
     return [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
 
 
+@pytest.mark.gate
 def test_more_deviations_than_a_band_has_room_for_are_told_as_such() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{sigma: 6}}\n", "a test")

@@ -46,6 +46,7 @@ def test_geometry_is_what_a_study_gets_that_says_nothing(inputs: dict[str, Any])
     assert inputs["transmission"] == "geometry"
 
 
+@pytest.mark.gate
 @settings(max_examples=40, deadline=None)
 @given(
     ratio=st.floats(0.3, 0.75), preload=st.floats(0.0, 0.5), wire=st.floats(1.2e-3, 3e-3), index=st.floats(4.0, 12.0),

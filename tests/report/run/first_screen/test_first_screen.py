@@ -170,6 +170,7 @@ def test_the_blocks_stand_in_their_order(name: str, width: int) -> None:
     assert case(name).study.name in lines[0]
 
 
+@pytest.mark.gate
 def test_the_first_line_says_mode_status_starts_and_seconds() -> None:
     accepted = "ACCEPTING: structure_temperature_margin(, stiffening_structure_margin)?"  # the optimum may not need it
     published = case("paper_as_published alone")
@@ -264,6 +265,7 @@ def test_the_yield_and_what_is_not_known_are_two_lines() -> None:
 TABLES = ("At the operating points", "What the module is", "What rests on what is assumed")
 
 
+@pytest.mark.gate
 def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(whole_run: WholeRun) -> None:
     lines, folder = whole_run.done.stdout.splitlines(), whole_run.folder
     assert len(lines) <= LINES
@@ -308,6 +310,7 @@ INFEASIBLE = (
 )
 
 
+@pytest.mark.gate
 def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_is_on_standard_error(
     process: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

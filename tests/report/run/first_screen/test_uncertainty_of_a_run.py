@@ -67,6 +67,7 @@ def test_a_kernel_for_the_study_says_the_same_of_a_design_as_one_for_the_design(
     assert said["parts_yield"]["share"] == alone.together.share
 
 
+@pytest.mark.gate
 def test_what_is_assumed_is_what_the_chosen_records_assume(module: ResolvedModule) -> None:
     names = {one.name for one in unmeasured_inputs(module)}
     assert {"pcl_bond_strength", "peltier_resistance", "structure_layer_strength"} <= names

@@ -65,6 +65,7 @@ def _proposed() -> dict[str, str]:
     return {check.output: mending(check, found, table_for("shear")) for check in found.warnings}
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     "output",
     [
