@@ -56,6 +56,7 @@ def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Comman
     assert read_study(kept).module["wire_diameter"] == pytest.approx(2e-3)
 
 
+@pytest.mark.gate
 def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign: Command, tmp_path: Path) -> None:
     source = ROOT / "studies/paper_as_published.yaml"
     assert tvimdesign("run", source, "--no-cad", "--no-plots", "--out", tmp_path / "out").returncode == 0

@@ -26,6 +26,7 @@ def test_values_are_quantities_and_choices_words(result: tvim.Result) -> None:
         result["modul_mass"]
 
 
+@pytest.mark.gate
 def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result) -> None:
     table = result.table()
     assert list(table.columns)[:4] == ["value", "unit", "meaning", "status"]
@@ -128,6 +129,7 @@ def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) ->
     assert result.save(tmp_path / "x", overwrite=True, plots=False) == tmp_path / "x"
 
 
+@pytest.mark.gate
 def test_a_changed_study_is_saved_as_it_is_now(tmp_path: Path) -> None:
     result = tvim.example("paper_as_published").set(pcl_thickness="1.3 mm").evaluate(progress=False)
     folder = result.save(tmp_path / "x", plots=False)

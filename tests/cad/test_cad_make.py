@@ -61,6 +61,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     assert {"housing", "rotor", "spring_right"} <= set(steps)
 
 
+@pytest.mark.gate
 def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made: Made) -> None:
     pairs = {
         "shear": {"rotor | spring_right_1", "housing | spring_left_2"},

@@ -115,6 +115,7 @@ def test_after_a_signal_a_command_is_interrupted_or_was_through(
     assert kills.faults_after(Try("run", signal.SIGTERM, 0.2), tmp_path) == faults
 
 
+@pytest.mark.gate
 def test_a_command_that_goes_on_as_if_nothing_had_come_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     goes_on = (
         "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN)\nwhile time.process_time() < 3.0: pass"

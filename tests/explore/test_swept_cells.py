@@ -83,6 +83,7 @@ def test_the_page_begins_at_the_best_cell_and_draws_those_with_an_answer(swept: 
     assert shown["words"]["one"] == "cell"
 
 
+@pytest.mark.gate
 def test_a_cells_state_is_its_study_with_what_was_found(swept: Path) -> None:
     source = open_source(swept)
     state = source.at_point(2, source.first)

@@ -23,6 +23,7 @@ Open = Callable[..., Opened]
 FIGURES = ("cycle", "front", "solids")
 
 
+@pytest.mark.gate
 def test_it_opens_offline_and_complains_of_nothing(screen: Opened, report: Path) -> None:
     found = screen
     for name in FIGURES:
@@ -169,6 +170,7 @@ def test_a_brush_keeps_the_designs_within(screen: Opened) -> None:
     assert rows.count() == 2
 
 
+@pytest.mark.gate
 def test_files_of_parts_are_saved_from_a_page_that_came_alone_in_a_mail(opened: Open, tmp_path: Path) -> None:
     data = b"ISO-10303-21;\r\n" + bytes(range(256))
     links = Cell("STEP 3MF", links=[("STEP", "cad/step/housing.step"), ("3MF", "cad/print/housing.3mf")])

@@ -57,6 +57,7 @@ def test_a_part_is_hidden_and_shown_by_the_tree(solids: Solids) -> None:
     assert solids.picture() == before
 
 
+@pytest.mark.gate
 def test_the_parts_come_apart_by_their_lifts(solids: Solids) -> None:
     at = "object.matrix.elements[14]"
     before = {name: solids.part(name, at) for name in ("housing", "rotor")}

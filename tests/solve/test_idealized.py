@@ -34,6 +34,7 @@ def test_the_papers_ratio_is_told_with_the_stiffness_as_drawn(published: StudyRe
     assert "layer_strain" not in drawn
 
 
+@pytest.mark.gate
 def test_they_are_marked_where_they_are_told(published: StudyResult) -> None:
     reported = results(published, TABLE)
     rows = {row["name"]: row for row in csv.DictReader(io.StringIO(results_csv(reported["values"])))}

@@ -95,6 +95,7 @@ def test_a_search_from_other_starts_finds_the_same_best(paper: Solution, seed: i
     assert other.objective == pytest.approx(paper.objective, rel=1e-3)
 
 
+@pytest.mark.gate
 def test_the_starts_are_spread_over_the_ranges(as_shipped: Solution) -> None:
     begins = [start.begin["coil_diameter"] for start in as_shipped.starts]
     assert len(set(begins)) == len(begins)
@@ -132,6 +133,7 @@ def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: S
     assert run.t_events[0][0] == pytest.approx(paper.values["response_time"], rel=0.01)
 
 
+@pytest.mark.gate
 def test_a_price_is_what_relaxing_the_limit_saves() -> None:
     study = _study(SMALL)
     before = _solve(study)

@@ -87,6 +87,7 @@ RECORDS = (
 )
 
 
+@pytest.mark.gate
 def test_the_best_of_mixed_records_is_kept_and_told_as_one_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = clock_until("^[1-9][0-9]* combinations solved", monkeypatch)
     answered = answer(read_study_text(RECORDS), clock.say)

@@ -76,6 +76,7 @@ def test_the_sweep_over_temperature_reaches_from_liquid_up_inside_the_melting_ra
     assert sweep["joint_stiffness_low"][at_sixty] == pytest.approx(liquid_impedance(found, 60.0).real, rel=1e-6)
 
 
+@pytest.mark.gate
 def test_a_limit_that_only_some_histories_keep_is_undecided_and_the_design_carries_both_ends() -> None:
     points = "operating_points: {warm: {temperature: 60 degC}}\n"
     require = "require: {joint_stiffness@warm: '>= 100 N.m/rad', joint_stiffness@hot: '>= 1 N.m/rad'}\n"

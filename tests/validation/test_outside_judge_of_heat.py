@@ -35,6 +35,7 @@ def test_finite_elements_bear_the_plane_out() -> None:
         assert abs(float(row["warmer by [K]"])) < 0.4
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("case", ["paper_shear", "paper_compression"])
 def test_the_plane_that_was_judged_is_today_s(case: str) -> None:
     model = model_of(STUDIES / f"{CASES[case].study}.yaml")

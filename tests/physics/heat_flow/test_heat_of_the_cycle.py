@@ -92,6 +92,7 @@ def test_heat_is_kept_to_a_millionth_from_heating_to_freezing(heated: tuple[Arra
     assert stored + lost + later_lost == pytest.approx(supplied + reversed_supplied, abs=1e-6 * (lost + later_lost))
 
 
+@pytest.mark.gate
 def test_no_heat_is_lost_where_freezing_takes_over(heated: tuple[Array, float, float]) -> None:
     melting, freezing = cycle_stack(), cycle_stack(freezing=FREEZING)
     state = heated[0]

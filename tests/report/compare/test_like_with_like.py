@@ -52,6 +52,7 @@ def test_what_is_drawn_of_both_is_what_was_drawn(outcome: Outcome) -> None:
     assert ends <= {line["y"][-1] for line in outcome.found["s"]["release"]["drawn"]["lines"]}
 
 
+@pytest.mark.gate
 def test_the_sentence_holds_what_was_drawn_against_what_was_drawn(outcome: Outcome) -> None:
     sentence, rows = outcome.sentence, {row.name: row for row in outcome.rows["drawn"]}
     assert ", as drawn: " in sentence

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import os
 import platform
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.report.output import results_folder
 from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
 
 
@@ -49,6 +51,21 @@ def test_a_folder_another_run_is_writing_is_refused(tmp_path: Path) -> None:
     (out / MANIFEST).write_text(json.dumps(said))
     with pytest.raises(InputError, match="another run"):
         ResultsFolder(out, overwrite=True)
+
+
+def test_an_interrupt_while_the_manifest_is_made_is_told_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    usual = results_folder.hash_of
+
+    def interrupted(_: Path) -> str:
+        monkeypatch.setattr(results_folder, "hash_of", usual)
+        raise KeyboardInterrupt
+
+    with suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
+        folder.write("results.csv", "whole")
+        monkeypatch.setattr(results_folder, "hash_of", interrupted)
+        folder.finish("optimal", {}, {})
+    said = json.loads((tmp_path / "out" / MANIFEST).read_bytes())
+    assert (said["status"], list(said["files"])) == ("interrupted", ["results.csv"])
 
 
 def test_a_killed_run_s_folder_can_be_used_again(tmp_path: Path) -> None:

@@ -69,6 +69,7 @@ def test_the_results_say_their_format_and_are_of_the_schema(reported: dict[str, 
     assert reported["units"] == "SI"
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("wrong", ["format", "values", "unit", "more"])
 def test_the_schema_refuses_what_is_not_of_the_format(reported: dict[str, Any], wrong: str) -> None:
     spoilt = json.loads(json.dumps(reported))

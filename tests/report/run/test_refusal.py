@@ -28,6 +28,7 @@ def _run(path: Path, out: Path, *, as_json: bool = False) -> None:
     module.run_study(path, out, overwrite=False, cad=False, plots=False, as_json=as_json)
 
 
+@pytest.mark.gate
 def test_one_start_of_thirty_is_enough_for_what_check_refuses(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -135,6 +135,7 @@ def test_a_block_is_solved_alike_whoever_solves_it_and_whatever_before(begin: Be
         assert one.work == other.work
 
 
+@pytest.mark.gate
 def test_a_run_comes_back_from_its_text_to_the_last_bit(begin: Begin) -> None:
     run = begin.trees[0].optima[0]
     back = run_of(json.loads(json.dumps(plain_run(run))))

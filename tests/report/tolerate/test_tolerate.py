@@ -27,6 +27,7 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
     return folder / "results/arm-tolerances", json.loads(done.stdout), done.stderr
 
 
+@pytest.mark.gate
 def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
     folder, reported, _ = results
     expected = {"contributors.csv", "limits.csv", "manifest.json", "not_known.csv",

@@ -63,6 +63,7 @@ def case_of(resolved: ResolvedModule, name: str) -> Case:
     return next(case for case in cases(resolved) if case.name == name)
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("test", TESTS)
 def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str], Trial]) -> None:
     found = trial(test)

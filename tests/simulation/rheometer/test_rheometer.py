@@ -81,6 +81,7 @@ def test_60_degrees_is_never_one_number_and_30_and_100_always_are(done: Done, na
             assert found.high is None
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("name", TESTS)
 def test_every_line_drawn_is_a_column_of_one_length_and_bands_enclose_it(done: Done, name: str) -> None:
     trial = done(name)

@@ -67,6 +67,7 @@ def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[
         assert cycle.values[name] == pytest.approx(reference[name], rel=5e-3), name
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("pair", ["thin"], indirect=True)
 def test_switch_at_the_cells_a_run_has_is_within_the_percent_that_is_promised(
     pair: tuple[Cycle, dict[str, float]], switch_of: Callable[[str], Cycle]

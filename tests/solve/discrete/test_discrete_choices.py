@@ -118,6 +118,7 @@ def test_the_bounds_save_most_of_the_work() -> None:
     assert choosing.work.warm + choosing.work.cold <= choosing.combinations // 2
 
 
+@pytest.mark.gate
 def test_a_re_solve_takes_a_few_iterations(found: Solution) -> None:
     work = _chosen(found).work
     assert work.warm_iterations <= 8 * work.warm
@@ -190,6 +191,7 @@ def test_the_order_of_a_list_changes_nothing(found: Solution) -> None:
     assert [one.choices for one in _chosen(_solve(listed(turned))).best] == [one.choices for one in _chosen(found).best]
 
 
+@pytest.mark.gate
 def test_the_price_of_going_standard_is_what_the_two_designs_differ_by(
     found: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:

@@ -98,6 +98,7 @@ def test_boxes_lead_from_a_design_to_an_optimum_that_ipopt_does_not_find_from_it
     assert not found.within  # an optimum of the whole problem, no side of a box holds it
 
 
+@pytest.mark.gate
 def test_boxes_keep_what_is_to_be_within_ends(optimizer: Optimizer, design: Array) -> None:
     ends = {"placement_radius": (0.0452, 0.0452), "coil_diameter": (0.012, 0.02)}
     found = BoxSearch(optimizer, ends).run(design)

@@ -59,6 +59,7 @@ def _plain(text: str) -> Study:
     return study.model_copy(update={"robust": None, "solver": study.solver.model_copy(update={"cells": 6})})
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("text", [SHEAR, FREEZING, COMPRESSION])
 def test_it_ends_where_the_search_with_all_elements_does(text: str) -> None:
     optimizer = Optimizer(_plain(text))

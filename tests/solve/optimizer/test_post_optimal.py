@@ -123,6 +123,7 @@ def test_a_variable_nothing_depends_on_hides_no_saving() -> None:
             assert held.sensitivity == pytest.approx(sensitivity[held.name], rel=1e-4, abs=1e-6), held.text
 
 
+@pytest.mark.gate
 def test_of_a_limit_that_is_written_twice_no_saving_is_claimed() -> None:
     study = _study()
     again = study.require[0].model_copy(update={"output": "least_spring_stiffness"})

@@ -33,6 +33,7 @@ def test_half_time_and_slope_of_freezing_are_moved_and_what_is_one_fact_with_the
     assert not names & {"pcl_equilibrium_melting_temperature", "pcl_glass_transition", "pcl_transport_energy"}
 
 
+@pytest.mark.gate
 def test_freezing_time_is_an_interval_until_a_user_fits_his_own(module: ResolvedModule) -> None:
     interval = UncertaintyModel(module, ["frozen_time"]).at(module, 4).intervals["frozen_time"]
     swings = {swing.moved.name: swing for swing in interval.swings}

@@ -76,6 +76,7 @@ def test_an_interval_is_that_of_a_plain_loop_through_the_table() -> None:
     assert interval.low < interval.nominal < interval.high
 
 
+@pytest.mark.gate
 def test_the_ends_are_those_of_a_plain_loop_through_the_same_modules() -> None:
     looped = []
     for column in draw(found().unmeasured, 512, module().study.solver.seed).T:

@@ -126,6 +126,7 @@ def test_one_input_gives_a_yield_that_can_be_worked_out(resolved: Callable[[str]
     assert found.total[i, 0] == pytest.approx(1.0, abs=0.02)
 
 
+@pytest.mark.gate
 def test_the_same_bits_for_any_number_of_workers(resolved: Callable[[str], ResolvedModule]) -> None:
     module = resolved("tolerances: {current: 1 %, wire_diameter: 0.02 mm}\nrequire: {response_time: '<= 200 s'}\n")
     analysis = Tolerancing(module, _silent)

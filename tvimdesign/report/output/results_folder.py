@@ -64,7 +64,7 @@ class ResultsFolder:
         if self._finished:
             return
         try:
-            self.finish("interrupted" if kind and issubclass(kind, KeyboardInterrupt) else "failed", {}, {})
+            self._tell("interrupted" if kind and issubclass(kind, KeyboardInterrupt) else "failed", {}, {}, {})
         except OutputError:
             if value is None:
                 raise
@@ -154,24 +154,29 @@ class ResultsFolder:
     def finish(
         self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None
     ) -> None:
-        """Write the manifest: versions, commit, seed, hashes of what went in and of what came out."""
-        self._finished = True
+        """Write the manifest: versions, commit, seed, hashes of what went in and of what came out.
+
+        An interrupt that comes before it is written has it say so.
+        """
+        raise_pending()
+        self._tell(status, inputs, study, timing or {})
+
+    def _tell(self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float]) -> None:
         for half in self.path.rglob(HALF_WRITTEN):
             half.unlink(missing_ok=True)
         files = sorted(p for p in self.path.rglob("*") if p.is_file() and p.name != MANIFEST)
-        self.write_json(
-            MANIFEST,
-            {
-                "status": status,
-                **self.made_by,
-                "started": self._started.isoformat(timespec="seconds"),
-                "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
-                "timing": timing or {},
-                "seed": study.get("solver", {}).get("seed"),
-                "inputs": {name: hash_of(path) for name, path in inputs.items()},
-                "files": {p.relative_to(self.path).as_posix(): hash_of(p) for p in files},
-            },
-        )
+        manifest = {
+            "status": status,
+            **self.made_by,
+            "started": self._started.isoformat(timespec="seconds"),
+            "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
+            "timing": timing,
+            "seed": study.get("solver", {}).get("seed"),
+            "inputs": {name: hash_of(path) for name, path in inputs.items()},
+            "files": {p.relative_to(self.path).as_posix(): hash_of(p) for p in files},
+        }
+        self.write_at_the_end(MANIFEST, json.dumps(manifest, indent=2, allow_nan=False) + "\n")
+        self._finished = True
 
 
 def rewrite(folder: Path, name: str, data: bytes) -> None:

@@ -121,6 +121,9 @@ def _verified(
 
 
 def _export(design: Design, folder: Path) -> None:
+    from tvimdesign.cad.build.load_kernel import load_kernel
+
+    load_kernel()
     from tvimdesign.cad.fe.exported_parts import export_parts
 
     export_parts(design, folder)

@@ -284,6 +284,7 @@ def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(whole_run: 
     assert soft["si"]["low"] == soft["low"] < soft["one_at_a_time"]["low"]
 
 
+@pytest.mark.gate
 def test_every_table_is_printed_where_that_is_asked(tvimdesign: Command, tmp_path: Path) -> None:
     study = ROOT / "studies/paper_as_published.yaml"
     full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "out").stdout
@@ -329,6 +330,7 @@ def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_i
     assert "Where the solver ended" in (tmp_path / "out/summary.txt").read_text()
 
 
+@pytest.mark.gate
 def test_no_library_warns_on_standard_error(whole_run: WholeRun) -> None:
     assert [line for line in whole_run.done.stderr.splitlines() if not line.startswith("... ")] == []
     assert whole_run.done.stdout.splitlines()[0].startswith("study · ")

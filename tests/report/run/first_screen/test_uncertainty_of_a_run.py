@@ -79,6 +79,7 @@ def test_what_is_assumed_is_what_the_chosen_records_assume(module: ResolvedModul
     assert "pcl_bond_strength" not in {one.name for one in unmeasured_inputs(own)}
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize("output", ["holding_torque", "impedance_range"])
 def test_the_assumed_input_shown_is_the_one_that_moves_an_algebraic_output_most(
     module: ResolvedModule, spread: DesignUncertainty, output: str
