@@ -68,10 +68,13 @@ def environment(own: Path, kept: str = "") -> dict[str, str]:
 
 
 def start(words: list[str], own: Path, kept: str = "") -> subprocess.Popen[bytes]:
-    """Start a command whose results go into `own`/out; with `kept` parts are kept in that folder beside."""
+    """Start a command in `own`, its results into the folder out; with `kept` parts are kept in that folder beside.
+
+    The folder is named as it stands from there: a page that names it is the same of each try.
+    """
     with (own / "said.txt").open("ab") as said, (own / "told.txt").open("ab") as told:
         return subprocess.Popen(
-            [sys.executable, "-m", "tvimdesign", *words, "--out", str(own / "out")],
+            [sys.executable, "-m", "tvimdesign", *words, "--out", "out"],
             cwd=own, stdout=told, stderr=said, env=environment(own, kept), start_new_session=True,
         )  # fmt: skip
 
