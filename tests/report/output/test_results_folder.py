@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import os
 import platform
+import signal
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.base.interrupts import heeding_interrupts
 from tvimdesign.report.output import results_folder
 from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
 
@@ -66,6 +68,14 @@ def test_an_interrupt_while_the_manifest_is_made_is_told_in_it(tmp_path: Path, m
         folder.finish("optimal", {}, {})
     said = json.loads((tmp_path / "out" / MANIFEST).read_bytes())
     assert (said["status"], list(said["files"])) == ("interrupted", ["results.csv"])
+
+
+def test_what_was_made_after_an_interrupt_that_was_swallowed_is_not_told_as_done(tmp_path: Path) -> None:
+    with heeding_interrupts(), suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
+        with suppress(KeyboardInterrupt):  # as some library does
+            os.kill(os.getpid(), signal.SIGTERM)
+        folder.finish("optimal", {}, {})
+    assert json.loads((tmp_path / "out" / MANIFEST).read_bytes())["status"] == "interrupted"
 
 
 def test_a_killed_run_s_folder_can_be_used_again(tmp_path: Path) -> None:
