@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from measured_files import csv, found
 
+from tvimdesign.base.errors import InputError
+
 SIZES = {"layer_inner_radius": "26 mm", "layer_outer_radius": "40 mm", "layer_span": "49 deg"}
 
 
@@ -38,3 +40,9 @@ def test_what_breaks_without_bending_is_known_from_several(tmp_path: Path) -> No
     assert held.low < 9.5
     assert held.high is not None
     assert held.high > 10.5
+
+
+def test_a_torque_that_is_largest_in_the_first_row_is_told(tmp_path: Path) -> None:
+    file = csv(tmp_path / "f.csv", angle__rad=[0.001, 0.002, 0.003, 0.004], torque__Nm=[5.0, 1e-3, 2e-3, 1e-3])
+    with pytest.raises(InputError, match=r"up to its largest torque, 5 N\.m, the joint has one angle, 0\.001 rad"):
+        found(file, "frozen_torque")

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers.polymer import ramp
 from tvimdesign.simulation.measurement.fitting.fit import fitted
@@ -112,13 +113,18 @@ def torque_of(angle: Any, values: Values, zero: str = "zero_angle", *, bends: bo
 
 
 def _turned(block: Block, end: str) -> Turned:
-    """Angle and torque, above zero where the torque is largest, up to the break."""
+    """Angle and torque, above zero where the torque is largest, up to the break. Raises InputError."""
     angle, torque = rows_of(block, ["angle", "torque"])
     sign = np.sign(torque[np.argmax(np.abs(torque))])
     angle, torque = sign * angle, sign * torque
     top = int(np.argmax(torque))
     after = np.flatnonzero(torque[top:] < _BROKEN * torque[top])
     last = top + int(after[0]) if len(after) else len(torque)
+    if not np.ptp(angle[:last]) > 0.0:
+        raise InputError(
+            f"{block.file}: up to its largest torque, {torque[top]:.3g} N.m, the joint has one angle, {angle[0]:.3g} "
+            "rad: no stiffness follows; check that row, or leave out what comes before the joint is turned"
+        )
     return Turned(block.file, angle[:last], torque[:last], bool(len(after)), end)
 
 
