@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
+from measured_files import found
 from numpy.typing import NDArray
+from support import ROOT
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
@@ -36,3 +39,12 @@ def test_times_that_fall_are_refused(tmp_path: Path) -> None:
     seconds[390] = -1e308
     with pytest.raises(InputError, match=r"data\.csv:2: time falls from one row to the next"):
         _read(tmp_path, seconds)
+
+
+def test_kinetics_that_give_no_number_are_no_start(tmp_path: Path) -> None:
+    """A glass transition of 1e9 K ended in a LinAlgError; the campaign of faults found it and keeps the input."""
+    kept = json.loads((ROOT / "campaigns/corpus/fits/904f44e4b289/input.json").read_text(encoding="utf-8"))
+    (tmp_path / "f.csv").write_text(kept["data"], encoding="utf-8")
+    with np.errstate(all="ignore"):
+        fit = found(tmp_path / "f.csv", "dsc", **kept["settings"]).fit
+    assert np.isfinite(fit.value("nucleation_constant"))

@@ -35,6 +35,8 @@ def _misfit(run: Run, kinetics: crystallization.Kinetics) -> float:
     psi = np.concatenate([[0.0], np.cumsum(0.5 * (constants[1:] + constants[:-1]) * np.diff(run.time))])
     freezing: Array = np.gradient(crystallization.solid_fraction(psi, kinetics), run.time)
     table = np.column_stack([np.ones_like(freezing), run.time / run.time[-1], freezing])
+    if not np.all(np.isfinite(table)):
+        return np.inf
     weights = np.linalg.lstsq(table, run.heat, rcond=None)[0]
     if weights[2] <= 0.0:
         table, weights = table[:, :2], np.linalg.lstsq(table[:, :2], run.heat, rcond=None)[0]
