@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import crystallization
 from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run
 from tvimdesign.simulation.measurement.kinds.measurement import Settings
@@ -16,7 +17,16 @@ _CONSTANTS = np.geomspace(3e4, 6e5, 11)  # K^2
 
 
 def freezing_start(runs: Sequence[Run], settings: Settings) -> tuple[float, float]:
-    """Half-time [s] and K_g [K^2] of least misfit, baseline and heat of each run being whatever suits it best."""
+    """Half-time [s] and K_g [K^2] of least misfit, baseline and heat of each run being whatever suits it best.
+
+    Raises InputError where a polymer would be glass at the reference temperature, and not freeze.
+    """
+    glass, reference = settings["glass_transition"], settings["reference_temperature"]
+    if glass >= reference:
+        raise InputError(
+            f"glass_transition is {glass:.6g} K, reference_temperature {reference:.6g} K: a glass does not freeze; "
+            "the first must be below the second"
+        )
     best = (np.inf, 60.0, 1e5)
     for half_time in _HALF_TIMES:
         for constant in _CONSTANTS:
@@ -35,8 +45,6 @@ def _misfit(run: Run, kinetics: crystallization.Kinetics) -> float:
     psi = np.concatenate([[0.0], np.cumsum(0.5 * (constants[1:] + constants[:-1]) * np.diff(run.time))])
     freezing: Array = np.gradient(crystallization.solid_fraction(psi, kinetics), run.time)
     table = np.column_stack([np.ones_like(freezing), run.time / run.time[-1], freezing])
-    if not np.all(np.isfinite(table)):
-        return np.inf
     weights = np.linalg.lstsq(table, run.heat, rcond=None)[0]
     if weights[2] <= 0.0:
         table, weights = table[:, :2], np.linalg.lstsq(table[:, :2], run.heat, rcond=None)[0]
