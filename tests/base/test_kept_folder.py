@@ -1,10 +1,17 @@
 """Where things are kept from one run to the next, and where they are not: a folder of others is not trusted."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+from tvimdesign.base.file_owner import is_own_folder
+from tvimdesign.base.kept_code import find_code, keep_code
 from tvimdesign.base.kept_folder import kept_folder
 
 
@@ -35,3 +42,97 @@ def test_things_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(
     monkeypatch.delenv("TVIMDESIGN_CACHE", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert kept_folder("cad") == tmp_path / "tvimdesign/cad"
+
+
+AS_ROOT = pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root gives files away")
+STRANGER = 12345
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "cache"))
+    return tmp_path / "cache"
+
+
+def give_away(path: Path) -> None:
+    os.chown(path, STRANGER, STRANGER)
+
+
+def make_pipe(path: Path) -> None:
+    path.unlink()
+    os.mkfifo(path)
+
+
+def make_link(path: Path) -> None:
+    path.rename(path.with_name("other"))
+    path.symlink_to("other")
+
+
+CHANGES: list[Any] = [
+    pytest.param(give_away, id="another user's", marks=AS_ROOT),
+    pytest.param(lambda path: path.chmod(0o646), id="writable by all"),
+    pytest.param(lambda path: path.with_name("second").hardlink_to(path), id="two names"),
+    pytest.param(make_link, id="a link"),
+    pytest.param(make_pipe, id="a pipe"),
+    pytest.param(lambda path: path.write_bytes(path.read_bytes()[:-1]), id="cut short"),
+]
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_code_that_others_could_change_is_not_loaded(cache: Path, change: Callable[[Path], object]) -> None:
+    keep_code(b"ours", "text")
+    (file,) = (cache / "code").iterdir()
+    (cache / "code").chmod(0o777)  # anybody could write here once
+    change(file)
+    assert find_code("text") is None
+    assert (cache / "code").stat().st_mode & 0o777 == 0o700
+    keep_code(b"ours", "text")
+    (cache / "code/second").unlink(missing_ok=True)
+    assert find_code("text") == b"ours"
+
+
+def test_code_under_another_name_is_not_loaded(cache: Path) -> None:
+    keep_code(b"ours", "text")
+    (first,) = (cache / "code").iterdir()
+    keep_code(b"others", "other text")
+    (other,) = set((cache / "code").iterdir()) - {first}
+    other.replace(first)
+    assert find_code("text") is None
+
+
+@pytest.mark.usefixtures("cache")
+def test_a_cache_below_a_folder_of_others_is_not_used(tmp_path: Path) -> None:
+    for mode, used in ((0o777, False), (0o1777, True), (0o757, False), (0o755, True)):
+        tmp_path.chmod(mode)
+        assert (kept_folder("code") is not None) == used
+    tmp_path.chmod(0o700)
+
+
+@AS_ROOT
+def test_a_cache_below_or_in_a_folder_of_another_user_is_not_used(cache: Path, tmp_path: Path) -> None:
+    for folder in (tmp_path, cache, cache / "code"):
+        assert kept_folder("code") == cache / "code"
+        give_away(folder)
+        assert kept_folder("code") is None
+        os.chown(folder, 0, 0)
+
+
+def test_new_folders_of_a_cache_are_private(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(cache / "below"))
+    before = os.umask(0)
+    try:
+        assert kept_folder("code") == cache / "below/code"
+    finally:
+        os.umask(before)
+    assert {path.stat().st_mode & 0o777 for path in (cache, cache / "below", cache / "below/code")} == {0o700}
+
+
+def test_a_group_without_other_members_has_no_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    user = SimpleNamespace(pw_gid=os.getgid(), pw_name="me")
+    monkeypatch.setattr("pwd.getpwuid", lambda _: user)
+    tmp_path.chmod(0o770)
+    for name, members, own in (("me", [], True), ("me", ["me"], True), ("me", ["you"], False), ("staff", [], False)):
+        group = SimpleNamespace(gr_name=name, gr_mem=members)
+        monkeypatch.setattr("grp.getgrgid", lambda _, group=group: group)
+        assert is_own_folder(tmp_path) == own
+    tmp_path.chmod(0o700)

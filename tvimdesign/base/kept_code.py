@@ -1,7 +1,7 @@
 """Machine code, and the like that takes long to make, kept from one run to the next by what it was made from.
 
-A file is named by the hash of what was compiled and by whom; it begins with the hash of the code behind it, so that a
-file that does not read back whole is none.
+A file is named by the hash of what was compiled and by whom. It begins with the hash of its name and of the code that
+follows, so that a file that is damaged or renamed is not used. Nor is a file that others could have written.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import os
 from pathlib import Path
 
 from tvimdesign.base.errors import OutputError
+from tvimdesign.base.file_owner import read_own_file
 from tvimdesign.base.kept_folder import kept_folder
 from tvimdesign.base.whole_files import write_whole
 
@@ -28,14 +29,12 @@ def find_code(*compiled: str) -> bytes | None:
         return None
     path = folder / _name(compiled)
     try:
-        if path.is_symlink():
-            return None
-        data = path.read_bytes()
+        data = read_own_file(path)
         os.utime(path)
     except OSError:
         return None
     code = data[_DIGEST:]
-    return code if hashlib.sha256(code).digest() == data[:_DIGEST] else None
+    return code if _seal(path.name, code) == data[:_DIGEST] else None
 
 
 def keep_code(code: bytes, *compiled: str) -> None:
@@ -43,8 +42,9 @@ def keep_code(code: bytes, *compiled: str) -> None:
     folder = kept_folder(_KIND)
     if folder is None:
         return
+    name = _name(compiled)
     with contextlib.suppress(OutputError):
-        write_whole(folder / _name(compiled), hashlib.sha256(code).digest() + code)
+        write_whole(folder / name, _seal(name, code) + code)
         _tidy(folder)
 
 
@@ -53,6 +53,11 @@ def _name(compiled: tuple[str, ...]) -> str:
     for text in compiled:
         digest.update(f"{len(text)} ".encode() + text.encode())
     return digest.hexdigest()
+
+
+def _seal(name: str, code: bytes) -> bytes:
+    """Return the hash that a file begins with."""
+    return hashlib.sha256(name.encode() + code).digest()
 
 
 def _tidy(folder: Path) -> None:

@@ -3,36 +3,36 @@
 from __future__ import annotations
 
 import os
-import stat
 from pathlib import Path
+
+from tvimdesign.base.file_owner import is_own, is_own_folder, is_safe_parent
 
 FOLDER_VARIABLE = "TVIMDESIGN_CACHE"
 """Environment variable that names the folder of all that is kept; empty keeps nothing from one run to the next."""
-_WRITABLE_BY_OTHERS = 0o022
 
 
 def kept_folder(kind: str) -> Path | None:
-    """The user's folder of kept things of a kind; None where none are to be kept, or it cannot be written or trusted.
+    """Return the user's cache folder of a kind; None where there shall be none, or others could change it.
 
-    What is kept is used as it is, so a link, or a folder of another user, is not taken; the user's own is made private.
+    The folder is made private. What others put there before is still in it: read it with `read_own_file`.
     """
     named = os.environ.get(FOLDER_VARIABLE)
     if named == "":
         return None
-    home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
-    above = Path(named) if named else Path(home) / "tvimdesign"
-    return above / kind if _is_private(above) and _is_private(above / kind) else None
+    try:
+        home = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
+        above = Path(named) if named else Path(home) / "tvimdesign"
+        above = above.parent.resolve() / above.name
+        for folder in (*reversed(above.parents), above, above / kind):
+            folder.mkdir(mode=0o700, exist_ok=True)
+        safe = all(is_safe_parent(folder) for folder in above.parents)
+        return above / kind if safe and _is_private(above) and _is_private(above / kind) else None
+    except (OSError, RuntimeError):  # no home, or links in a circle
+        return None
 
 
 def _is_private(folder: Path) -> bool:
-    """Whether a folder, made where there is none, is this user's alone and can be written."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        found = folder.lstat()
-        if stat.S_ISLNK(found.st_mode) or (hasattr(os, "getuid") and found.st_uid != os.getuid()):
-            return False
-        if found.st_mode & _WRITABLE_BY_OTHERS:
-            folder.chmod(0o700)
-    except OSError:
-        return False
-    return os.access(folder, os.W_OK)
+    """Make this user's folder private; return whether it is theirs and can be written. Raises OSError."""
+    if not folder.is_symlink() and is_own(folder.lstat()) and not is_own_folder(folder):
+        folder.chmod(0o700)
+    return is_own_folder(folder) and os.access(folder, os.W_OK)

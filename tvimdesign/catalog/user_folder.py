@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import stat
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
+from tvimdesign.base import file_owner
 from tvimdesign.base.errors import CatalogError, FolderWarning
-
-_ROOT = 0
-"""The user who may write all folders anyway; a folder of theirs is the machine's."""
 
 
 def vouch_for(folder: Path, categories: Sequence[str]) -> None:
@@ -29,17 +26,15 @@ def vouch_for(folder: Path, categories: Sequence[str]) -> None:
 
 def _other_owner(folder: Path) -> str:
     """Who owns a folder, empty where it is this user or the machine. Raises CatalogError where it is anybody's."""
-    if not hasattr(os, "getuid"):
-        return ""
     found = folder.stat()
-    if found.st_uid == os.getuid():
+    if file_owner.is_own(found):
         return ""
     if found.st_mode & stat.S_IWOTH:
         raise CatalogError(
             f"{str(folder)[:200]}: the folder of records belongs to another user, {_name(folder)}, and anybody may "
             "write to it; copy it, or have its owner run chmod o-w on it"
         )
-    return "" if found.st_uid == _ROOT else _name(folder)
+    return "" if found.st_uid == file_owner.ROOT else _name(folder)
 
 
 def _name(folder: Path) -> str:

@@ -157,6 +157,21 @@ DAMAGE: dict[str, Callable[[Path], object]] = {
     "a file beside": lambda folder: (folder.parent / "0123").write_text(""),
 }
 
+DAMAGE |= {
+    "a file that others may write": lambda folder: (folder / "kept/thickness").chmod(0o646),
+    "a trace that others may write": lambda folder: (folder / "trace.json").chmod(0o646),
+    "a folder that others may write": lambda folder: (folder / "out").chmod(0o757),
+    "a file with a second name": lambda folder: (folder / "second").hardlink_to(folder / "out/plate.txt"),
+    "a link for a file": lambda folder: (
+        (folder / "out/plate.txt").rename(folder / "out/other"), (folder / "out/plate.txt").symlink_to("other"),
+    ),
+}  # fmt: skip
+if hasattr(os, "getuid") and os.getuid() == 0:  # only root gives files away
+    DAMAGE |= {
+        f"another user's {name}": lambda folder, name=name: os.chown(folder / name, 12345, 12345)
+        for name in ("trace.json", "out/plate.txt", "kept/thickness", "out", ".", "..")
+    }
+
 
 @pytest.mark.parametrize("name", DAMAGE)
 def test_what_is_kept_and_damaged_is_made_anew(run: Run, name: str) -> None:
@@ -167,6 +182,14 @@ def test_what_is_kept_and_damaged_is_made_anew(run: Run, name: str) -> None:
     assert ("plate" in again.reused) == (name == "a file beside")
     assert text(again, "plate") == "4.000"
     assert set(run(PLATE, STACK).reused) == {"plate", "stack"}
+
+
+def test_a_result_of_other_work_is_not_used(run: Run, tmp_path: Path) -> None:
+    run(PLATE, Work(name="layer", do=thickness))
+    shutil.rmtree(tmp_path / "kept/plate")
+    (tmp_path / "kept/layer").rename(tmp_path / "kept/plate")
+    again = run(PLATE)
+    assert (again.reused, text(again, "plate")) == ([], "4.000")
 
 
 def test_a_damaged_result_is_told(tmp_path: Path) -> None:

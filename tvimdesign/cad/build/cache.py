@@ -2,7 +2,7 @@
 
 A result is a folder: `out/` with the files for the user, `kept/` with what other pieces of work need, `trace.json` with
 what was read, the checks, and the hash of each file. It is used again where the code, what was read of the design and
-the results it was made from are the same; a file that is not what it was when it was written makes it void.
+the results it was made from are the same. A file that has changed, or that others could have written, makes it void.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import contextlib
 import hashlib
 import json
 import os
+import secrets
 import shutil
 import tempfile
 import time
@@ -21,6 +22,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.file_owner import is_own_folder, read_own_file
 from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.cad.cad_report import SolidCheck
 
@@ -61,14 +63,15 @@ class Cache:
         self._folder = folder
         self._code = code_digest()
         self.damaged: list[str] = []
-        """Names of the pieces of work that are made anew because what was kept of them is damaged."""
+        """Names of the pieces of work that are made anew because others could have changed what was kept, or did."""
 
     def fresh(self, name: str) -> Path:
         """Return an empty folder for a piece of work to write into."""
         place = self._folder / name
-        if place.is_symlink() or (place.exists() and not place.is_dir()):
-            place.unlink()  # nothing of ours: what it leads to stays
-        place.mkdir(parents=True, exist_ok=True)
+        self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if os.path.lexists(place) and not is_own_folder(place):
+            _remove(place)
+        place.mkdir(mode=0o700, exist_ok=True)
         made = Path(tempfile.mkdtemp(dir=place, prefix=".new."))
         for part in ("out", "kept"):
             (made / part).mkdir()
@@ -80,6 +83,7 @@ class Cache:
         """Keep what was written into a fresh folder; returns the result."""
         files = {path.relative_to(made).as_posix(): _digest(path.read_bytes()) for path in _files(made)}
         trace = {
+            "name": name,
             "code": self._code,
             "reads": reads,
             "needs": {need: result.digest for need, result in needs.items()},
@@ -88,11 +92,13 @@ class Cache:
         }
         text = json.dumps(trace, sort_keys=True)
         (made / _TRACE).write_text(text, encoding="utf-8")
+        for path in made.rglob("*"):
+            path.chmod(0o700 if path.is_dir() else 0o600)
         final = self._folder / name / _digest(text.encode())
-        if final.is_dir() and _is_sound(final, files):
+        if _is_sound(final, files):
             shutil.rmtree(made)  # another run was quicker
         else:
-            shutil.rmtree(final, ignore_errors=True)
+            _remove(final)
             made.rename(final)
         self._tidy(name)
         return Result(final, files, tuple(checks))
@@ -103,12 +109,12 @@ class Cache:
 
     def find(self, name: str, subject: TrackedDesign, needs: Mapping[str, Result]) -> Result | None:
         """Return the result of a piece of work for a design, where it is there and sound."""
-        wanted = {need: result.digest for need, result in needs.items()}
+        same = {"name": name, "code": self._code, "needs": {need: result.digest for need, result in needs.items()}}
         for folder in self._kept(name):
             trace = _read(folder)
             if trace is None:
                 self._drop(name, folder)
-            elif trace["code"] == self._code and trace["needs"] == wanted and subject.agrees_with(trace["reads"]):
+            elif all(trace.get(key) == value for key, value in same.items()) and subject.agrees_with(trace["reads"]):
                 if _is_sound(folder, trace["files"]):
                     with contextlib.suppress(OSError):  # another run may have removed it since
                         os.utime(folder)
@@ -118,14 +124,14 @@ class Cache:
 
     def _drop(self, name: str, folder: Path) -> None:
         """Take away a result that is not what was written."""
-        shutil.rmtree(folder, ignore_errors=True)
+        _remove(folder)
         if name not in self.damaged:
             self.damaged.append(name)
 
     def _kept(self, name: str) -> list[Path]:
         """Folders of a piece of work's results, the latest used first."""
         place = self._folder / name
-        if place.is_symlink() or not place.is_dir():
+        if not is_own_folder(place):
             return []
         found = [path for path in place.iterdir() if not path.name.startswith(".") and not path.is_symlink()]
         return sorted((path for path in found if path.is_dir()), key=_age)
@@ -161,10 +167,20 @@ def _files(folder: Path) -> Iterator[Path]:
     return (path for path in sorted(folder.rglob("*")) if path.is_file())
 
 
+def _remove(path: Path) -> None:
+    """Remove a file, a link or a folder; what another user put there may only be moved out of the way."""
+    with contextlib.suppress(OSError):  # another run may have removed it
+        aside = path.rename(path.with_name(f".new.{secrets.token_hex(8)}"))
+        if aside.is_symlink() or not aside.is_dir():
+            aside.unlink()
+        else:
+            shutil.rmtree(aside, ignore_errors=True)
+
+
 def _read(folder: Path) -> dict[str, Any] | None:
-    """What was written of a result; None where that is not what the folder is named by, the hash of it."""
+    """Return what was written of a result; None if that is not what the folder is named by, its hash."""
     try:
-        data = (folder / _TRACE).read_bytes()
+        data = read_own_file(folder / _TRACE)
         trace: dict[str, Any] = json.loads(data) if _digest(data) == folder.name else {}
     except (OSError, ValueError):
         return None
@@ -172,8 +188,12 @@ def _read(folder: Path) -> dict[str, Any] | None:
 
 
 def _is_sound(folder: Path, files: Mapping[str, str]) -> bool:
+    """Return whether all files are what they were when written, and nobody else can change them."""
+    folders = {above for name in files for above in (folder / name).parents if above.is_relative_to(folder)}
     try:
-        return all(_digest((folder / name).read_bytes()) == reported for name, reported in files.items())
+        return all(map(is_own_folder, folders | {folder})) and all(
+            _digest(read_own_file(folder / name)) == reported for name, reported in files.items()
+        )
     except OSError:
         return False
 

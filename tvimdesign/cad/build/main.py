@@ -74,7 +74,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
         raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
     checks = [check.fields() for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []
-    notes += [f"what was kept of {name} is damaged: it is made anew" for name in store.damaged]
+    notes += [f"{name} is made anew: its kept files are damaged, or others could change them" for name in store.damaged]
     notes += _not_kept()
     say(checks=checks, files=files, notes=notes, reused=done.reused, seconds=time.perf_counter() - started)
 
@@ -84,7 +84,7 @@ def _not_kept() -> list[str]:
     named = os.environ.get(FOLDER_VARIABLE)
     if not named or kept_folder(_KEPT) is not None:
         return []
-    return [f"nothing is kept for the next run: {named} ({FOLDER_VARIABLE}) is a link, no folder, or another user's"]
+    return [f"nothing is kept for the next run: {named} ({FOLDER_VARIABLE}) is no folder that only you can change"]
 
 
 def _titles(design: Design) -> dict[str, str]:
