@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import json
+import logging
+import socket
+import struct
 import time
 from pathlib import Path
 from typing import Any
@@ -213,3 +217,114 @@ def test_a_server_that_ends_does_not_wait_for_the_pages_that_are_open(tmp_path: 
     seconds, last = awaited(ended())
     assert last == WSMsgType.CLOSE
     assert seconds < 20.0  # aiohttp would wait for a minute
+
+
+def _request(target: str = f"/{TOKEN}/", *headers: bytes, method: str = "GET", host: bytes = b"127.0.0.1") -> bytes:
+    lines = (f"{method} {target} HTTP/1.1".encode(), b"Host: " + host, *headers)
+    return b"\r\n".join(lines) + b"\r\n\r\n"
+
+
+UPGRADE = (b"Upgrade: websocket", b"Connection: Upgrade", b"Sec-WebSocket-Version: 13")
+CHUNKED = b"Transfer-Encoding: chunked"
+MALFORMED = {
+    "no path": _request("*", method="OPTIONS"),
+    "a tunnel": _request("127.0.0.1:80", method="CONNECT"),
+    "a null byte": _request("/%00"),
+    "a null byte with the token": _request(f"/{TOKEN}/parts/%00"),
+    "a long name": _request("/" + 5000 * "x"),
+    "a long name with the token": _request(f"/{TOKEN}/parts/{5000 * 'x'}"),
+    "a name that no file can have": _request(f"/{TOKEN}/parts/{'%c3%a4' * 50}"),
+    "a longer name": _request("/" + 50_000 * "x"),
+    "bytes that are no text": _request(f"/{TOKEN}/parts/").replace(b"parts/", b"parts/\xff\xfe"),
+    "percent of no text": _request(f"/{TOKEN}/parts/%ff%ed%a0%80"),
+    "no slash": _request("x"),
+    "another server": _request("http://127.0.0.1"),
+    "a bad address": _request("http://[::1/"),
+    "a bad port": _request("http://a:bc/"),
+    "a bad version": _request().replace(b"1.1", b"9.9"),
+    "another protocol": _request().replace(b"HTTP", b"HTTX"),
+    "HTTP/2": b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n",
+    "TLS": b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03",
+    "all bytes": bytes(range(256)) * 4,
+    "a null byte in the method": _request(method="G\0T"),
+    "a null byte in a header": _request(f"/{TOKEN}/", b"X: \0"),
+    "a folded header": _request(f"/{TOKEN}/", b"X: a", b" b"),
+    "a huge header": _request(f"/{TOKEN}/", b"X: " + b"y" * 100_000),
+    "many headers": _request(f"/{TOKEN}/", *(b"X%d: y" % number for number in range(1000))),
+    "no host": _request().replace(b"Host: 127.0.0.1\r\n", b""),
+    "two hosts": _request(f"/{TOKEN}/", b"Host: example.com"),
+    "half a host": _request(host=b"[::1"),
+    "a host of no letters": _request(host=b"\xff\xfe"),
+    "an origin of no letters": _request(f"/{TOKEN}/", b"Origin: \xff"),
+    "a bad length": _request(f"/{TOKEN}/", b"Content-Length: -5", method="POST"),
+    "chunks and a length": _request(f"/{TOKEN}/", CHUNKED, b"Content-Length: 5", method="POST") + b"0\r\n\r\n",
+    "bad chunks": _request(f"/{TOKEN}/", CHUNKED, method="POST") + b"zzz\r\nabc\r\n",
+    "no gzip": _request("/", b"Content-Encoding: gzip", b"Content-Length: 5", method="POST") + b"abcde",
+    "a bad range": _request(f"/{TOKEN}/static/page/theme.css", b"Range: bytes=9999999-1"),
+    "another expectation": _request(f"/{TOKEN}/", b"Expect: junk"),
+    "a socket without a key": _request(f"/{TOKEN}/socket", *UPGRADE),
+    "a socket with a bad key": _request(f"/{TOKEN}/socket", *UPGRADE, b"Sec-WebSocket-Key: \xff\xfe"),
+    "a socket without the token": _request("/socket", *UPGRADE) + b"\xff\xff\xff",
+}
+
+
+async def _first_line(port: int, request: bytes) -> bytes:
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    writer.write(request)
+    line = await asyncio.wait_for(reader.readline(), 20.0)
+    writer.close()
+    return line
+
+
+def test_malformed_requests_are_refused_in_silence(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    async def ask() -> dict[str, bytes]:
+        async with served(small_study(tmp_path), tmp_path / "out") as (_, client):
+            found = {name: await _first_line(client.port or 0, request) for name, request in MALFORMED.items()}
+            found["well formed"] = await _first_line(client.port or 0, _request(f"/{TOKEN}/", b"Cookie: a=\xc3\xa4"))
+            return found
+
+    answers = awaited(ask())
+    gc.collect()  # a task that failed unseen is logged once it is collected
+    assert answers.pop("well formed").split()[1] == b"200"
+    assert {name: line for name, line in answers.items() if not line.split()[1].startswith(b"4")} == {}
+    assert [record.getMessage() for record in caplog.records] == []
+
+
+def test_pages_that_vanish_leave_no_word(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    key = b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="
+    opened = _request(f"/{TOKEN}/socket", *UPGRADE, key)
+    begun = (
+        _request(),
+        _request()[:20],
+        b"",
+        opened,
+        opened + 40 * b"\xff",
+        opened + b"\x81\xfe",
+        opened + b"\x88\x00",
+    )
+
+    async def vanish() -> None:
+        async with served(small_study(tmp_path), tmp_path / "out") as (_, client):
+            for request in begun:
+                for pause in (0.0, 0.05):
+                    with socket.create_connection(("127.0.0.1", client.port or 0)) as one:
+                        one.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # end by a reset
+                        one.sendall(request)
+                        await asyncio.sleep(pause)
+                    await asyncio.sleep(0.05)
+
+    awaited(vanish())
+    gc.collect()
+    assert [record.getMessage() for record in caplog.records] == []
+
+
+def test_a_fault_of_the_program_is_logged(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def fault(_: str) -> str:
+        raise ValueError("a fault")
+
+    monkeypatch.setattr("tvimdesign.explore.server.explore_page", fault)
+    (status,) = awaited(_statuses(small_study(tmp_path), tmp_path / "out", [(f"/{TOKEN}/", {})]))
+    assert status == 500
+    assert [(record.levelno, bool(record.exc_info)) for record in caplog.records] == [(logging.ERROR, True)]

@@ -5,12 +5,14 @@ from __future__ import annotations
 import asyncio
 import hmac
 import json
+import logging
 import secrets
 from collections.abc import Awaitable, Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from aiohttp import WSCloseCode, WSMsgType, web
+from aiohttp.http_exceptions import HttpProcessingError
 
 from tvimdesign.explore.answers.report_fragment import PARTS
 from tvimdesign.explore.explore_page import STATIC, content_policy, explore_page
@@ -23,6 +25,8 @@ _SLOWEST = 256
 """Messages that may wait for a page that does not read; one that is further behind is let go, and comes again."""
 FAREWELL = 1.0
 """Seconds that a page has to answer that the server ends."""
+_LONGEST_NAME = 255
+"""Letters of a request's path behind the token, and bytes that a file's name may have."""
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -39,7 +43,9 @@ class Server:
 
     def app(self) -> web.Application:
         """The application, with its session from its start to its end."""
-        app = web.Application(middlewares=[self._guard], client_max_size=MOST_BYTES)
+        app = web.Application(
+            middlewares=[self._guard], client_max_size=MOST_BYTES, handler_args={"logger": _server_log()}
+        )
         base = f"/{self.token}"
         app.router.add_get(f"{base}/", self._page)
         app.router.add_get(f"{base}/socket", self._socket)
@@ -75,7 +81,9 @@ class Server:
 
     @web.middleware
     async def _guard(self, request: web.Request, handler: Handler) -> web.StreamResponse:
-        """Nothing without the token, and nothing by another host's name or page."""
+        """Refuse a malformed request, one without the token, and one by another host's name or page."""
+        if not self._is_well_formed(request):
+            raise web.HTTPBadRequest
         given = request.path.split("/", 2)[1]
         if not hmac.compare_digest(given.encode(), self.token.encode()) or not _local(request.headers.get("Host", "")):
             raise web.HTTPNotFound
@@ -86,6 +94,13 @@ class Server:
         response.headers.setdefault("Referrer-Policy", "no-referrer")
         response.headers.setdefault("X-Content-Type-Options", "nosniff")
         return response
+
+    def _is_well_formed(self, request: web.Request) -> bool:
+        """Return whether a request names a path that can be a file's, in headers that a browser can send."""
+        path, raw = request.path, request.rel_url.raw_path
+        named = path.startswith("/") and path.isprintable() and len(raw) <= len(self.token) + _LONGEST_NAME
+        # Another server on this machine may have set a cookie in any script.
+        return named and all(value.isascii() for name, value in request.raw_headers if name.lower() != b"cookie")
 
     # --- what there is ---
 
@@ -125,6 +140,18 @@ class Server:
             self._sockets.discard(socket)
             sender.cancel()
         return socket
+
+
+def _server_log() -> logging.Logger:
+    """Return a log of this program's faults only, not of malformed requests and of pages that vanish."""
+    log = logging.getLogger(__name__)
+    log.addFilter(_is_fault)
+    return log
+
+
+def _is_fault(record: logging.LogRecord) -> bool:
+    error = record.exc_info[1] if record.exc_info else None
+    return not isinstance(error, HttpProcessingError | web.RequestPayloadError | ConnectionError)
 
 
 async def _forward(queue: asyncio.Queue[str], socket: web.WebSocketResponse) -> None:
