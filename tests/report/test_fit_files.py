@@ -46,6 +46,7 @@ def test_json_is_what_the_folder_has(tvimdesign: Command, weights: Path, tmp_pat
     done = tvimdesign("fit", weights, "--set", "arm=100 mm", "--no-plots", "--json", cwd=tmp_path)
     printed = json.loads(done.stdout)
     assert printed.pop("folder") == "results/weights-fit"
+    assert printed.pop("not_done") == []
     assert printed == json.loads((tmp_path / "results/weights-fit/fit.json").read_text())
 
 

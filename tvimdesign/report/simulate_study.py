@@ -13,12 +13,13 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign.base.errors import InputError
+from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.page_sections import write_page
+from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.summary_table import SummaryTable, print_table
@@ -35,11 +36,12 @@ from tvimdesign.study.tree import study_file, tree_of_file
 def simulate_study(
     path: Path, test: str, out: Path, *, overwrite: bool, as_json: bool, settings: Sequence[str] = ()
 ) -> None:
-    """Put a study's module to a test and write its folder. Raises InputError, and TvimError where drawing fails."""
+    """Test a study's module and write the folder. Raises InputError, and TvimError once all but the figure is done."""
     do = find_test(test)
     source = path / "design.json" if path.is_dir() else path
     resolved, module = _rig(source, settings)
     study = resolved.study
+    failures: list[TvimError] = []
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
         progress = stack.enter_context(progress_output())
@@ -58,19 +60,23 @@ def simulate_study(
             folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
         if drawing:
             progress("drawing the figure")
-            drawing.finish()
+            with noting(failures):
+                drawing.finish()
         text = tested.decode() if isinstance(tested, bytes) else tested
         page = trial_page(folder, study.name, trial, findings_table(trial), figure_data(trial), text)
         write_page(folder, page)
         progress("")
-        folder.finish("tested", {"tested": source, **_records(resolved)}, study.model_dump(mode="json"))
+        status = PARTLY_DONE if failures else "tested"
+        folder.finish(status, {"tested": source, **_records(resolved)}, study.model_dump(mode="json"))
         if as_json:
-            print(json.dumps({**reported, "folder": str(out)}, indent=2, allow_nan=False))
+            print(json.dumps({**reported, "folder": str(out), **not_done(failures)}, indent=2, allow_nan=False))
         else:
             _print_trial(trial, wide_console())
             wide_console().print(
                 f"\nCurves, figure and findings are in [bold]{escape(str(out))}[/bold]", soft_wrap=True
             )
+    if failures:
+        raise done_in_part(failures)
 
 
 def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[str]]:

@@ -14,6 +14,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
@@ -22,10 +23,12 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import Behind, give_way
+from tvimdesign.base.process_tree import Behind, end_process_tree, give_way
+from tvimdesign.base.processor_time import ProcessorTimeError, communicate
 from tvimdesign.base.whole_files import write_whole
 
-TIME_LIMIT = 120.0  # s
+PROCESSOR_LIMIT = 600.0
+"""Seconds of processor time for all plots of a command; they take about five."""
 
 
 class Drawing(NamedTuple):
@@ -54,7 +57,7 @@ class PlotProcess:
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
         """End the process if it has not ended."""
         if self._child.poll() is None:
-            self._child.kill()
+            end_process_tree(self._child.pid)
         self._child.communicate()
 
     def begin(self, folder: Path, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
@@ -63,21 +66,31 @@ class PlotProcess:
         endings = ["png", "pdf", "svg"] if vector else ["png"]
         request = {"folder": str(folder.resolve()), "study": study, "endings": endings, "drawings": asked}
         message = json.dumps(request).encode()
-        assert self._child.stdin is not None
-        with contextlib.suppress(BrokenPipeError):  # a process that has died says why in `finish`
-            self._child.stdin.write(message)
-            self._child.stdin.close()
-        self._child.stdin = None
+        stream, self._child.stdin = self._child.stdin, None
 
-    def finish(self) -> None:
-        """Wait until every plot is in the folder. Raises TvimError where that fails."""
+        def send() -> None:
+            assert stream is not None
+            with contextlib.suppress(BrokenPipeError), stream:  # a process that has died says why in `finish`
+                stream.write(message)
+
+        # A pipe holds little, and the process reads only once matplotlib is loaded.
+        threading.Thread(target=send, daemon=True).start()
+
+    def finish(self, again: str = "repeat the command with --overwrite") -> None:
+        """Wait until every plot is in the folder. Raises TvimError if that fails; `again` says how to get the plots.
+
+        Write all numbers before.
+        """
         try:
-            _, complaint = self._child.communicate(timeout=TIME_LIMIT)
-        except subprocess.TimeoutExpired as error:
-            raise TvimError(f"the plots took longer than {TIME_LIMIT:g} s and were stopped") from error
-        if self._child.returncode != 0:
-            last = complaint.decode(errors="replace").strip().splitlines()[-1:]
-            raise TvimError(f"the plots could not be drawn: {' '.join(last)}")
+            _, complaint = communicate(self._child, PROCESSOR_LIMIT)
+        except ProcessorTimeError as error:
+            reason = str(error)
+        else:
+            if self._child.returncode == 0:
+                return
+            lines = complaint.decode(errors="replace").strip().splitlines()
+            reason = lines[-1] if lines else f"the process ended with code {self._child.returncode}"
+        raise TvimError(f"the plots could not be drawn: {reason}. All numbers are written; for the plots, {again}")
 
 
 def main() -> None:

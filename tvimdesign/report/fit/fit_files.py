@@ -11,10 +11,11 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
-from tvimdesign.base.errors import InputError
+from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.fit.fit_data import figure_data, fit_data, residuals_csv
+from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
@@ -31,9 +32,10 @@ def fit_files(
     paths: Sequence[Path], kind: str, out: Path, *, settings: Sequence[str], columns: Path | None, record: str,
     based_on: str, catalog: Path, overwrite: bool, plots: bool, as_json: bool,
 ) -> None:  # fmt: skip
-    """Fit files and write the folder, and the record where one is named. Raises InputError."""
+    """Fit files; write the folder and the record. Raises InputError, and TvimError once all but the figure is done."""
     given = _given(settings)
     column_map = read_column_map(columns) if columns else None
+    failures: list[TvimError] = []
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite))
         progress = stack.enter_context(progress_output())
@@ -50,13 +52,16 @@ def fit_files(
         folder.write("residuals.csv", residuals_csv(measured.measurement.fit))
         if drawing:
             progress("drawing the figure")
-            drawing.finish()
+            with noting(failures):
+                drawing.finish()
         progress("")
-        folder.finish("fitted", {path.name: path for path in paths}, {})
+        folder.finish(PARTLY_DONE if failures else "fitted", {path.name: path for path in paths}, {})
     if as_json:
-        print(json.dumps({**data, "folder": str(out)}, indent=2, allow_nan=False))
+        print(json.dumps({**data, "folder": str(out), **not_done(failures)}, indent=2, allow_nan=False))
     else:
         _print(measured, written, out, wide_console())
+    if failures:
+        raise done_in_part(failures)
 
 
 def list_kinds(as_json: bool) -> None:

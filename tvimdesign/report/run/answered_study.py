@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, cast
 
-from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.errors import TvimError
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.partly_done import noting
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RunResults
@@ -128,21 +128,3 @@ def drawings(answered: AnsweredStudy) -> list[Drawing]:
     if answered.heat_map.get("values"):
         found.append(Drawing("sensitivities", "sensitivity_figure.sensitivities", answered.heat_map))
     return found + answered.front.drawings()
-
-
-@contextmanager
-def noting(failures: list[TvimError]) -> Iterator[None]:
-    """Keep a failure for the end, so that what else can be done is done; wrong input stays an error of its own."""
-    try:
-        yield
-    except InputError:
-        raise
-    except TvimError as error:
-        failures.append(error)
-
-
-def done_in_part(failures: list[TvimError]) -> TvimError:
-    """What is told last where something was not done."""
-    error = TvimError("done in part: " + "; ".join(str(failure) for failure in failures))
-    error.exit_code = 4
-    return error

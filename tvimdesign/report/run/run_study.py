@@ -12,6 +12,7 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
 from tvimdesign.base.extras import how_to_install
+from tvimdesign.report.output.partly_done import done_in_part, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.study import read_tree
@@ -52,7 +53,7 @@ def run_study(
         # Begun before what solves and reports is loaded here: both take their time to load as much.
         making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
-        from tvimdesign.report.run.answered_study import answer_study, drawings, note_uncertainty, noting
+        from tvimdesign.report.run.answered_study import answer_study, drawings, note_uncertainty
         from tvimdesign.report.run.first_screen.run_screen import RunScreen
         from tvimdesign.report.run.keep_best import keeping_best
         from tvimdesign.report.run.refusal import leaving_the_reason
@@ -149,7 +150,6 @@ def _asked_of_design(making: PartsAhead | None, folder: ResultsFolder, screen: R
 
 def _end_as(answered: AnsweredStudy) -> None:
     """Raise what a run that is written ends with, where it is no plain success."""
-    from tvimdesign.report.run.answered_study import done_in_part
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.yield_words import below_yield
 
@@ -183,7 +183,6 @@ def _say_last(
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Make the parts of a design.json, or of a study, which is answered first."""
-    from tvimdesign.report.run.answered_study import done_in_part, noting
     from tvimdesign.report.run.parts_of_design import PartsAhead
 
     if source.suffix != ".json":

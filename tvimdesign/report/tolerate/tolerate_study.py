@@ -11,11 +11,12 @@ from typing import Any
 
 from rich.markup import escape
 
-from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.page_sections import write_page
+from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.shared_folder import say_part
@@ -61,7 +62,8 @@ def tolerate_study(
     path: Path, out: Path, samples: int, workers: int, *, overwrite: bool, as_json: bool, where: Where | None = None,
     resume: bool = False,
 ) -> None:  # fmt: skip
-    """Analyse a study's or a design's tolerances and write a folder. Raises InputError, InfeasibleError.
+    """Analyse a study's or a design's tolerances and write a folder. Raises InputError, InfeasibleError,
+    and TvimError once all but the figure is done.
 
     `where` names an array's job or a cluster; modules are drawn in this process unless given. With `resume` blocks of
     modules that are there are not drawn again.
@@ -70,6 +72,7 @@ def tolerate_study(
         raise InputError(f"--samples {samples}: must be {FEWEST} to {MOST}")
     count, threads = power_of_two(samples), workers or os.cpu_count() or 1
     source = path / "design.json" if path.is_dir() else path
+    failures: list[TvimError] = []
     with ExitStack() as stack:
         study = _study(source)
         shared = bool(where) or resume
@@ -106,17 +109,28 @@ def tolerate_study(
             progress("drawing the figure")
             figure = Drawing("spread", "tolerance_figure.spread", figure_data(found, table))
             drawing.begin(folder.path, [figure], study.name)
-            drawing.finish()
+            with noting(failures):
+                drawing.finish()
         text = source.read_text("utf-8")
         write_page(folder, tolerance_page(folder, study.name, found, data, table, text))
         progress("")
-        folder.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"))
-        if as_json:
-            print(json.dumps(data | {"folder": str(out)}, indent=2, allow_nan=False))
-        else:
-            print_tolerances(found, data, table, wide_console())
-            print_unknown(data["not_known"], wide_console())
-            wide_console().print(f"\nTables and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
+        status = PARTLY_DONE if failures else "tolerated"
+        folder.finish(status, {"tolerated": source}, study.model_dump(mode="json"))
+        _say(found, data, table, out, failures, as_json=as_json)
+    if failures:
+        raise done_in_part(failures)
+
+
+def _say(
+    found: Spread, data: dict[str, Any], table: Table, out: Path, failures: list[TvimError], *, as_json: bool
+) -> None:
+    """Print the results, as tables or as JSON."""
+    if as_json:
+        print(json.dumps(data | {"folder": str(out)} | not_done(failures), indent=2, allow_nan=False))
+        return
+    print_tolerances(found, data, table, wide_console())
+    print_unknown(data["not_known"], wide_console())
+    wide_console().print(f"\nTables and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
 
 
 def _study(source: Path) -> Study:
