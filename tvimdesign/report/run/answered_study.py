@@ -115,6 +115,12 @@ def note_uncertainty(answered: AnsweredStudy, data: Mapping[str, Any]) -> None:
         answered.reported["uncertainty"] = cast("UncertaintyEntry", {name: data[name] for name in _OF_RESULTS})
 
 
+def note_no_uncertainty(answered: AnsweredStudy, error: TvimError) -> None:
+    """Report that the uncertainty is missing, as a failure and as the first warning of the screen."""
+    answered.failures.append(error)
+    answered.warnings.insert(0, (str(error), ""))
+
+
 _OF_RESULTS = tuple(UncertaintyEntry.__annotations__)
 
 

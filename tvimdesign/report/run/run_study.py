@@ -53,12 +53,12 @@ def run_study(
         # Begun before what solves and reports is loaded here: both take their time to load as much.
         making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
-        from tvimdesign.report.run.answered_study import answer_study, drawings, note_uncertainty
+        from tvimdesign.report.run.answered_study import answer_study, drawings
         from tvimdesign.report.run.first_screen.run_screen import RunScreen
         from tvimdesign.report.run.keep_best import keeping_best
         from tvimdesign.report.run.refusal import leaving_the_reason
         from tvimdesign.report.run.run_page.run_page import write_run_page
-        from tvimdesign.report.run.write_answer import finish, write_answer
+        from tvimdesign.report.run.write_answer import finish, write_answer, write_results
 
         best = stack.enter_context(keeping_best(folder))
         progress = stack.enter_context(progress_output())
@@ -78,8 +78,9 @@ def run_study(
         if drawing and found.found:
             vector = bool(making) or study.write.vector
             drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
-        note_uncertainty(answered, screen.uncertainty())
-        write_answer(folder, answered)
+        write_answer(folder, answered)  # before this run waits for other processes
+        _wait_for_uncertainty(answered, screen)
+        write_results(folder, answered)
         progress("")
         screen.tell(answered, folder, None if as_json else wide_console(), full=full)
         if making and found.found:
@@ -146,6 +147,15 @@ def _asked_of_design(making: PartsAhead | None, folder: ResultsFolder, screen: R
         screen.ask(design)
 
     return asked
+
+
+def _wait_for_uncertainty(answered: AnsweredStudy, screen: RunScreen) -> None:
+    from tvimdesign.report.run.answered_study import note_no_uncertainty, note_uncertainty
+
+    try:
+        note_uncertainty(answered, screen.uncertainty())
+    except TvimError as error:
+        note_no_uncertainty(answered, error)
 
 
 def _end_as(answered: AnsweredStudy) -> None:

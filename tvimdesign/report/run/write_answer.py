@@ -16,12 +16,10 @@ from tvimdesign.study.tree import study_file
 
 def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
-    found, table, reported = answered.result, answered.study.table, answered.reported
+    found, table = answered.result, answered.study.table
     folder.write("study.yaml", study_file(answered.tree))
     folder.write("study.resolved.json", answered.study.model_dump_json(indent=2) + "\n")
-    folder.write_json("results.json", reported)
-    intervals = reported["uncertainty"]["intervals"] if "uncertainty" in reported else None
-    folder.write("results.csv", results_csv(reported["values"], intervals))
+    write_results(folder, answered)
     if found.solution and found.found:
         folder.write("why.csv", why_csv(found, table))
     if answered.sensitivities:
@@ -32,6 +30,14 @@ def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
     answered.front.write(folder, found)
     return write_design(found.design, folder.path / "design.json")
+
+
+def write_results(folder: ResultsFolder, answered: AnsweredStudy) -> None:
+    """Write results.json and results.csv; again once the uncertainty is known."""
+    reported = answered.reported
+    folder.write_json("results.json", reported)
+    intervals = reported["uncertainty"]["intervals"] if "uncertainty" in reported else None
+    folder.write("results.csv", results_csv(reported["values"], intervals))
 
 
 def finish(folder: ResultsFolder, answered: AnsweredStudy) -> None:

@@ -59,9 +59,11 @@ class RunScreen:
             self._asked = True
 
     def uncertainty(self) -> dict[str, Any]:
-        """How sure the design is, once that is known; empty where nobody asked, or nothing came of it."""
+        """Return how sure the design is; empty if nobody asked. Raises TvimError once if it cannot be computed."""
         if self._uncertainty is None:
-            self._uncertainty = self._process.finish() if self._process and self._asked else {}
+            self._uncertainty = {}
+            if self._process and self._asked:
+                self._uncertainty = self._process.finish()
         return self._uncertainty
 
     def told(self, answered: AnsweredStudy, *, timed: bool) -> Told:

@@ -2,7 +2,7 @@
 
 Run as `python -m tvimdesign.report.run.first_screen.uncertainty_process`: reads two lines of JSON on
 standard input, a study, for which it compiles, and its design, and prints what `Uncertainty` says of that.
-`UncertaintyProcess` is the other end.
+`UncertaintyProcess` is the other end. An error of the package is printed as `{"error": ...}`.
 """
 
 from __future__ import annotations
@@ -18,11 +18,14 @@ from types import TracebackType
 from typing import Any
 
 from tvimdesign.base.child_process import follow_parent, start_child
-from tvimdesign.base.process_tree import Behind, give_way
+from tvimdesign.base.errors import TvimError
+from tvimdesign.base.process_tree import Behind, end_process_tree, give_way
+from tvimdesign.base.processor_time import ProcessorTimeError, communicate
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
-TIME_LIMIT = 120.0  # s, many times what it takes where processors are shared
+PROCESSOR_LIMIT = 600.0
+"""Seconds of processor time; it takes about two."""
 
 
 class UncertaintyProcess:
@@ -44,7 +47,7 @@ class UncertaintyProcess:
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
         """End the process if it has not ended."""
         if self._child.poll() is None:
-            self._child.kill()
+            end_process_tree(self._child.pid)
         self._child.communicate()
 
     def begin(self, design: Design) -> None:
@@ -58,13 +61,21 @@ class UncertaintyProcess:
             self._child.stdin.flush()
 
     def finish(self) -> dict[str, Any]:
-        """What `Uncertainty` says of the design; empty where the process failed or took too long."""
+        """Return what `Uncertainty` says of the design. Raises TvimError, with how to get it, if the process fails."""
         try:
-            said, _ = self._child.communicate(timeout=TIME_LIMIT)
-        except subprocess.TimeoutExpired:
-            return {}
-        found: dict[str, Any] = json.loads(said) if self._child.returncode == 0 else {}
-        return found
+            said, _ = communicate(self._child, PROCESSOR_LIMIT)
+        except ProcessorTimeError as error:
+            reason = str(error)
+        else:
+            code = self._child.returncode
+            found: dict[str, Any] = json.loads(said) if code == 0 else {"error": f"its process ended with code {code}"}
+            if "error" not in found:
+                return found
+            reason = found["error"]
+        raise TvimError(
+            f"the uncertainty of the design could not be computed: {reason}; "
+            "for the yield and the ranges, run `tvimdesign tolerate` with the results folder"
+        )
 
 
 def main() -> None:
@@ -77,11 +88,15 @@ def main() -> None:
     from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
 
     compile_quickly()  # some thousand modules are drawn: the compiler would take longer than they do
-    uncertainty = Uncertainty(Study.model_validate_json(sys.stdin.readline()))
-    uncertainty.draw_ahead()
-    line = sys.stdin.readline()
-    if line:
-        print(json.dumps(uncertainty.data(Design.model_validate_json(line)), allow_nan=False))
+    study = Study.model_validate_json(sys.stdin.readline())
+    try:
+        uncertainty = Uncertainty(study)
+        uncertainty.draw_ahead()
+        line = sys.stdin.readline()
+        if line:
+            print(json.dumps(uncertainty.data(Design.model_validate_json(line)), allow_nan=False))
+    except TvimError as error:
+        print(json.dumps({"error": str(error)}))
 
 
 if __name__ == "__main__":
