@@ -181,7 +181,7 @@ def faults_after(one: Try, own: Path, seed: int = 1) -> list[str]:
     expected = {signal.SIGKILL: -signal.SIGKILL}.get(one.number, 128 + one.number)
     if talk:
         found += talk.not_kept()
-    early = {-one.number} if not (own / "out/manifest.json").exists() else set()  # Python was not up yet
+    early = {-one.number} if _status(own / "out") is None else set()  # Python was not up yet
     through = ended or code == 0  # each ends with 0 where nobody ends it; its work may be done when the signal comes
     if code not in ({0} if ended else {expected, 0, *early}):
         found.append(f"exit code {code}")
@@ -200,22 +200,27 @@ def broken_files(out: Path, one: Try, *, through: bool) -> list[str]:
                 found.append(f"{name} is left half written")
         elif not whole(path, data):
             found.append(f"{name} is broken")
-    manifest = out / "manifest.json"
-    if manifest.exists() and (status := _status(manifest)):
+    if status := _status(out):
         wanted = "running" if one.number == signal.SIGKILL else "interrupted"
         if through and status in _UNFINISHED:
-            found.append(f"the manifest says {status} of what was through")
+            found.append(f"the folder says {status} of what was through")
         elif not through and status != wanted:
-            found.append(f"the manifest says {status}, not {wanted}")
+            found.append(f"the folder says {status}, not {wanted}")
     return found
 
 
-def _status(manifest: Path) -> str:
-    """What a manifest says became of its command; empty where it is broken, which is a fault of its own."""
-    try:
-        return str(json.loads(manifest.read_bytes())["status"])
-    except (ValueError, KeyError):
-        return ""
+def _status(out: Path) -> str | None:
+    """Return what a folder says became of its command; empty where it is broken, which is a fault of its own.
+
+    An unfinished run has said who writes, and no manifest yet.
+    """
+    for name in ("manifest.json", "unfinished/.run.json"):
+        if (out / name).exists():
+            try:
+                return str(json.loads((out / name).read_bytes())["status"])
+            except (ValueError, KeyError):
+                return ""
+    return None
 
 
 def whole(path: Path, data: bytes) -> bool:
@@ -261,7 +266,8 @@ def tried(
     own = folder / f"{command}-{number}"
     own.mkdir()
     faults = faults_after(one, own, number)
-    resumed = command in GOES_ON and (own / "out" / GOES_ON[command]).is_dir()
+    begun = [own / "out" / part / GOES_ON[command] for part in ("", "unfinished") if command in GOES_ON]
+    resumed = any(folder.is_dir() for folder in begun)
     if resumed:
         faults += resumed_differs(command, own, through.out)
     told = {"signal": one.number.name, "after": round(one.after, 2), "resumed": resumed, "faults": faults}

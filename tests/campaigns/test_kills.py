@@ -97,10 +97,10 @@ while True:
         (143, "interrupted", []),
         (0, "evaluated", []),
         (4, "interrupted", ["exit code 4"]),
-        (4, "failed", ["exit code 4", "the manifest says failed, not interrupted"]),
+        (4, "failed", ["exit code 4", "the folder says failed, not interrupted"]),
         (3, "interrupted", ["exit code 3"]),
-        (143, "failed", ["the manifest says failed, not interrupted"]),
-        (0, "interrupted", ["the manifest says interrupted of what was through"]),
+        (143, "failed", ["the folder says failed, not interrupted"]),
+        (0, "interrupted", ["the folder says interrupted of what was through"]),
     ],
 )
 def test_after_a_signal_a_command_is_interrupted_or_was_through(
@@ -146,7 +146,7 @@ def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
     found = kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)
     assert found == [
         ".why.csv.x.part is left half written", "cycle.png is broken", "results.json is broken",
-        "the manifest says running, not interrupted",
+        "the folder says running, not interrupted",
     ]  # fmt: skip
     (tmp_path / "manifest.json").write_text('{"status": ')
     assert "manifest.json is broken" in kills.broken_files(tmp_path, Try("run", signal.SIGTERM, 1.0), through=False)

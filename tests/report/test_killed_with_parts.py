@@ -11,7 +11,7 @@ import pytest
 from cad_designs import design_of, whole
 
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.base.whole_files import HALF_WRITTEN
+from tvimdesign.base.journal import UNFINISHED
 from tvimdesign.report.run import parts_of_design
 from tvimdesign.report.verify import verify_design
 from tvimdesign.study.design import read_design, write_design
@@ -53,7 +53,7 @@ def test_the_design_of_parts_under_way_is_no_temporary_folder(
     out = tmp_path / "out/cad"
     with parts_of_design.PartsAhead() as parts:
         parts.begin(whole(design_of("paper", {})), out)
-        assert list(out.glob(HALF_WRITTEN)) == [NoProcess.asked]  # which is removed once it is found half written
+        assert list(out.iterdir()) == [NoProcess.asked]
         assert read_design(NoProcess.asked).mode == "shear"
         assert list(temporary.iterdir()) == []
     assert list(out.iterdir()) == []
@@ -74,10 +74,8 @@ def test_what_is_verified_stands_beside_the_results_while_it_is_solved(
     monkeypatch.setattr(verify_design, "_export", lambda *_: None)
     monkeypatch.setattr(verify_design, "run_solvers", solve)
     out = tmp_path / "out"
-    (out / ".verify-killed").mkdir(parents=True)
-    (out / "manifest.json").write_text('{"status": "running"}')
     design = write_design(whole(design_of("paper", {})), tmp_path / "design.json")
     with pytest.raises(SimulationError, match="the mesh has no end"):
         verify_design.verify_design(design, out, "", overwrite=True, pictures=False, as_json=False)
-    assert seen[0].parent == out
+    assert seen[0].parent == out / UNFINISHED
     assert [path.name for path in out.iterdir()] == ["manifest.json"]

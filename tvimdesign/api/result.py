@@ -243,7 +243,7 @@ class Result:
 
         with ResultsFolder(Path(folder), overwrite) as written, shown_progress(progress) as say:
             report = make_parts_of(write_design(self.design, written.path / "design.json"), written.path, say)
-            refuse_failed(report, written.path)
+            refuse_failed(report)
             written.finish(self.status, {}, self.design.study)
         files = tuple(sorted(written.path / name for name in report.files))
         return Parts(written.path, files, tuple(plain_report(report)["checks"]))

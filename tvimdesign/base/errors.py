@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 
 class TvimError(Exception):
     """Anything tvimdesign says no to; the message names the thing, the value, the limit and the next step."""
@@ -11,6 +13,10 @@ class TvimError(Exception):
 
 class InputError(TvimError):
     """The user's input is wrong: a study, a record, a file, an option."""
+
+
+class FolderInUseError(InputError):
+    """Another run writes the results folder."""
 
 
 class CatalogError(InputError):
@@ -37,6 +43,17 @@ class AboveRatingError(InfeasibleError):
 
 class BelowYieldError(InfeasibleError):
     """Fewer modules keep the limits of the best design found than the study asks."""
+
+
+class TimeOverError(TvimError):
+    """The time limit was over before a step was done; nothing is known of what it would have come to."""
+
+    exit_code = 3
+
+    def __init__(self, step: str, seconds: float) -> None:
+        """`step` names what was not done."""
+        limit = f"the time limit of {seconds:g} s" if math.isfinite(seconds) else "the time limit"
+        super().__init__(f"{limit} was over before {step}: raise `solver.time_limit` (or --time-limit)")
 
 
 class GeometryError(TvimError):

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from tvimdesign.base import journal
 from tvimdesign.base.errors import OutputError
 
 TABLE_ENCODING = "utf-8-sig"
 """Of a CSV file: with a byte order mark, without which Excel shows N·m as NÂ·m. Readers name it, too."""
-
-
-HALF_WRITTEN = ".*.part"
-"""Files that a process which was killed has left half written: a pattern."""
 
 
 def write_whole(path: Path, data: bytes) -> None:
@@ -26,16 +23,19 @@ def write_whole(path: Path, data: bytes) -> None:
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A file beside, to be written by whoever needs its path, which then takes its place. Raises OutputError."""
+    """Yield a file beside, to be written by whoever needs its path, which then takes its place. Raises OutputError.
+
+    In the folder of an unfinished run both names are in its journal before their files exist.
+    """
+    beside = path.with_name(f".{path.name[:100]}.{secrets.token_hex(8)}.part")
     try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:100]}.", suffix=".part")
-        os.close(handle)
-        beside = Path(name)
+        journal.record(beside, journal.ANY)
+        os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))  # the umask takes its part
         try:
             yield beside
             with beside.open("rb+") as stream:
                 os.fsync(stream.fileno())
-            beside.chmod(0o644)
+            journal.record(path, journal.digest_of(beside))
             beside.replace(path)
         except BaseException:
             beside.unlink(missing_ok=True)

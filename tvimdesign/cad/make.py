@@ -25,8 +25,8 @@ TIMEOUT = 300.0
 """Seconds without a word; a module takes about ten, many times that where the machine has other work."""
 PART_TIMEOUT = 90.0
 """Seconds for one part with its files, or one set of checks; the longest takes two."""
-HALF_MADE = ".parts.*"
-"""Folder in which parts are made where none are kept from one run to the next: a pattern."""
+HALF_MADE = ".parts.{}."
+"""What the name of the folder begins with in which a process makes parts where none are kept between runs."""
 JOB = "tvimdesign.cad.build.main"
 WAITING = "--wait"
 """First argument of a child that is told on standard input what to make: a line of JSON with design, folder and
@@ -92,7 +92,7 @@ class PartsProcess:
                 self._process.stdin.close()
         self._stack.close()
         if self._out:
-            for half_made in self._out.glob(HALF_MADE):
+            for half_made in self._out.glob(f"{HALF_MADE.format(self._process.pid)}*"):
                 shutil.rmtree(half_made, ignore_errors=True)
 
     def begin(self, design_path: Path, out: Path, part_timeout_s: float = PART_TIMEOUT) -> None:

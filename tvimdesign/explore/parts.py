@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError, TvimError
-from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.explore.answers.report_fragment import PARTS
+from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.parts_of_design import make_parts_of
 from tvimdesign.report.run.solid_checks import in_short
 
@@ -61,8 +61,8 @@ class PartsMaker:
 
     def _written(self, name: str, text: str, progress: Callable[[str], None]) -> str:
         """The design's file and its parts; what the checks say."""
-        own = self._folder / PARTS / name
-        make_folder(own)
-        write_whole(own / "design.json", text.encode())
-        report = make_parts_of(own / "design.json", own / "cad", progress)
+        with ResultsFolder(self._folder / PARTS / name, overwrite=True) as folder:
+            design = folder.write("design.json", text)
+            report = make_parts_of(design, folder.path / "cad", progress)
+            folder.finish("parts made", {}, {})
         return in_short(report.checks)

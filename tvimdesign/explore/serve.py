@@ -14,7 +14,7 @@ from aiohttp import web
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.server import FAREWELL, HOST, Server
-from tvimdesign.explore.states.history import FILE, open_kept
+from tvimdesign.explore.states.history import open_kept
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.report.output.progress import wide_console
 
@@ -31,12 +31,9 @@ def serve(
             f"--token: needs {SHORTEST_TOKEN} or more letters, digits, - and _; leave it out to have one drawn"
         )
     opened = open_source(source, settings)
-    if overwrite:
-        (folder / FILE).unlink(missing_ok=True)
-    else:
-        open_kept(folder, opened.text, opened.first)
+    open_kept(folder, opened.text, opened.first, overwrite=overwrite)
     with contextlib.suppress(KeyboardInterrupt):
-        asyncio.run(_serve(Server(source, folder, settings, token), port, browse))
+        asyncio.run(_serve(Server(source, folder, settings, token, overwrite=overwrite), port, browse))
 
 
 async def _serve(server: Server, port: int, browse: bool) -> None:

@@ -33,10 +33,13 @@ Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 class Server:
     """The pages that are open, and the session they share."""
 
-    def __init__(self, source: Path, folder: Path, settings: Sequence[str] = (), token: str = "") -> None:
-        """Nothing is opened yet; `token` is drawn unless given."""
+    def __init__(
+        self, source: Path, folder: Path, settings: Sequence[str] = (), token: str = "", *, overwrite: bool = False
+    ) -> None:  # fmt: skip
+        """Prepare a server; `token` is drawn unless given. With `overwrite` a history begins again."""
         self.token = token or secrets.token_urlsafe(24)
         self._source, self._folder, self._settings = source, folder, settings
+        self._overwrite = overwrite
         self._pages: set[asyncio.Queue[str]] = set()
         self._sockets: set[web.WebSocketResponse] = set()
         self.session: Session | None = None
@@ -57,7 +60,7 @@ class Server:
         return app
 
     async def _open(self, _: web.Application) -> None:
-        self.session = Session(self._source, self._folder, self._send, self._settings)
+        self.session = Session(self._source, self._folder, self._send, self._settings, overwrite=self._overwrite)
 
     async def _end_pages(self, _: web.Application) -> None:
         """Tell the pages; a server that ends would wait a minute for those that stay open."""

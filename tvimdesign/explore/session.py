@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.journal import digest_of, is_as_written
 from tvimdesign.base.units import pretty
 from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.explore.answers.engine import Stage
@@ -18,7 +20,7 @@ from tvimdesign.explore.drafts.drafter import Drafter, DraftJob
 from tvimdesign.explore.parts import PartsMaker
 from tvimdesign.explore.states import messages
 from tvimdesign.explore.states.controls import controls_shown
-from tvimdesign.explore.states.history import Kept, open_kept, write_kept
+from tvimdesign.explore.states.history import FILE, Kept, open_kept, write_kept
 from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.saved_study import saved_text
 from tvimdesign.explore.states.source import Source, open_source
@@ -35,16 +37,19 @@ Send = Callable[[Told], None]
 class Session:
     """One study, explored by any count of pages at once."""
 
-    def __init__(self, source: Path, folder: Path, send: Send, settings: Sequence[str] = ()) -> None:
+    def __init__(
+        self, source: Path, folder: Path, send: Send, settings: Sequence[str] = (), *, overwrite: bool = False
+    ) -> None:  # fmt: skip
         """Open the study, go on from what was kept in the folder, and start the solver. Raises InputError.
 
         `send` hands what all pages are told on to them. To be made in an event loop.
         """
         self.source: Source = open_source(source, settings)
         self.folder, self._send = folder, send
-        self.kept: Kept = open_kept(folder, self.source.text, self.source.first)
+        self.kept: Kept = open_kept(folder, self.source.text, self.source.first, overwrite=overwrite)
         make_folder(folder)
-        write_kept(folder, self.kept)
+        if not (folder / FILE).exists():
+            write_kept(folder, self.kept)
         self._since: State = self.kept.state
         self._number = 0
         self._timer: asyncio.TimerHandle | None = None
@@ -148,7 +153,11 @@ class Session:
         if not _FILE.fullmatch(file):
             raise InputError(f"save: {file!r} is no file name; letters, digits, _ . - and .yaml at the end")
         path = self.folder / file
+        if os.path.lexists(path) and not is_as_written(self.folder, file, {self.kept.saved.get(file, "-")}):
+            raise InputError(f"save: {path} is there already, and is not what was saved from here; choose another name")
         write_whole(path, saved_text(self.source.tree, self.kept.state, self.folder).encode())
+        self.kept.saved[file] = digest_of(path)
+        write_kept(self.folder, self.kept)
         return {"kind": "saved", "file": file, "path": str(path)}
 
     # --- what becomes of it ---

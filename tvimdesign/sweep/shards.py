@@ -6,6 +6,7 @@ it is no cell. Whoever goes on writes a shard of its own.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from collections.abc import Iterator, Sequence
@@ -15,6 +16,7 @@ from typing import Any, NamedTuple
 
 from tvimdesign import __version__
 from tvimdesign.base.errors import OutputError
+from tvimdesign.base.journal import record
 from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.sweep.work import CellAnswer
 
@@ -32,7 +34,7 @@ class ShardWriter:
         """Nothing is written yet."""
         self._out, self._folder, self._columns = folder, folder / SHARDS, list(columns)
         self._path: Path | None = None
-        self._file = -1
+        self._file, self._digest = -1, hashlib.sha256()
 
     def __enter__(self) -> ShardWriter:
         """Return itself."""
@@ -76,15 +78,19 @@ class ShardWriter:
         while self._file < 0:
             number += 1
             self._path = self._folder / f"{number:05d}.jsonl"
+            record(self._path, f"sha256:{self._digest.hexdigest()}")
             try:
-                self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o644)
+                self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o666)
             except FileExistsError:
                 continue
         self._write((json.dumps({"tvimdesign": __version__, "columns": self._columns}) + "\n").encode())
 
     def _write(self, data: bytes) -> None:
         """Append all of some lines, or nothing."""
-        before = os.fstat(self._file).st_size
+        assert self._path is not None
+        before, digest = os.fstat(self._file).st_size, self._digest.copy()
+        digest.update(data)
+        record(self._path, f"sha256:{digest.hexdigest()}")
         try:
             left = memoryview(data)
             while left:
@@ -93,6 +99,7 @@ class ShardWriter:
         except OSError:
             os.ftruncate(self._file, before)
             raise
+        self._digest = digest
 
 
 class Kept(NamedTuple):

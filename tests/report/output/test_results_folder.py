@@ -1,70 +1,393 @@
-"""The results folder: nobody else's files are touched, nothing stands half written."""
+"""The results folder: nobody else's files are touched, nothing stands half written, one run writes at a time."""
 
 from __future__ import annotations
 
 import json
 import os
 import platform
+import shutil
 import signal
+import subprocess
+import sys
 from contextlib import suppress
 from pathlib import Path
 
+import psutil
 import pytest
 
-from tvimdesign.base.errors import InputError, OutputError
+from tvimdesign.base.errors import FolderInUseError, InputError, OutputError
 from tvimdesign.base.interrupts import heeding_interrupts
+from tvimdesign.base.journal import RUN, UNFINISHED
+from tvimdesign.base.whole_files import write_whole
 from tvimdesign.report.output import results_folder
-from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
+from tvimdesign.report.output.claim import FORMAT
+from tvimdesign.report.output.manifest import MANIFEST, read_manifest
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.shared_folder import gatherer, joined
+
+FILES = {"results.csv": "a,b\n", "plots/heat.png": "png", "cad/step/rotor.step": "step"}
 
 
-def test_a_folder_with_other_files_is_refused_even_to_overwrite(tmp_path: Path) -> None:
-    (tmp_path / "thesis.tex").write_text("precious")
-    for overwrite in (False, True):
-        with pytest.raises(InputError):
-            ResultsFolder(tmp_path, overwrite)
-    assert (tmp_path / "thesis.tex").read_text() == "precious"
-
-
-def test_overwriting_takes_the_earlier_run_s_files_and_no_others(tmp_path: Path) -> None:
-    with ResultsFolder(tmp_path / "out") as folder:
-        folder.write("plots/old.png", b"x")
+def finished(out: Path, files: dict[str, str] = FILES, *, overwrite: bool = False) -> None:
+    """Write a folder of results."""
+    with ResultsFolder(out, overwrite) as folder:
+        for name, text in files.items():
+            folder.write(name, text)
         folder.finish("optimal", {}, {})
-    (tmp_path / "out/notes.txt").write_text("mine")
-    with ResultsFolder(tmp_path / "out", overwrite=True) as folder:
+
+
+def killed(out: Path, *words: str) -> None:
+    """Let a process write into a folder and end it by SIGKILL: half a file, one file, and a front's progress."""
+    code = (
+        "import os, signal, sys; from pathlib import Path\n"
+        "from tvimdesign.report.output.results_folder import ResultsFolder\n"
+        "from tvimdesign.base.whole_files import whole_file\n"
+        "folder = ResultsFolder(Path(sys.argv[1]), overwrite='overwrite' in sys.argv)\n"
+        "folder.write('results.csv', 'of the killed run')\n"
+        "folder.write('front/progress/0001.json', '{}')\n"
+        "with whole_file(folder.path / 'summary.txt') as beside:\n"
+        "    beside.write_text('half')\n"
+        "    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    assert subprocess.run([sys.executable, "-c", code, str(out), *words], check=False).returncode == -signal.SIGKILL
+
+
+def texts(folder: Path) -> dict[str, str]:
+    """Every file of a folder but manifests."""
+    every = (path for path in folder.rglob("*") if path.is_file() and path.name != MANIFEST)
+    return {path.relative_to(folder).as_posix(): path.read_text("utf-8-sig") for path in every}
+
+
+def test_a_manifest_lists_what_the_run_wrote_and_nothing_else(tmp_path: Path) -> None:
+    with ResultsFolder(tmp_path) as folder:
+        folder.write("results.csv", "mine")
+        (tmp_path / "notes.txt").write_text("yours")
+        (folder.path / "thesis.tex").write_text("yours, too")
         folder.finish("optimal", {}, {})
-    assert not (tmp_path / "out/plots").exists()
-    assert (tmp_path / "out/notes.txt").read_text() == "mine"
+    assert list(read_manifest(tmp_path).files) == ["results.csv"]
+    assert texts(tmp_path) == {
+        "results.csv": "mine",
+        "notes.txt": "yours",
+        f"{UNFINISHED}-1/thesis.tex": "yours, too",
+    }
+
+
+def test_overwriting_twice_keeps_what_the_user_put_there(tmp_path: Path) -> None:
+    finished(tmp_path)
+    yours = {"my.yaml": "mode: shear", "notes.txt": "n", "cad/step/mine.step": "s", "plots/.x.part": "p"}
+    for name, text in yours.items():
+        (tmp_path / name).write_text(text)
+    for _ in range(2):
+        finished(tmp_path, {"results.csv": "new\n"}, overwrite=True)
+    assert texts(tmp_path) == {**yours, "results.csv": "new\n"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "my.yaml",
+        "notes.txt",
+        "cad",
+        "plots",
+        "results.csv",
+        MANIFEST,
+    }
+
+
+def test_a_file_changed_by_hand_is_kept_beside_with_a_word(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    finished(tmp_path)
+    (tmp_path / "results.csv").write_text("edited")
+    (tmp_path / "plots/heat.png").write_text("edited, too")
+    finished(tmp_path, {"results.csv": "new"}, overwrite=True)
+    assert texts(tmp_path) == {"results.csv": "new", "results-1.csv": "edited", "plots/heat.png": "edited, too"}
+    said = capsys.readouterr().err
+    assert "results.csv: was changed since it was written, so it is kept as results-1.csv" in said
+    assert "heat.png: was changed since it was written, so it is kept\n" in said
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"name": "my web application", "icons": []}',
+        '{"files": {"thesis.tex": "sha256:0"}}',
+        '{"status": "running", "files": {}}',
+        json.dumps({"format": FORMAT, "run": "x", "files": {"thesis.tex": ""}, "seal": "sha256:0"}),
+        "[" * 100_000,
+        "no json",
+    ],
+)
+@pytest.mark.parametrize("flags", [(False, False), (True, False), (False, True)])
+def test_a_foreign_manifest_does_not_make_a_folder_ours(tmp_path: Path, text: str, flags: tuple[bool, bool]) -> None:
+    yours = {"thesis.tex": "precious", "photos/1.jpg": "x"}
+    for name, content in {**yours, MANIFEST: text}.items():
+        write_file(tmp_path / name, content)
+    with pytest.raises(InputError, match="was not written by this version"):
+        ResultsFolder(tmp_path, *flags)
+    assert texts(tmp_path) == yours
+    assert (tmp_path / MANIFEST).read_text() == text
+
+
+def write_file(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+
+
+@pytest.mark.parametrize("name", ["thesis.tex", "unfinished/ch1.tex", "unfinished"])
+@pytest.mark.parametrize("flags", [(False, False), (True, False), (False, True)])
+def test_a_folder_with_other_files_is_refused(tmp_path: Path, name: str, flags: tuple[bool, bool]) -> None:
+    write_file(tmp_path / name, "precious")
+    with pytest.raises(InputError):
+        ResultsFolder(tmp_path, *flags)
+    assert texts(tmp_path) == {name: "precious"}
+
+
+def test_an_edited_manifest_does_not_vouch_for_files(tmp_path: Path) -> None:
+    finished(tmp_path)
+    content = json.loads((tmp_path / MANIFEST).read_text())
+    (tmp_path / MANIFEST).write_text(json.dumps({**content, "note": "mine"}))
+    with pytest.raises(InputError, match="was changed since"):
+        ResultsFolder(tmp_path, overwrite=True)
+    assert set(texts(tmp_path)) == set(FILES)
+
+
+@pytest.mark.parametrize("words", [(), ("overwrite",)])
+@pytest.mark.parametrize("flags", [(True, False), (False, True)])
+def test_after_sigkill_what_the_user_added_is_the_user_s(
+    tmp_path: Path, words: tuple[str, ...], flags: tuple[bool, bool]
+) -> None:
+    out = tmp_path / "out"
+    if words:
+        finished(out)
+    killed(out, *words)
+    yours = {"thesis/ch1.tex": "one", "unfinished/thesis/ch2.tex": "two", "front/progress/note.txt": "three"}
+    for name, text in yours.items():
+        write_file(out / name, text)
+    with ResultsFolder(out, *flags) as folder:
+        assert (folder.path / "front/progress/0001.json").exists() == flags[1]
+        folder.write("results.csv", "new")
+        folder.remove("front/progress")
+        folder.finish("optimal", {}, {})
+    moved = {"unfinished-1/thesis/ch2.tex" if name.startswith("unfinished") else name: t for name, t in yours.items()}
+    assert texts(out) == {**moved, "results.csv": "new"}
+
+
+def test_a_killed_run_is_not_overwritten_unasked(tmp_path: Path) -> None:
+    killed(tmp_path / "out")
+    with pytest.raises(InputError, match="holds what an unfinished run has written"):
+        ResultsFolder(tmp_path / "out")
+    assert texts(tmp_path / "out")["unfinished/results.csv"] == "of the killed run"
+
+
+def test_an_edited_file_of_a_killed_run_is_kept_beside(tmp_path: Path) -> None:
+    killed(tmp_path)
+    (tmp_path / "unfinished/results.csv").write_text("edited")
+    finished(tmp_path, {"results.csv": "new"}, overwrite=True)
+    assert texts(tmp_path) == {"results.csv": "new", "unfinished-1/results.csv": "edited"}
+
+
+def test_a_link_is_refused_before_anything_is_removed(tmp_path: Path) -> None:
+    out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
+    finished(out)
+    shutil.move(out / "cad", elsewhere)
+    (out / "cad").symlink_to(elsewhere)
+    before = texts(tmp_path)
+    with pytest.raises(InputError, match=r"cad: leads to .*elsewhere"):
+        ResultsFolder(out, overwrite=True)
+    assert texts(tmp_path) == before
+
+
+def test_a_link_that_comes_while_a_run_is_going_leaves_both_results_whole(tmp_path: Path) -> None:
+    out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    finished(out, {"results.csv": "old"})
+    folder = ResultsFolder(out, overwrite=True)
+    folder.write("results.csv", "new")
+    folder.write("cad/rotor.step", "new")
+    (out / "cad").symlink_to(elsewhere)
+    with pytest.raises(OutputError, match="whole in"), folder:
+        folder.finish("optimal", {}, {})
+    assert (out / "results.csv").read_text("utf-8-sig") == "old"
+    assert list(elsewhere.iterdir()) == []
+    (out / "cad").unlink()
+    finished(out, {"summary.txt": "newer"}, overwrite=True)  # the results are put in place, then replaced
+    assert texts(out) == {"summary.txt": "newer"}
+
+
+def test_a_link_in_place_of_a_file_is_not_followed(tmp_path: Path) -> None:
+    out, precious = tmp_path / "out", tmp_path / "precious.csv"
+    finished(out, {"results.csv": "old"})
+    precious.write_text("precious")
+    (out / "results.csv").unlink()
+    (out / "results.csv").symlink_to(precious)
+    finished(out, {"results.csv": "new"}, overwrite=True)
+    assert precious.read_text() == "precious"
+    assert (out / "results-1.csv").is_symlink()
+    assert (out / "results.csv").read_text("utf-8-sig") == "new"
+
+
+@pytest.mark.parametrize("error", [ZeroDivisionError, KeyboardInterrupt])
+def test_a_run_that_fails_leaves_the_earlier_results_whole(tmp_path: Path, error: type[BaseException]) -> None:
+    finished(tmp_path)
+    before, manifest = texts(tmp_path), (tmp_path / MANIFEST).read_bytes()
+    with suppress(error), ResultsFolder(tmp_path, overwrite=True) as folder:
+        folder.write("results.csv", "half of it")
+        raise error
+    unfinished = {name for name in texts(tmp_path) if name.startswith(UNFINISHED)}
+    assert f"{UNFINISHED}/results.csv" in unfinished
+    assert {name: text for name, text in texts(tmp_path).items() if name not in unfinished} == before
+    assert (tmp_path / MANIFEST).read_bytes() == manifest
+    finished(tmp_path, {"results.csv": "new"}, overwrite=True)
+    assert texts(tmp_path) == {"results.csv": "new"}
+
+
+def test_a_run_that_is_killed_as_its_results_are_put_in_place_is_completed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    finished(tmp_path)
+    moves = Path.replace
+
+    def ended(self: Path, target: Path) -> Path:
+        if self.name == "b.csv":
+            raise SystemExit
+        return moves(self, target)
+
+    folder = ResultsFolder(tmp_path, overwrite=True)
+    for name in "ac":
+        folder.write(f"{name}.csv", "new")
+    write_whole(folder.path / "b.csv", b"new")
+    monkeypatch.setattr(Path, "replace", ended)
+    with pytest.raises(SystemExit):
+        folder.finish("optimal", {}, {})
+    monkeypatch.undo()
+    folder._claim.release()  # as the system does with a process that is gone
+    (tmp_path / "a.csv").write_text("edited meanwhile")
+    with pytest.raises(InputError, match="holds results already"):
+        ResultsFolder(tmp_path)
+    assert texts(tmp_path) == {"a.csv": "edited meanwhile", "b.csv": "new", "c.csv": "new"}
 
 
 def test_a_manifest_that_names_a_file_outside_does_not_delete_it(tmp_path: Path) -> None:
     (tmp_path / "outside").write_text("precious")
     out = tmp_path / "out"
-    out.mkdir()
-    (out / MANIFEST).write_text(json.dumps({"status": "optimal", "files": {"../outside": "sha256:0"}}))
-    with ResultsFolder(out, overwrite=True) as folder:
+    with ResultsFolder(out) as folder:
+        folder.write("results.csv", "x")
+        (folder.path / ".written-elsewhere-1.jsonl").write_text('{"name": "../../outside", "digest": ""}\n')
         folder.finish("optimal", {}, {})
+    finished(out, overwrite=True)
     assert (tmp_path / "outside").read_text() == "precious"
 
 
 def test_a_folder_another_run_is_writing_is_refused(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    out.mkdir()
-    said = {"status": "running", "process": os.getppid(), "host": platform.node()}
-    (out / MANIFEST).write_text(json.dumps(said))
-    with pytest.raises(InputError, match="another run"):
-        ResultsFolder(out, overwrite=True)
+    with ResultsFolder(tmp_path) as folder:
+        for flags in ((False, False), (True, False), (False, True)):
+            with pytest.raises(FolderInUseError, match=rf"another run \(process {os.getpid()}\)"):
+                ResultsFolder(tmp_path, *flags)
+        folder.finish("optimal", {}, {})
+
+
+def test_a_run_on_another_host_is_not_taken_for_dead(tmp_path: Path) -> None:
+    killed(tmp_path)
+    said = json.loads((tmp_path / UNFINISHED / RUN).read_text())
+    assert said["host"] == platform.node()
+    assert 0.0 < said["started"] < psutil.Process().create_time() + 60.0
+    (tmp_path / UNFINISHED / RUN).write_text(json.dumps({**said, "host": "elsewhere"}))
+    with pytest.raises(FolderInUseError, match=r"on elsewhere\) is writing it; .*or remove .*\.run\.json if"):
+        ResultsFolder(tmp_path, overwrite=True)
+
+
+def test_without_locks_the_process_that_a_claim_names_is_looked_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tvimdesign.report.output.claim._locked", lambda *_, **__: None)
+    with ResultsFolder(tmp_path) as folder, pytest.raises(FolderInUseError):
+        ResultsFolder(folder.out)
+    killed(tmp_path, "overwrite")
+    finished(tmp_path, overwrite=True)
+    path = tmp_path / UNFINISHED / RUN
+    path.parent.mkdir()
+    said = {"format": FORMAT, "status": "running", "host": platform.node(), "process": os.getpid(), "started": 1.0}
+    path.write_text(json.dumps(said))  # the number was given to another process since
+    finished(tmp_path, overwrite=True)
+
+
+_CLAIMS = (
+    "import sys, time; from pathlib import Path\n"
+    "from tvimdesign.report.output.results_folder import ResultsFolder\n"
+    "from tvimdesign.base.errors import InputError\n"
+    "print('ready', flush=True); sys.stdin.readline()\n"
+    "for out in sys.argv[1:]:\n"
+    "    try:\n"
+    "        folder = ResultsFolder(Path(out))\n"
+    "    except InputError:\n"
+    "        print('refused', flush=True)\n"
+    "    else:\n"
+    "        print('claimed', flush=True)\n"
+    "    sys.stdin.readline()\n"
+)
+
+
+def test_of_two_processes_one_claims_a_folder(tmp_path: Path) -> None:
+    outs = [str(tmp_path / str(number)) for number in range(100)]
+    pair = [
+        subprocess.Popen(
+            [sys.executable, "-c", _CLAIMS, *outs], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1
+        )
+        for _ in range(2)
+    ]
+    said = []
+    for _ in range(len(outs) + 1):
+        said.append(sorted(str(process.stdout and process.stdout.readline()).strip() for process in pair))
+        for process in pair:
+            assert process.stdin is not None
+            process.stdin.write("\n")
+            process.stdin.flush()
+    for process in pair:
+        process.communicate()
+    assert said == [["ready", "ready"], *[["claimed", "refused"]] * len(outs)]
+
+
+def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path: Path) -> None:
+    from contextlib import ExitStack
+
+    with joined(tmp_path) as first, joined(tmp_path) as second:
+        assert first == second
+        (first / "shards").mkdir()
+        write_whole(first / "shards/00001.jsonl", b"cells")
+        with pytest.raises(FolderInUseError):
+            ResultsFolder(tmp_path, overwrite=True)
+        with ExitStack() as stack:
+            assert gatherer(stack, tmp_path) is None
+    with ExitStack() as stack:
+        folder = gatherer(stack, tmp_path)
+        assert folder is not None
+        folder.finish("swept", {}, {})
+    assert texts(tmp_path) == {"shards/00001.jsonl": "cells"}
+    with joined(tmp_path) as again:  # cells that are there are used again
+        assert (again / "shards/00001.jsonl").read_text() == "cells"
+    with ExitStack() as stack:
+        folder = gatherer(stack, tmp_path)
+        assert folder is not None
+        folder.finish("swept", {}, {})
+    assert texts(tmp_path) == {"shards/00001.jsonl": "cells"}
+
+
+@pytest.mark.parametrize("mask", [0o077, 0o022, 0o002])
+def test_files_respect_the_umask(tmp_path: Path, mask: int) -> None:
+    before = os.umask(mask)
+    try:
+        finished(tmp_path / "out")
+    finally:
+        os.umask(before)
+    modes = {path.stat().st_mode & 0o777 for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    assert modes == {0o666 & ~mask}
 
 
 def test_an_interrupt_while_the_manifest_is_made_is_told_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    usual = results_folder.hash_of
+    usual = results_folder.digest_of
 
     def interrupted(_: Path) -> str:
-        monkeypatch.setattr(results_folder, "hash_of", usual)
+        monkeypatch.setattr(results_folder, "digest_of", usual)
         raise KeyboardInterrupt
 
     with suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
         folder.write("results.csv", "whole")
-        monkeypatch.setattr(results_folder, "hash_of", interrupted)
+        monkeypatch.setattr(results_folder, "digest_of", interrupted)
         folder.finish("optimal", {}, {})
     said = json.loads((tmp_path / "out" / MANIFEST).read_bytes())
     assert (said["status"], list(said["files"])) == ("interrupted", ["results.csv"])
@@ -78,20 +401,12 @@ def test_what_was_made_after_an_interrupt_that_was_swallowed_is_not_told_as_done
     assert json.loads((tmp_path / "out" / MANIFEST).read_bytes())["status"] == "interrupted"
 
 
-def test_a_killed_run_s_folder_can_be_used_again(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    out.mkdir()
-    (out / MANIFEST).write_text(json.dumps({"status": "running", "process": 2**22 + 1, "host": platform.node()}))
-    (out / "results.csv").write_text("half")
-    with ResultsFolder(out, overwrite=True) as folder:
-        folder.finish("optimal", {}, {})
-    assert not (out / "results.csv").exists()
-
-
 def test_a_run_that_fails_leaves_a_manifest_that_says_so(tmp_path: Path) -> None:
-    with pytest.raises(ZeroDivisionError), ResultsFolder(tmp_path / "out"):
+    with suppress(ZeroDivisionError), ResultsFolder(tmp_path / "out") as folder:
+        folder.write("results.csv", "half of it")
         raise ZeroDivisionError
     assert json.loads((tmp_path / "out" / MANIFEST).read_text())["status"] == "failed"
+    assert texts(tmp_path / "out") == {"results.csv": "half of it"}
 
 
 def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:

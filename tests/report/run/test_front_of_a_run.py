@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from rich.console import Console
 from support import ROOT, Command
 
 from tvimdesign.device import table_for
+from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.first_screen.screen import AFTER, LINES
 from tvimdesign.report.run.front_report import figure_data, front_csv, in_words, plain, print_front
 from tvimdesign.solve.pareto.front import Front
@@ -104,9 +106,9 @@ def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
 def test_the_front_of_another_study_is_not_gone_on_with(tvimdesign: Command, tmp_path: Path) -> None:
     (study,) = written(tmp_path, study=ASKED)
     out = tmp_path / "out"
-    (out / "front/progress").mkdir(parents=True)
-    (out / "manifest.json").write_text(json.dumps({"status": "interrupted", "files": {}}))
-    (out / "front/progress/asked.json").write_text(json.dumps({"tvimdesign": "0.0.1", "study": {}}))
+    with suppress(KeyboardInterrupt), ResultsFolder(out) as folder:
+        folder.write_json("front/progress/asked.json", {"tvimdesign": "0.0.1", "study": {}})
+        raise KeyboardInterrupt
     done = tvimdesign("run", study, "--no-cad", "--no-plots", "--resume", "--out", out)
     assert done.returncode == 2
     assert "another study or version" in done.stderr

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 import time
@@ -17,7 +18,7 @@ from local_cluster import LocalCluster, answered_on
 from support import ROOT, Command, environment
 
 from tvimdesign.base.process_tree import end_process_tree
-from tvimdesign.report.output.shared_folder import CellsAsked
+from tvimdesign.report.output.shared_folder import CellsAsked, joined
 from tvimdesign.report.run.shared_proof import ProofAnswers, ProofWork, proof_asked, prove_part
 from tvimdesign.solve.discrete.enumeration import BLOCK, Begin, blocks_of, solved
 from tvimdesign.solve.nlp.plain_run import plain_run, run_of
@@ -103,17 +104,17 @@ def test_a_run_that_was_killed_goes_on_with_what_is_kept(
     tvimdesign: Command, study_file: Path, expected: dict[str, bytes], tmp_path: Path, begin: Begin
 ) -> None:
     asked = proof_asked(begin)
-    one = prove_part(begin.study, tmp_path, Where(1, part=(2, 2)), lambda _: None)
+    with joined(tmp_path) as folder:
+        one = prove_part(begin.study, folder, Where(1, part=(2, 2)), lambda _: None)
     assert (one.cells, one.computed, one.missing) == (2, 1, 1)
-    shard = next((tmp_path / "shards").iterdir())
+    shard = next((folder / "shards").iterdir())
     with shard.open("ab") as stream:
         stream.write(shard.read_bytes().splitlines()[1][:-40])  # a line that was being written
-    (tmp_path / "manifest.json").write_text('{"status": "running", "process": 1, "host": "another"}')
     done = tvimdesign("run", study_file, *WORDS, "--resume", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
-    fresh = [path for path in (tmp_path / "shards").iterdir() if path != shard]
-    assert sum(len(path.read_text().splitlines()) - 1 for path in fresh) == 1  # the other is kept
-    assert len(Shards(tmp_path, asked.work.columns)) == 2
+    assert len(Shards(tmp_path, asked.work.columns)) == 1  # the other is used, but its shard is not as it was written
+    assert f"{tmp_path}/unfinished-1: holds what else" in done.stderr
+    shutil.rmtree(tmp_path / "unfinished-1")
     assert _files(tmp_path) == expected
 
 

@@ -14,6 +14,7 @@ from small_sweeps import swept
 from support import Command
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.journal import UNFINISHED
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output import shared_folder
 from tvimdesign.report.output.shared_folder import CellsAsked, answered_cells, own_half_made
@@ -79,33 +80,26 @@ def test_a_cells_files_come_with_its_answer(sweep: Path, monkeypatch: pytest.Mon
     assert seen[0].values["module_mass"] * 1e3 == pytest.approx(mass, rel=1e-10)
 
 
-def test_what_killed_workers_leave_goes_with_the_command_and_with_the_next_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("array", [False, True])
+def test_what_killed_workers_leave_goes_with_the_command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, array: bool
 ) -> None:
-    """Another job of the array may be at work in the same folder: what is its own stays until all cells are there."""
-    own, other = tmp_path / f"{own_half_made('.cells-')}x", tmp_path / ".cells-elsewhere-7-x"
+    """Another job of the array may be at work in the same folder: what is its own stays."""
+    folder = tmp_path / UNFINISHED
+    own, other = folder / f"{own_half_made('.cells-')}x", folder / ".cells-elsewhere-7-x"
 
     def interrupted(*_: Any) -> SweepDone:
-        assert other.exists() == array
         (own / "cad").mkdir(parents=True)
+        (other / "cad").mkdir(parents=True)
         raise KeyboardInterrupt
 
-    (tmp_path / "shards").mkdir()
     asked = CellsAsked(PartsWork(()), [], lambda _: (), half_made=".cells-")
     monkeypatch.setattr(shared_folder, "run_cells", interrupted)
-    for array in (True, False):
-        other.mkdir()
-        where = Where(part=(1, 2) if array else (1, 1))
-        with pytest.raises(KeyboardInterrupt), ExitStack() as stack:
-            answered_cells(stack, tmp_path, asked, where, lambda _: None, overwrite=False, resume=not array)
-        assert (own.exists(), other.exists()) == (False, array)
-        if array:
-            other.rmdir()
-    other.mkdir()
-    monkeypatch.setattr(shared_folder, "run_cells", lambda *_: SweepDone(2, 2, 0, 0))
-    with ExitStack() as stack:
-        answered_cells(stack, tmp_path, asked, Where(part=(1, 2)), lambda _: None, overwrite=False, resume=False)
-    assert not other.exists()
+    where = Where(part=(1, 2) if array else (1, 1))
+    with pytest.raises(KeyboardInterrupt), ExitStack() as stack:
+        answered_cells(stack, tmp_path, asked, where, lambda _: None, overwrite=False, resume=False)
+    assert not own.exists()
+    assert other.exists() == array
 
 
 def test_options_of_shared_work_without_cells_are_refused(tvimdesign: Command, sweep: Path) -> None:

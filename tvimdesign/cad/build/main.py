@@ -58,7 +58,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     from tvimdesign.cad.geometry.dimensions import dimensions
 
     with ExitStack() as stack:
-        prefix = HALF_MADE.removesuffix("*")
+        prefix = HALF_MADE.format(os.getpid())
         own = kept_folder(_KEPT) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
         workshop = WorkerPool(
@@ -70,7 +70,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
     pictures = done.failed.pop(PICTURES, "")
     if done.failed:
         without = [f"without it there is no {', '.join(done.lost)}"] if done.lost else []
-        kept = f"the other {len(files)} files are in {out}" if files else "no parts were made"
+        kept = f"the other {len(files)} files are written" if files else "no parts were made"
         raise GeometryError("; ".join([*done.failed.values(), *without, kept]))
     checks = [check.fields() for result in done.results.values() for check in result.checks]
     notes = [f"no pictures: {pictures}"] if pictures else []

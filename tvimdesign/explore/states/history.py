@@ -28,6 +28,8 @@ class Kept(BaseModel):
     past: list[State] = []
     future: list[State] = []
     pins: list[Pinned] = []
+    saved: dict[str, str] = {}
+    """Digest of each study that was saved from the page, by its file's name."""
 
     def advance(self, after: State, since: State) -> None:
         """Go on to a state from the one that `since` an undo would bring back."""
@@ -73,8 +75,11 @@ def hash_of(text: bytes) -> str:
     return "sha256:" + hashlib.sha256(text).hexdigest()
 
 
-def open_kept(folder: Path, study: bytes, first: State) -> Kept:
-    """What was kept in a folder, or a new beginning. Raises InputError where the folder is another study's."""
+def open_kept(folder: Path, study: bytes, first: State, *, overwrite: bool = False) -> Kept:
+    """Return the history in a folder, or a new one. Raises InputError where the folder is another study's.
+
+    With `overwrite` a new one replaces that of any study, once something is changed.
+    """
     path = folder / FILE
     if not path.exists():
         if folder.is_dir() and any(folder.iterdir()):
@@ -84,6 +89,8 @@ def open_kept(folder: Path, study: bytes, first: State) -> Kept:
         kept = Kept.model_validate(json.loads(path.read_bytes()))
     except (ValueError, ValidationError) as error:
         raise InputError(f"{path}: not written by `tvimdesign explore`; name another folder with --out") from error
+    if overwrite:
+        return Kept(study=hash_of(study), state=first, saved=kept.saved)
     if kept.study != hash_of(study):
         raise InputError(
             f"{folder}: holds what was done with the study as it was before its file changed; --overwrite begins "

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import queue
-import shutil
 import subprocess
 import tempfile
 import time
@@ -18,7 +17,7 @@ from tvimdesign.report.output.progress import Progress
 
 AT_ONCE = 2
 """Children at a time: each has one thread, and the machines this is for have two cores or more."""
-HALF_DONE = ".studies.*"
+HALF_DONE = ".studies."
 """Folder beside the results in which children answer: a pattern. One is left where a comparison was killed."""
 _CRASHED = TvimError.exit_code + 2
 
@@ -48,16 +47,14 @@ def answers(
 ) -> dict[str, dict[str, Any]]:
     """What each study's job found, by label; a job that died has its reason under `troubles`.
 
-    They answer in a folder within `out`, which is gone then, as is one that an earlier comparison left there.
+    They answer in a folder within `out`, which is gone then.
     `when_idle` is called as soon as there is nothing more to start: from then on a core is free. Every study is read
     with the `settings`, each `name=value`.
     """
     waiting, running = list(asked), list[_Child]()
     found: dict[str, dict[str, Any]] = {}
     said: queue.Queue[tuple[str, str | None]] = queue.Queue()
-    for left in out.glob(HALF_DONE):
-        shutil.rmtree(left, ignore_errors=True)
-    with tempfile.TemporaryDirectory(dir=out, prefix=HALF_DONE.removesuffix("*")) as folder:
+    with tempfile.TemporaryDirectory(dir=out, prefix=HALF_DONE) as folder:
         try:
             while waiting or running:
                 while waiting and len(running) < AT_ONCE:

@@ -60,7 +60,7 @@ def compare_studies(
             if shared is None:
                 say_part(done, place, out, wide_console(), as_json=as_json)
                 return
-            folder, found = shared, found_of(cells, list(trees), out)
+            folder, found = shared, found_of(cells, list(trees), shared.path)
             begin_drawing()
         else:
             folder = stack.enter_context(ResultsFolder(out, overwrite))
@@ -90,7 +90,7 @@ def compare_studies(
         studies = {label: entrant.study.model_dump(mode="json") for label, entrant in entrants.items()}
         inputs = {label: entrant.path for label, entrant in entrants.items()}
         folder.finish("partly done" if troubles else "compared", inputs, studies, outcome.seconds)
-    _say(reported, folder.path, troubles, as_json=as_json)
+    _say(reported, folder.out, troubles, as_json=as_json)
     if troubles:
         raise _trouble(outcome, troubles)
 

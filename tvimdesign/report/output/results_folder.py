@@ -1,28 +1,35 @@
-"""The results folder: every file whole, a manifest of what made it, nobody else's files touched."""
+"""The results folder: one run writes it, every file appears whole, and nobody else's files are touched."""
 
 from __future__ import annotations
 
-import hashlib
 import json
-import os
 import platform
-import shutil
 import subprocess
+import sys
+import uuid
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from functools import cached_property
 from importlib import metadata
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from types import TracebackType
 from typing import Any
 
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
-from tvimdesign.base.whole_files import HALF_WRITTEN, TABLE_ENCODING, make_folder, write_whole
+from tvimdesign.base.journal import UNFINISHED, digest_of, is_as_written, recorded
+from tvimdesign.base.whole_files import TABLE_ENCODING, make_folder, write_whole
+from tvimdesign.report.output.claim import FORMAT, RUNNING, Claim, is_run
+from tvimdesign.report.output.manifest import MANIFEST, Manifest, manifest_text, read_manifest
+from tvimdesign.report.output.replace_results import (
+    discard_unfinished,
+    refuse_links,
+    remove_own,
+    replace_results,
+    seed,
+)
 
-MANIFEST = "manifest.json"
-RUNNING = "running"
 PROGRESS = "front/progress"
 """Folder of what a run can go on from where it was killed."""
 _LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cadquery", "cadquery-ocp", "trimesh",
@@ -30,44 +37,86 @@ _LIBRARIES = ("casadi", "numpy", "scipy", "pydantic", "pint", "matplotlib", "cad
 
 
 class ResultsFolder:
-    """A folder that one run writes; files go in whole, and the manifest says which and with what hash.
+    """A folder for the results of one run.
 
-    As a context manager it always leaves a manifest: of a run that ended early, too.
+    The run writes into the folder `unfinished` within it. When it finishes, its files take the place of earlier
+    results. A run that fails leaves earlier results as they are; where there are none, its files take their place with
+    a manifest that says how it ended. Use it as a context manager.
     """
 
     def __init__(
-        self, path: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS,
+        self, out: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS,
         kept: Sequence[str] = (),
     ) -> None:  # fmt: skip
-        """Make the folder, or empty it of an earlier run's files where `overwrite` says so. Raises InputError.
+        """Claim the folder `out`, made where there is none. Raises InputError where it is in use, or not ours.
 
-        With `resume` what an unfinished run can go on from stays: the files of the folder `progress` in it, and all
-        within the folders that are `kept`.
+        With `resume` the run continues from what an unfinished or earlier one left: the files of the folder `progress`,
+        and all within the folders that are `kept`.
         """
         if overwrite and resume:
             raise InputError("--overwrite and --resume: choose one")
-        self.path, self._progress, self._kept = path, progress, tuple(path / name for name in kept)
-        self._started = datetime.now(UTC)
-        self._finished = False
+        self.out, self.path = out, out / UNFINISHED
+        """Where the results will be, and where files are written until then."""
+        self._progress, self._kept = PurePosixPath(progress), tuple(map(PurePosixPath, kept))
+        self._run, self._started = uuid.uuid4().hex, datetime.now(UTC)
+        self._results: Manifest | None = None
         try:
-            self._claim(overwrite, resume)
+            prepare(out)
+            self._claim = Claim(out)
+            try:
+                self._earlier = recovered(out, self._claim)
+                self._begin(overwrite, resume)
+                self._claim.write(RUNNING, self._run)
+            except BaseException:
+                self._claim.release()
+                raise
         except OSError as error:
-            raise InputError(f"{path}: cannot be used as a results folder: {error.strerror}") from error
-        self.write_json(MANIFEST, {"status": RUNNING, "process": os.getpid(), "host": platform.node()})
+            raise InputError(f"{out}: cannot be used as a results folder: {error.strerror or error}") from error
+
+    def _begin(self, overwrite: bool, resume: bool) -> None:
+        """Clear the folder `unfinished`, but for what the run continues from. Raises InputError."""
+        refuse_links(self.out, self._earlier.files)
+        written, results = recorded(self.path), self._earlier.files
+        if resume and any(map(self._is_continued, written)):
+            discard_unfinished(self.path, say, self._is_continued)
+            return
+        if resume and (self._earlier.content or written) and not any(map(self._is_continued, results)):
+            raise InputError(f"{self.out}: there is nothing to resume in it; --overwrite to do it again")
+        if not (overwrite or resume) and written:
+            raise InputError(
+                f"{self.path}: holds what an unfinished run has written; --overwrite begins again, --resume goes on "
+                "with a front, a sweep or what --prove does, or name another folder with --out"
+            )
+        if not (overwrite or resume) and results:
+            raise InputError(
+                f"{self.out}: holds results already; say --overwrite to replace them, or --out another folder; "
+                "--resume goes on with a front or a sweep that was stopped, or with what --prove does"
+            )
+        discard_unfinished(self.path, say)
+        if resume:
+            seed(self.out, self.path, {name: results[name] for name in results if self._is_continued(name)}, say)
+
+    def _is_continued(self, name: str) -> bool:
+        """Return whether a run that is resumed continues from a file."""
+        parents = PurePosixPath(name).parents
+        return parents[0] == self._progress or bool(set(self._kept) & set(parents))
 
     def __enter__(self) -> ResultsFolder:
         """Return itself."""
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
-        """Leave a manifest of a run that did not come to its end."""
-        if self._finished:
-            return
+        """Say how a run ended that did not finish, and let go of the folder."""
         try:
-            self._tell("interrupted" if kind and issubclass(kind, KeyboardInterrupt) else "failed", {}, {}, {})
+            if self._results is not None:
+                self._publish()  # an interrupt came between
+            elif self.path != self.out:
+                self._stop("interrupted" if kind and issubclass(kind, KeyboardInterrupt) else "failed")
         except OutputError:
             if value is None:
                 raise
+        finally:
+            self._claim.release()
 
     def look_up_versions(self) -> None:
         """Do now what takes time of the manifest: good where a run waits for something else."""
@@ -84,62 +133,26 @@ class ResultsFolder:
             "libraries": {name: _version(name) for name in _LIBRARIES},
         }
 
-    def _claim(self, overwrite: bool, resume: bool) -> None:
-        if self.path.exists() and not self.path.is_dir():
-            raise InputError(f"{self.path}: is a file; name a folder with --out")
-        self.path.mkdir(parents=True, exist_ok=True)
-        if not any(self.path.iterdir()):
-            return
-        goes_on = any(folder.is_dir() for folder in (self.path / self._progress, *self._kept))
-        if resume and (self.path / MANIFEST).exists() and not goes_on:
-            raise InputError(f"{self.path}: there is nothing to resume in it; --overwrite to do it again")
-        if (
-            not (overwrite or resume)
-            and (self.path / MANIFEST).exists()
-            and any(p.name != MANIFEST for p in self.path.iterdir())
-        ):
-            raise InputError(
-                f"{self.path}: holds results already; say --overwrite to replace them, or --out another folder; "
-                "--resume goes on with a front or a sweep that was stopped, or with what --prove does"
-            )
-        for target in self._earlier():
-            if resume and (target.parent == self.path / self._progress or set(self._kept) & set(target.parents)):
-                continue
-            if target.resolve().is_relative_to(self.path.resolve()):
-                target.unlink(missing_ok=True)
-        for folder in ("plots", "cad", "front", "shards"):
-            _remove_if_empty(self.path / folder)
+    @property
+    def has_earlier(self) -> bool:
+        """Whether earlier results stand, which stay if the run fails."""
+        return bool(self._earlier.files)
 
-    def _earlier(self) -> list[Path]:
-        """Files of an earlier run; raises InputError where another run is at work, or none ever was."""
-        manifest = self.path / MANIFEST
-        if not manifest.exists():
-            raise InputError(
-                f"{self.path}: not a folder of results (no {MANIFEST}); --overwrite would lose other files"
-            )
-        try:
-            said = json.loads(manifest.read_bytes())
-            files = [*said.get("files", {}), MANIFEST]
-        except (ValueError, AttributeError) as error:
-            raise InputError(f"{manifest}: not written by tvimdesign; --overwrite would lose other files") from error
-        if said.get("status") != RUNNING:
-            return [self.path / name for name in files]
-        if said.get("host") == platform.node() and _alive(said.get("process")):
-            raise InputError(f"{self.path}: another run (process {said['process']}) is writing it; name another --out")
-        # A run that was killed: it began in an empty folder, so what is here is its own.
-        return [path for path in self.path.rglob("*") if path.is_file()]
+    def where_if_stopped(self, name: str) -> Path:
+        """Return where a file will be if the run stops before it finishes."""
+        return (self.path if self.has_earlier else self.out) / name
 
     def write(self, name: str, data: str | bytes) -> Path:
         """Write one file, whole; text of a table in the encoding that Excel reads. Raises OutputError.
 
         Raises KeyboardInterrupt where a library swallowed an interrupt: what it gave since is not to be kept.
         """
-        if not self._finished:
+        if self._results is None:
             raise_pending()
         return self.write_at_the_end(name, data)
 
     def write_at_the_end(self, name: str, data: str | bytes) -> Path:
-        """The same of what is kept though the run was interrupted."""
+        """Write one file of a run that was interrupted. Raises OutputError."""
         path = self.path / name
         make_folder(path.parent)
         write_whole(
@@ -151,72 +164,120 @@ class ResultsFolder:
         """Write one JSON file, whole; infinities are not JSON and raise ValueError."""
         return self.write(name, json.dumps(data, indent=2, allow_nan=False) + "\n")
 
+    def remove(self, folder: str) -> None:
+        """Remove what this run has written into a folder within its own."""
+        every, within = recorded(self.path), PurePosixPath(folder)
+        remove_own(self.path, {name: every[name] for name in every if within in PurePosixPath(name).parents}, say)
+
     def finish(
         self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None
     ) -> None:
-        """Write the manifest: versions, commit, seed, hashes of what went in and of what came out.
+        """Write the manifest (versions, commit, seed, digests of inputs and files), and put the results in place.
 
-        An interrupt that comes before it is written has it say so.
+        An interrupt that comes before the manifest is written has it say so.
         """
         raise_pending()
-        self._tell(status, inputs, study, timing or {})
+        self._write_manifest(status, inputs, study, timing or {})
+        self._publish()
 
-    def _tell(self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float]) -> None:
-        for half in self.path.rglob(HALF_WRITTEN):
-            half.unlink(missing_ok=True)
-        files = sorted(p for p in self.path.rglob("*") if p.is_file() and p.name != MANIFEST)
-        manifest = {
+    def _stop(self, status: str) -> None:
+        """End a run that did not finish: beside earlier results its files stay where they are."""
+        if not self.has_earlier:
+            self._write_manifest(status, {}, {}, {})
+            self._publish()
+        elif any((self.path / name).exists() for name in recorded(self.path)):
+            self._claim.write(status, self._run)
+            say(f"{self.out}: the earlier results are as they were; {self.path} holds what this run has written")
+
+    def _write_manifest(
+        self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float]
+    ) -> None:
+        written = recorded(self.path)
+        content = {
+            "format": FORMAT,
+            "run": self._run,
             "status": status,
             **self.made_by,
             "started": self._started.isoformat(timespec="seconds"),
             "seconds": round((datetime.now(UTC) - self._started).total_seconds(), 3),
             "timing": timing,
             "seed": study.get("solver", {}).get("seed"),
-            "inputs": {name: hash_of(path) for name, path in inputs.items()},
-            "files": {p.relative_to(self.path).as_posix(): hash_of(p) for p in files},
+            "inputs": {name: digest_of(path) for name, path in inputs.items()},
+            "files": {
+                name: digest_of(self.path / name)
+                for name, digests in sorted(written.items())
+                if name != MANIFEST and is_as_written(self.path, name, digests - {""})
+            },
         }
-        self.write_at_the_end(MANIFEST, json.dumps(manifest, indent=2, allow_nan=False) + "\n")
-        self._finished = True
+        self.write_at_the_end(MANIFEST, manifest_text(content))
+        self._results = read_manifest(self.path)
+
+    def _publish(self) -> None:
+        """Put the results in place, and let go of the folder. Raises OutputError where they stay in `unfinished`."""
+        if self.path == self.out or self._results is None:
+            return
+        self._claim.write(str(self._results.content["status"]), self._run)
+        publish(self.out, self.path, self._results, self._earlier)
+        self.path = self.out
+        self._claim.release()
 
 
-def rewrite(folder: Path, name: str, data: bytes) -> None:
-    """Write a file of a finished folder anew, and its hash in the manifest."""
+def prepare(out: Path) -> None:
+    """Make a folder of results, or refuse one that holds other files. Raises InputError before anything is changed."""
+    if out.exists() and not out.is_dir():
+        raise InputError(f"{out}: is a file; name a folder with --out")
+    out.mkdir(parents=True, exist_ok=True)
+    names = {path.name for path in out.iterdir()}
+    if UNFINISHED in names and not is_run(out / UNFINISHED):
+        raise InputError(f"{out / UNFINISHED}: is not the folder of a run; name another folder with --out")
+    if names and not names & {MANIFEST, UNFINISHED}:
+        raise InputError(f"{out}: not a folder of results (no {MANIFEST}); --overwrite would lose other files")
+    read_manifest(out)
+
+
+def recovered(out: Path, claim: Claim) -> Manifest:
+    """Put results of a run in place that was killed at its very end, and return the manifest of those that stand."""
+    earlier = read_manifest(out)
+    if (claim.folder / MANIFEST).exists():
+        publish(out, claim.folder, read_manifest(claim.folder), earlier)
+        earlier = read_manifest(out)
+    return earlier
+
+
+def publish(out: Path, new: Path, results: Manifest, earlier: Manifest) -> None:
+    """Put finished results in the place of earlier ones. Raises OutputError."""
+    try:
+        replace_results(out, new, results, earlier, say)
+        discard_unfinished(new, say)
+    except (OSError, InputError) as error:
+        reason = error.strerror or error if isinstance(error, OSError) else error
+        raise OutputError(
+            f"{out}: {reason}. The new results are whole in {new}, and are put in place next time"
+        ) from error
+
+
+def say(text: str) -> None:
+    """Print a word about files that somebody changed."""
+    sys.stderr.write(f"{text}\n")
+
+
+def rewrite(folder: Path, name: str, data: bytes) -> bool:
+    """Write a file of finished results anew, and its digest; False, and nothing, where it was changed by hand."""
+    manifest = read_manifest(folder)
+    if not is_as_written(folder, name, {manifest.files.get(name, "-")}):
+        return False
     write_whole(folder / name, data)
-    manifest = json.loads((folder / MANIFEST).read_bytes())
-    manifest["files"][name] = hash_of(folder / name)
-    write_whole(folder / MANIFEST, (json.dumps(manifest, indent=2, allow_nan=False) + "\n").encode())
-
-
-def made_from(folder: Path, name: str) -> str:
-    """Hash of what went into a finished folder under a name; empty where there is no such folder."""
-    try:
-        inputs = json.loads((folder / MANIFEST).read_bytes()).get("inputs", {})
-    except (OSError, ValueError, AttributeError):
-        return ""
-    return str(inputs.get(name, ""))
-
-
-def _alive(process: object) -> bool:
-    """Whether a process of this number runs here."""
-    if not isinstance(process, int) or process == os.getpid():
-        return False
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        return True
+    files = {**manifest.files, name: digest_of(folder / name)}
+    write_whole(folder / MANIFEST, manifest_text({**manifest.content, "files": files}).encode())
     return True
 
 
-def _remove_if_empty(folder: Path) -> None:
-    if folder.is_dir() and not any(p.is_file() for p in folder.rglob("*")):
-        shutil.rmtree(folder)
-
-
-def hash_of(path: Path) -> str:
-    """The hash of a file, as manifests have it."""
-    return "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
+def made_from(folder: Path, name: str) -> str:
+    """Return the digest of what went into finished results under a name; empty where there are none."""
+    try:
+        return str(read_manifest(folder).content.get("inputs", {}).get(name, ""))
+    except InputError:
+        return ""
 
 
 def _version(name: str) -> str | None:

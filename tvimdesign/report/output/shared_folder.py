@@ -12,24 +12,24 @@ import platform
 import shutil
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign.base.errors import InputError
-from tvimdesign.base.whole_files import make_folder, write_whole
+from tvimdesign.base.errors import FolderInUseError, InputError
+from tvimdesign.base.journal import recorded
+from tvimdesign.report.output.claim import IN_PARTS, Claim
 from tvimdesign.report.output.progress import Progress
-from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder
+from tvimdesign.report.output.replace_results import seed
+from tvimdesign.report.output.results_folder import ResultsFolder, prepare, recovered, say
 from tvimdesign.sweep.points import Texts
 from tvimdesign.sweep.run_sweep import SweepDone, Where, run_cells
 from tvimdesign.sweep.shards import SHARDS, Kept, Shards
 from tvimdesign.sweep.work import Work
 
-IN_PARTS = "in parts"
-"""Status of a folder in which the jobs of an array write their shards."""
 _STILL_WRITTEN = 5.0  # s
 
 
@@ -61,9 +61,9 @@ def answered_cells(
     """
     if where.alone:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume, SHARDS, asked.folders))
-        return folder, _done(asked, out, where, progress)
-    join(out, overwrite=overwrite)
-    done = _done(asked, out, where, progress)
+        return folder, _done(asked, folder.path, where, progress)
+    with joined(out, asked.folders, overwrite=overwrite) as shared:
+        done = _done(asked, shared, where, progress)
     return (gatherer(stack, out, asked.folders) if done.whole else None), done
 
 
@@ -72,43 +72,58 @@ def own_half_made(half_made: str) -> str:
     return f"{half_made}{platform.node()}-{os.getpid()}-"
 
 
-def _done(asked: CellsAsked, out: Path, where: Where, progress: Progress) -> SweepDone:
-    """Do the cells of this job, and take away what killed workers have left: its own; all where no other is at it."""
-    if where.alone:
-        _remove(out, asked.half_made)
+def _done(asked: CellsAsked, folder: Path, where: Where, progress: Progress) -> SweepDone:
+    """Do the cells of this job, and take away what its killed workers have left."""
     try:
-        done = run_cells(asked.work, asked.keys, asked.texts, out, where, progress, asked.called)
+        return run_cells(asked.work, asked.keys, asked.texts, folder, where, progress, asked.called)
     finally:
-        _remove(out, asked.half_made and own_half_made(asked.half_made))
-    if done.whole:
-        _remove(out, asked.half_made)
-    return done
+        _remove(folder, asked.half_made and own_half_made(asked.half_made))
 
 
-def _remove(out: Path, half_made: str) -> None:
+def _remove(folder: Path, half_made: str) -> None:
     """Remove folders whose names begin so; children of a worker that was killed may write for a moment longer."""
     end = time.monotonic() + _STILL_WRITTEN
-    while half_made and (left := list(out.glob(glob.escape(half_made) + "*"))) and time.monotonic() < end:
-        for folder in left:
-            shutil.rmtree(folder, ignore_errors=True)
+    while half_made and (left := list(folder.glob(glob.escape(half_made) + "*"))) and time.monotonic() < end:
+        for path in left:
+            shutil.rmtree(path, ignore_errors=True)
 
 
-def join(out: Path, *, overwrite: bool) -> None:
-    """Use a folder together with other jobs: one that is empty, or that one of them has begun. Raises InputError."""
+@contextmanager
+def joined(out: Path, folders: Sequence[str] = (), *, overwrite: bool = False) -> Iterator[Path]:
+    """Write into a folder together with other jobs; yields where. Raises InputError where it is not theirs.
+
+    Cells of earlier results are used again. `folders` hold the files of cells.
+    """
     if overwrite:
         raise InputError("--overwrite and --shard: the parts share a folder; name another one with --out")
-    make_folder(out)
-    own = {MANIFEST, SHARDS}
-    others = [path for path in out.iterdir() if path.name not in own and not path.name.startswith(".")]
-    if (out / MANIFEST).exists():
-        return
-    if others:
-        raise InputError(f"{out}: not a folder of results (no {MANIFEST}); name another one with --out")
-    write_whole(out / MANIFEST, (json.dumps({"status": IN_PARTS, "files": {}}, indent=2) + "\n").encode())
+    try:
+        prepare(out)
+        with suppress(FolderInUseError):  # another job prepares it, or has
+            _prepare_jobs(out, [SHARDS, *folders])
+        claim = Claim(out, shared=True)
+    except OSError as error:
+        raise InputError(f"{out}: cannot be used as a results folder: {error.strerror or error}") from error
+    try:
+        yield claim.folder
+    finally:
+        claim.release(remove=False)
+
+
+def _prepare_jobs(out: Path, folders: Sequence[str]) -> None:
+    """Make the folder that jobs write into, with the cells of earlier results. Raises FolderInUseError, OSError."""
+    claim = Claim(out)
+    try:
+        earlier = recovered(out, claim)
+        if not recorded(claim.folder):
+            own = {name: digest for name, digest in earlier.files.items() if PurePosixPath(name).parts[0] in folders}
+            seed(out, claim.folder, own, say)
+        claim.write(IN_PARTS, "")
+    finally:
+        claim.release(remove=False)
 
 
 def gatherer(stack: ExitStack, out: Path, folders: Sequence[str] = ()) -> ResultsFolder | None:
-    """The folder for the job that gathers; none where another one, which ended at the same time, does."""
+    """Return the folder for the job that gathers; None where another one, which ended at the same time, does."""
     try:
         return stack.enter_context(ResultsFolder(out, resume=True, progress=SHARDS, kept=folders))
     except InputError:

@@ -1,7 +1,7 @@
 """What gives the paper's response time: its module with another thickness, contact, current or place of the sensor.
 
 The paper states one time and neither thickness nor contacts; many designs keep it. `write_level_sets` computes them for
-the module as published and writes tables and a figure; beside them, what the ratio of both modes hangs on.
+the reconstructed module and writes tables and a figure; beside them, what the ratio of both modes hangs on.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def write_level_sets(out: Path, overwrite: bool) -> Path:
         drawing.begin(
             folder.path,
             [Drawing("level_sets", "paper_figures.level_sets", _figure_data(sets, model, wanted)), case],
-            "The paper's module as published",
+            "The paper's module, reconstructed",
         )
         units = {one.parameter: model.table.unit(one.parameter) for one in sets}
         folder.write("level_sets.csv", _table(_line_rows(sets, units)))

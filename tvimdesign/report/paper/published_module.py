@@ -1,4 +1,4 @@
-"""The paper's module as published, with this package's layout where the paper gives no dimension."""
+"""The paper's module, reconstructed with this package's layout where the paper gives no dimension."""
 
 from __future__ import annotations
 

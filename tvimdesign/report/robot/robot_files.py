@@ -47,7 +47,7 @@ def write_models(
     resolved = resolve_design(design)
     kept = write_design(design, folder.path / "design.json")
     base, moving, report = make_bodies(kept, folder.path, lambda text: progress(f"bodies: {text}"))
-    refuse_failed(report, folder.path)
+    refuse_failed(report)
     progress("models")
     model = joint_model(resolved, base, moving, step)
     for state in model.states:

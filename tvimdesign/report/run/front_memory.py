@@ -29,7 +29,7 @@ class FolderMemory:
         asked = {"tvimdesign": __version__, "study": asked_for.model_dump(mode="json")}
         known = _read(folder.path / PROGRESS / "asked.json")
         if known is not None and known != asked:
-            raise InputError(f"{folder.path}: holds the front of another study or version; --overwrite to begin anew")
+            raise InputError(f"{folder.out}: holds the front of another study or version; --overwrite to begin anew")
         folder.write_json(f"{PROGRESS}/asked.json", asked)
 
     def recall(self, number: int, objective: Objective) -> Point | Failure | None:

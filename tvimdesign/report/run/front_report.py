@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import math
-import shutil
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -93,7 +92,7 @@ class FrontOfRun:
         folder.write_json("front.json", {**head(), **plain(self.front, names, self.table, self.kept, self.above)})
         for number, point in enumerate(self.front.points, start=1):
             folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, found, self.table)))
-        shutil.rmtree(folder.path / PROGRESS, ignore_errors=True)
+        folder.remove(PROGRESS)
 
     def drawings(self) -> list[Drawing]:
         """Its figure, where it has points."""

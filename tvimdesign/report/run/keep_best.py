@@ -41,6 +41,7 @@ def keeping_best(folder: ResultsFolder) -> Iterator[Best]:
         study = interrupt.best if isinstance(interrupt, SearchInterrupted) else best.study
         if study is not None and not (folder.path / DESIGN).exists():
             with suppress(OutputError, OSError):  # no room, or nobody to tell: the interrupt is what counts
-                path = folder.write_at_the_end(BEST, study_text(study, _TITLE, folder.path))
+                path = folder.where_if_stopped(BEST)
+                folder.write_at_the_end(BEST, study_text(study, _TITLE, path.parent))
                 sys.stderr.write(f"the best design so far is where {path} begins\n")
         raise

@@ -18,8 +18,7 @@ CAD_TIME_LIMIT = 300.0  # s
 
 
 _ASKED = ".design.json.part"
-"""The design as the parts are asked for, beside them: what a run that is killed leaves there is no result
-(`whole_files.HALF_WRITTEN`)."""
+"""The design as the parts are asked for, beside them: it is removed once they are made."""
 
 
 def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
@@ -51,13 +50,17 @@ class PartsAhead:
 
     def __exit__(self, *raised: object) -> None:
         """End the process if it has not ended."""
+        self.stop()
+
+    def stop(self) -> None:
+        """End the process if it has not ended: nothing more is written into the folder."""
         self._stack.close()
+        (self._out / _ASKED).unlink(missing_ok=True)
 
     def begin(self, design: Design, out: Path) -> None:
         """Let the parts be made into a folder, and come back at once."""
         make_folder(out)
         asked = out / _ASKED
-        self._stack.callback(asked.unlink, missing_ok=True)
         self.begin_with(write_design(design, asked), out)
 
     def begin_with(self, design: Path, out: Path) -> None:
@@ -68,7 +71,10 @@ class PartsAhead:
     def finish(self, progress: Progress) -> CadReport:
         """Wait for the parts, and write their checks.json. Raises GeometryError where they cannot be made."""
         progress("parts: starting the CAD kernel")
-        report = self._process.finish(CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+        try:
+            report = self._process.finish(CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+        finally:
+            self.stop()
         write_whole(self._out / "checks.json", (json.dumps(plain_report(report), indent=2) + "\n").encode())
         progress("")
         return report
@@ -81,7 +87,7 @@ def plain_report(report: CadReport) -> Parts:
     }  # fmt: skip
 
 
-def refuse_failed(report: CadReport, out: Path) -> None:
+def refuse_failed(report: CadReport) -> None:
     """Raise GeometryError where a check on the solids fails; the files are there."""
     if not report.failed:
         return
@@ -93,5 +99,5 @@ def refuse_failed(report: CadReport, out: Path) -> None:
     raise GeometryError(
         f"the parts are written, but {len(report.failed)} of {len(report.checks)} checks fail, the worst:\n"
         + "\n".join(lines)
-        + f"\nSee {out / 'checks.json'}, and which rules the design breaks."
+        + "\nSee checks.json beside the parts, and which rules the design breaks."
     )

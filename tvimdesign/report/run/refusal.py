@@ -48,5 +48,5 @@ def leaving_the_reason(
         write_page(folder, refused_page(folder, tree, study, str(error)))
         folder.finish("infeasible", {"study": tree.path} if tree.path else {}, study.model_dump(mode="json"))
         if as_json:
-            print(json.dumps({**refused, "folder": str(folder.path)}, indent=2))
+            print(json.dumps({**refused, "folder": str(folder.out)}, indent=2))
         raise

@@ -85,7 +85,9 @@ def run_study(
         screen.tell(answered, folder, None if as_json else wide_console(), full=full)
         if making and found.found:
             with noting(failures):
-                answered.reported["cad"] = _parts(making, folder.path / "cad", progress, as_json, in_full=full)
+                answered.reported["cad"] = _parts(making, progress, as_json, in_full=full)
+        elif making:
+            making.stop()
         if drawing and found.found:
             progress("drawing the plots")
             folder.look_up_versions()
@@ -93,7 +95,7 @@ def run_study(
                 drawing.finish()
         write_run_page(folder, answered, screen.told(answered, timed=False))
         finish(folder, answered)
-    _say_last(answered, folder.path, failures, without if found.found else "", as_json=as_json)
+    _say_last(answered, folder.out, failures, without if found.found else "", as_json=as_json)
     _end_as(answered)
 
 
@@ -205,7 +207,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         alone = PartsAhead(design.mode, gives_way=False)
         with progress_output() as progress, noting(failures), alone as making:
             making.begin_with(kept, folder.path)
-            report = _parts(making, folder.path, progress, as_json, in_full=True)
+            report = _parts(making, progress, as_json, in_full=True)
             if as_json:
                 print(json.dumps(report, indent=2))
             else:
@@ -215,7 +217,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         raise done_in_part(failures)
 
 
-def _parts(making: PartsAhead, out: Path, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
+def _parts(making: PartsAhead, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
     """Wait for the parts and print what was found. Raises GeometryError where a check fails."""
     from tvimdesign.report.run.first_screen.layout import block
     from tvimdesign.report.run.first_screen.run_screen import show
@@ -228,5 +230,5 @@ def _parts(making: PartsAhead, out: Path, progress: Progress, as_json: bool, *, 
         print_solid_checks(report.checks, console)
     elif not as_json:
         show(block("Parts", in_short(report.checks), console.width), console)
-    refuse_failed(report, out)
+    refuse_failed(report)
     return plain_report(report)

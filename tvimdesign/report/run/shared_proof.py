@@ -12,7 +12,7 @@ from pathlib import Path
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.report.output.shared_folder import CellsAsked, gatherer, join, say_part
+from tvimdesign.report.output.shared_folder import CellsAsked, gatherer, joined, say_part
 from tvimdesign.solve.discrete.enumeration import BLOCK, Begin, Block, SolvedBlock, blocks_of, solved
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.sent_trees import Asked, Begun
@@ -153,9 +153,8 @@ def claimed(
         return stack.enter_context(ResultsFolder(out, overwrite, resume, SHARDS, (PROGRESS,)))
     if study.task != "optimize":
         raise InputError(f"--shard: {_NOTHING}")
-    join(out, overwrite=overwrite)
-    with progress_output() as progress:
-        done = prove_part(study, out, where, progress)
+    with progress_output() as progress, joined(out, (PROGRESS,), overwrite=overwrite) as shared:
+        done = prove_part(study, shared, where, progress)
     folder = gatherer(stack, out, (PROGRESS,)) if done.whole else None
     if folder is None:
         say_part(done, where, out, wide_console(), as_json=as_json)

@@ -16,6 +16,7 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import GeometryError, InputError, TvimError
 from tvimdesign.base.extras import require_extra
+from tvimdesign.base.journal import UNFINISHED
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.shared_folder import CellsAsked, answered_cells, own_half_made, say_part
@@ -108,7 +109,7 @@ def parts_asked(cells: SweptCells, numbers: Sequence[int], out: Path) -> CellsAs
     trees = tuple((str(one.number), found_anywhere(_evaluated(one))) for one in chosen)
     keys = [key_of({"parts of": said_of(read_tree(tree)), "cell": number}) for number, tree in trees]
     folders = [folder_of(number) for number in numbers]
-    work = PartsWork(trees, out.resolve(), own_half_made(_HALF_MADE))
+    work = PartsWork(trees, (out / UNFINISHED).resolve(), own_half_made(_HALF_MADE))
     return CellsAsked(work, keys, lambda place: (trees[place][0],), "parts of cell", folders, _HALF_MADE)
 
 
@@ -138,7 +139,7 @@ def make_parts_of_cells(
         if folder is None:
             say_part(done, where, out, wide_console(), as_json=as_json)
             return
-        rows = _rows(asked, out)
+        rows = _rows(asked, folder.path)
         folder.write("parts.csv", _csv(rows))
         told: dict[str, Any] = {**head(), "sweep": str(source), "cells": rows}
         folder.write_json("parts.json", told)

@@ -45,7 +45,7 @@ def kept_page(folder: Path) -> bytes:
 def write_sweep_page(plan: SweepPlan, seen: CellTable, folder: ResultsFolder, kept: bytes) -> None:
     """Write the page, or put back the one that an earlier sweep made from the same."""
     files, study = there(folder, _FILES), _study_text(plan)
-    mark = _mark_of(plan, seen, folder.path, [files, study])
+    mark = _mark_of(plan, seen, folder.out, [files, study])
     found = _MARK.search(kept[:2000])
     if found and found[1].decode() == mark:
         folder.write(FILE, kept)
@@ -71,7 +71,7 @@ def _page(
     sections = [Section("curves", "Figure", [lines])] if lines else []
     sections += [Section("cells", "Cells", [*([brushed] if brushed else []), cells_grid(plan, seen)])]
     sections += [Section("failed", "Cells without an answer", [failed_grid(plan, seen)])] if seen.failures else []
-    sections += [_commands(seen, CellCommands(plan, folder.path))] if answered else []
+    sections += [_commands(seen, CellCommands(plan, folder.out))] if answered else []
     sections += [study_section(study), versions_section(folder)]
     return Page(
         plan.study.name, f"sweep of a {plan.study.mode} module", said, "warn" if seen.failures else "",

@@ -13,7 +13,7 @@ from typing import Any
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.shared_folder import gatherer, join, say_part
+from tvimdesign.report.output.shared_folder import gatherer, joined, say_part
 from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.report.sweep.sweep_drawing import DRAWN_FROM, KeptFigure, SweepDrawing, kept_figure
 from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
@@ -64,11 +64,11 @@ def _part(
     plan: SweepPlan, out: Path, where: Where, *, overwrite: bool, parquet: bool, plots: bool, as_json: bool
 ) -> None:
     """One job of an array: its cells alone; the job after which every cell is there gathers them."""
-    join(out, overwrite=overwrite)
     with ExitStack() as stack:
         progress = stack.enter_context(progress_output())
         began = time.perf_counter()
-        done = run_sweep(plan, out, where, progress)
+        with joined(out, overwrite=overwrite) as shared:
+            done = run_sweep(plan, shared, where, progress)
         folder = gatherer(stack, out) if done.whole else None
         if folder is None:
             say_part(done, where, out, wide_console(), as_json=as_json)
@@ -108,7 +108,7 @@ def _gathered(
         "swept", {"study": plan.tree.path} if plan.tree.path else {}, {"solver": {"seed": plan.block.seed}}, timing
     )
     progress("")
-    return {**found, "run": timing, "folder": str(folder.path)}
+    return {**found, "run": timing, "folder": str(folder.out)}
 
 
 def _say(told: dict[str, Any], plan: SweepPlan, out: Path, *, as_json: bool) -> None:

@@ -106,7 +106,7 @@ def drawn_elsewhere(
     folder, done = answered_cells(stack, out, asked, where, progress, overwrite=overwrite, resume=resume)
     if folder is None:
         return None, done, []
-    found, blocks = [], asked.there(out)
+    found, blocks = [], asked.there(folder.path)
     for analysis in analyses:
         drawn = {}
         for draw in _draws_of(analysis):

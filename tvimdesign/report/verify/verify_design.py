@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -50,9 +49,7 @@ def verify_design(
     module = resolve_design(design)
     refuse_other_parts(module)
     with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
-        for left in out.glob(f"{_WORK}*"):  # of a process that was killed
-            shutil.rmtree(left, ignore_errors=True)
-        with TemporaryDirectory(dir=out, prefix=_WORK) as work:
+        with TemporaryDirectory(dir=folder.path, prefix=_WORK) as work:
             rows, data = _verified(design, module, folder, Path(work).resolve(), python, progress, pictures=pictures)
         progress("")
         folder.finish("verified", {"design": source}, design.study)

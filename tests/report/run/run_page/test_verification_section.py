@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from tvimdesign.base.journal import digest_of
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.blocks import Page, Picture, Points, Section, Words
+from tvimdesign.report.output.manifest import MANIFEST
 from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.results_folder import MANIFEST, ResultsFolder, hash_of
+from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.run_page.verification_section import (
     folder_of_verification,
     put_on_page,
@@ -46,7 +48,7 @@ def test_a_verification_goes_onto_the_page_of_its_run(tmp_path: Path) -> None:
     assert text.index('id="verification"') < text.index('id="study"')
     assert "0.792" in text
     assert "beyond: hub" in text
-    assert json.loads((run / MANIFEST).read_text())["files"]["report.html"] == hash_of(run / "report.html")
+    assert json.loads((run / MANIFEST).read_text())["files"]["report.html"] == digest_of(run / "report.html")
     (section,) = verification_sections(run)
     assert section.name == "verification"
 

@@ -58,8 +58,6 @@ class WrittenFmu:
 
 def write_fmu(resolved: ResolvedModule, path: Path) -> WrittenFmu:
     """Write the FMU of a module. Raises InputError where a compiler was found and fails, OutputError."""
-    for left in path.parent.glob(_BESIDE + "*"):  # of a process that was killed
-        shutil.rmtree(left, ignore_errors=True)
     with TemporaryDirectory(dir=path.parent, prefix=_BESIDE) as folder:
         return _written(resolved, path, Path(folder))
 

@@ -7,11 +7,12 @@ import os
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.journal import digest_of
 from tvimdesign.page.blocks import Block, Picture, Section, Words
 from tvimdesign.page.page_file import FILE, MOST
 from tvimdesign.page.page_insert import with_section
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.results_folder import hash_of, made_from, rewrite
+from tvimdesign.report.output.results_folder import made_from, rewrite
 from tvimdesign.report.output.tables import number
 
 NAME, DATA, DESIGN = "verification", "verify.json", "design.json"
@@ -62,7 +63,7 @@ def verification_section(folder: Path, run: Path, room: float = MOST) -> Section
 
 
 def put_on_page(folder: Path, run: Path) -> bool:
-    """Put a finished verification on the page of the run it is of; whether there is such a page.
+    """Put a finished verification on the page of its run; returns whether there is such a page, as it was written.
 
     Of the fields it takes as many as the page has room for: it is to go into a mail.
     """
@@ -75,11 +76,10 @@ def put_on_page(folder: Path, run: Path) -> bool:
         return False
     room = MOST - len(alone.encode())
     data = (with_section(text, verification_section(folder, run, room), _BEFORE) or alone).encode()
-    rewrite(run, FILE, data)
-    return True
+    return rewrite(run, FILE, data)
 
 
 def _is_of(folder: Path, run: Path) -> bool:
     """Whether a folder has the verification of a run's design, as it is now."""
     design = run / DESIGN
-    return (folder / DATA).exists() and design.exists() and made_from(folder, "design") == hash_of(design)
+    return (folder / DATA).exists() and design.exists() and made_from(folder, "design") == digest_of(design)

@@ -1,0 +1,86 @@
+"""Journal of an unfinished run: the name and digest of each file, recorded before the file exists.
+
+A run writes into the folder `unfinished` of its results folder. Every process that writes there appends to a journal of
+its own, so that a run that is killed leaves a list of what is its own. A file counts as the run's while its bytes have
+a recorded digest. What the user adds or edits is never in a journal.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import platform
+import re
+import stat
+from collections.abc import Collection
+from pathlib import Path, PurePosixPath
+
+UNFINISHED = "unfinished"
+"""Folder, within a results folder, that a run writes into until it is finished."""
+RUN = ".run.json"
+"""File in that folder that names the run and the process that writes."""
+JOURNALS = ".written-*.jsonl"
+ANY = ""
+"""Digest of a file whose content is not known beforehand: one that is half written."""
+
+
+def record(path: Path, digest: str) -> None:
+    """Record that a file is about to be written; does nothing for a file outside an unfinished run. Raises OSError."""
+    folder = next((one for one in path.absolute().parents if one.name == UNFINISHED and (one / RUN).exists()), None)
+    if folder is None:
+        return
+    name = path.absolute().relative_to(folder).as_posix()
+    host = re.sub(r"[^\w-]", "_", platform.node())
+    handle = os.open(folder / f".written-{host}-{os.getpid()}.jsonl", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
+    try:
+        os.write(handle, (json.dumps({"name": name, "digest": digest}) + "\n").encode())
+    finally:
+        os.close(handle)
+
+
+def recorded(folder: Path) -> dict[str, set[str]]:
+    """Return the digests that the journals of an unfinished run give for each name."""
+    found: dict[str, set[str]] = {}
+    for journal in sorted(folder.glob(JOURNALS)):
+        for line in journal.read_bytes().splitlines():
+            try:
+                entry = json.loads(line)
+                name, digest = str(entry["name"]), str(entry["digest"])
+            except (ValueError, KeyError, TypeError):
+                continue  # the process was killed within this line, before the file existed
+            if is_inside(name):
+                found.setdefault(name, set()).add(digest)
+    return found
+
+
+def is_inside(name: str) -> bool:
+    """Return whether a relative name stays within its folder."""
+    path = PurePosixPath(name)
+    return bool(path.parts) and not path.is_absolute() and ".." not in path.parts
+
+
+def digest_of(path: Path) -> str:
+    """Return the SHA-256 digest of a file, as manifests and journals have it. Raises OSError."""
+    with path.open("rb") as stream:
+        return "sha256:" + hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def link_on_the_way(folder: Path, name: str) -> Path | None:
+    """Return the first link, or file, among the folders that lead to a name within `folder`; None if there is none."""
+    parts = PurePosixPath(name).parts[:-1]
+    ways = (folder.joinpath(*parts[: count + 1]) for count in range(len(parts)))
+    return next((way for way in ways if way.is_symlink() or (way.exists() and not way.is_dir())), None)
+
+
+def is_as_written(folder: Path, name: str, digests: Collection[str]) -> bool:
+    """Return whether a name is a regular file, not reached through a link, with one of the digests. Raises OSError."""
+    path = folder / name
+    if link_on_the_way(folder, name):
+        return False
+    try:
+        if not stat.S_ISREG(path.lstat().st_mode):
+            return False
+    except FileNotFoundError:
+        return False
+    return ANY in digests or digest_of(path) in digests
