@@ -6,10 +6,10 @@ from collections.abc import Collection, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import Input, Table
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.normalization import at_its_start, common

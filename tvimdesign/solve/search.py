@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.interrupts import interrupt_came
 from tvimdesign.solve.best_so_far import SearchInterrupted, best_so_far
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
@@ -19,12 +20,19 @@ from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
-from tvimdesign.solve.nlp.deadline import Deadline
-from tvimdesign.solve.nlp.solution import Choosing, ConflictSet, Solution, SolverEffort, Standard, YieldReached
+from tvimdesign.solve.nlp.solution import (
+    Choosing,
+    ConflictSet,
+    Solution,
+    SolverEffort,
+    Standard,
+    Start,
+    YieldReached,
+)
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import BELOW_YIELD, NO_COMBINATION, OPTIMAL
+from tvimdesign.solve.optimizer.statuses import ALTERNATIVES, BELOW_YIELD, MARGINS, NO_COMBINATION, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 from tvimdesign.study import SolverOptions, Study
@@ -32,6 +40,9 @@ from tvimdesign.study import SolverOptions, Study
 Keep = Callable[[Optimizer, list[Run]], None]
 Search = Callable[[Study, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
 """What finds the best design of a study, as `optimize` does."""
+_TO_VERIFY, _OVER_SET_UP = 0.05, 2.0
+"""What a search leaves of its time to what follows: a twentieth of the limit, or twice what setting up its first
+problem took, if that is longer. Simulating a design again takes about that."""
 _Found = dict[tuple[int, Box], Run]
 """Designs of single combinations: the place of their tree, their sizes, the run that found them."""
 
@@ -43,6 +54,7 @@ def optimize(
     keep: Keep = lambda *_: None,
     objectives: Sequence[str] = (),
     enumerate_all: Enumerate = enumerated_here,
+    deadline: Deadline | None = None,
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
 
@@ -50,11 +62,13 @@ def optimize(
     `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
     that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
     has the best design so far. Where the study asks that every combination be solved, `enumerate_all` does that.
+    The search ends in time for its design to be verified before the `deadline`: the study's time limit from now on
+    unless given.
     """
     trees: list[Relaxation] = []
     try:
-        deadline = Deadline(study.solver.time_limit)
-        return _optimize(study, progress, reference, keep, objectives, trees, deadline, enumerate_all)
+        whole = deadline or Deadline(study.solver.time_limit)
+        return _optimize(study, progress, reference, keep, objectives, trees, whole, enumerate_all)
     except (KeyboardInterrupt, Exception) as error:
         if isinstance(error, KeyboardInterrupt) or interrupt_came():  # a library raises something else for one
             raise SearchInterrupted(best_so_far(study, trees)) from error
@@ -68,17 +82,19 @@ def _optimize(
     keep: Keep,
     objectives: Sequence[str],
     trees: list[Relaxation],
-    deadline: Deadline,
+    whole: Deadline,
     enumerate_all: Enumerate,
 ) -> Solution:
     """The same up to a deadline; `trees` are filled with the problems of the search."""
-    refuse_unreachable(study)
+    deadline = whole.leaving(_TO_VERIFY * whole.seconds)
+    refuse_unreachable(study, deadline)
     sizes, families = discrete_sizes(study, study.table), families_of(study)
     refuse_too_many(families, sizes)
     combinations = sizes.count * sum(family.count for family in families)
     building = Trees(study, reference, progress, objectives, deadline, sizes)
     with second_process(study, reference, objectives, deadline, combinations) as helper:
         trees += building.of(families)
+        deadline.leave(_OVER_SET_UP * trees[0].optimizer.seconds["set_up"])
         listed = any(relaxation.sizes.names for relaxation in trees)
         hopeless = all(relaxation.hopeless() for relaxation in trees)
         free = _free_runs(trees, 1 if hopeless else None, deadline)
@@ -99,18 +115,19 @@ def _optimize(
     if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
-        return _optimize(in_time, progress, reference, keep, objectives, trees, deadline, enumerate_all)
+        return _optimize(in_time, progress, reference, keep, objectives, trees, whole, enumerate_all)
     relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if listed else [])]
     nominal = run
-    if study.robust and not deadline.passed:
-        relaxation, nominal, run = _robust(found)
+    if study.robust:
+        with deadline.trying(MARGINS):
+            relaxation, nominal, run = _robust(found)
         if study.robust.share is None:
             recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
     margined = study.robust is not None and study.robust.share is not None and run is not nominal
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
     if hopeless and conflict_set is None and not (run.start.converged or deadline.passed):
-        refuse_infeasible(study)
+        refuse_infeasible(study, deadline)
     settled = put_at_bounds(relaxation.optimizer, run)
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
     if run.start.converged and all(run is not one for _, one in recorded):
@@ -119,27 +136,48 @@ def _optimize(
         one.start = replace(one.start, number=number)
     keep(relaxation.optimizer, [one for other, one in recorded if other is relaxation])
     starts = tuple(one.start for _, one in recorded if not (margined and one is run))  # those without margins
+    solution = replace(
+        _account(trees, relaxation, run, nominal, starts),
+        choosing=choosing,
+        conflict_set=conflict_set,
+        out_of_time=whole.seconds if deadline.met else None,
+        left_out=tuple(whole.left_out),
+    )
+    return replace(solution, status=_status(study, solution, no_combination=listed and search.hopeless))
+
+
+def _account(
+    trees: Sequence[Relaxation],
+    relaxation: Relaxation,
+    run: Run,
+    nominal: Run,
+    starts: tuple[Start, ...],
+) -> Solution:
+    """The best design verified, with what else is said of it as far as there is time."""
     seconds = {
         key: sum(relaxation.optimizer.seconds[key] for relaxation in trees) for key in trees[0].optimizer.seconds
     }
     passed_over = sum((Counter(relaxation.optimizer.multistart.passed_over) for relaxation in trees), Counter[str]())
-    solution = replace(
-        verify_optimum(relaxation.optimizer, run, starts, seconds),
-        constant=relaxation.constant_current_optimum.found(),
-        choosing=choosing,
-        conflict_set=conflict_set,
-        passed_over=dict(passed_over),
-        yield_reached=_yield_reached(relaxation.optimizer, run, nominal),
-        out_of_time=deadline.seconds if deadline.met else None,
-    )
-    return replace(solution, status=_status(solution, no_combination=listed and search.hopeless))
+    optimizer, robust = relaxation.optimizer, relaxation.optimizer.study.robust
+    solution = replace(verify_optimum(optimizer, run, starts, seconds), passed_over=dict(passed_over))
+    if relaxation.constant_current_optimum.best is not None:
+        with optimizer.deadline.late.trying("the comparison with constant currents"):
+            solution = replace(solution, constant=relaxation.constant_current_optimum.found())
+    if robust is not None and robust.share is not None and run.start.converged:
+        with optimizer.deadline.late.trying("the yield of the design"):
+            reached = _yield_reached(optimizer, run, nominal, robust.share)
+            solution = replace(solution, yield_reached=reached)
+    return solution
 
 
-def _status(solution: Solution, *, no_combination: bool) -> str:
+def _status(study: Study, solution: Solution, *, no_combination: bool) -> str:
     """The status of a solution, which its check cannot know: of too low a yield, or that there is no design."""
+    if solution.status == OPTIMAL and study.robust is not None:
+        if study.robust.share is None:
+            return BELOW_YIELD if MARGINS in solution.left_out else OPTIMAL
+        return OPTIMAL if solution.yield_reached and solution.yield_reached.reached else BELOW_YIELD
     if solution.status == OPTIMAL:
-        below = solution.yield_reached and not solution.yield_reached.reached
-        return BELOW_YIELD if below else OPTIMAL
+        return OPTIMAL
     if solution.conflict_set:
         return "infeasible: this design breaks its limits least"
     return NO_COMBINATION if no_combination else solution.status
@@ -168,14 +206,12 @@ def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:
     return {name: (float(chosen[name]), float(chosen[name])) for name in relaxation.sizes.names if name in chosen}
 
 
-def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run) -> YieldReached | None:
-    """What modules drawn at random keep of the best run, where a yield is asked for."""
-    robust = optimizer.study.robust
-    if robust is None or robust.share is None or not run.start.converged:
-        return None
+def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run, share: float) -> YieldReached:
+    """What modules drawn at random keep of the best run. Raises TimeOverError."""
     from tvimdesign.solve.uncertainty.yield_account import account_of_yield  # it loads the compiler
 
-    return account_of_yield(optimizer, run, nominal, robust.share)
+    optimizer.progress("drawing modules for the yield of the design")
+    return account_of_yield(optimizer, run, nominal, share)
 
 
 def _reconciled(
@@ -185,6 +221,8 @@ def _reconciled(
     if best.start.converged or relaxation.optimizer.deadline.passed:
         return best, None
     conflict_search = find_conflicts(relaxation.optimizer, tried, progress)
+    if relaxation.optimizer.deadline.passed and not (conflict_search and conflict_search.run.start.converged):
+        return best, None
     listed = any(isinstance(value, float) for value in best.start.choices.values())
     if conflict_search is None or (
         conflict_search.conflict_set is None and listed
@@ -228,7 +266,7 @@ def _choose(
         combinations=combinations, solved=len(found), pruned=pruned,
         without_design=0 if stopped else combinations - len(found) - pruned,
         not_searched=combinations - len(found) - pruned if stopped else 0,
-        best=tuple(_standard(*one) for one in shown), between=_between(trees, exact, shown), bound=_least(trees),
+        best=_simulated(shown), between=_between(trees, exact, shown), bound=_least(trees),
         proven=asked.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
@@ -241,12 +279,14 @@ def _between(
     trees: Sequence[Relaxation], exact: ExactCombinations, best: Sequence[tuple[Relaxation, Run]]
 ) -> Standard | None:
     """The best design with every size free; with the best records, where these are mixed."""
-    if any(relaxation.sizes.mixtures for relaxation in trees):
-        run = exact.between(*best[0]) if best else None
-        return _standard(best[0][0], run) if run else None
-    optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
-    between = min(optima, key=lambda one: order(one[1]), default=None)
-    return _standard(*between) if between else None
+    with trees[0].optimizer.deadline.late.trying("the best design between the listed sizes"):
+        if any(relaxation.sizes.mixtures for relaxation in trees):
+            run = exact.between(*best[0]) if best else None
+            return _standard(best[0][0], run) if run else None
+        optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
+        between = min(optima, key=lambda one: order(one[1]), default=None)
+        return _standard(*between) if between else None
+    return None
 
 
 def _least(trees: Sequence[Relaxation]) -> float | None:
@@ -267,7 +307,7 @@ def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverO
     return Choosing(
         combinations=records, solved=len(best), pruned=0, without_design=searched - len(best),
         not_searched=records - searched,
-        best=tuple(_standard(*one) for one in list(best.values())[: asked.alternatives]), between=None,
+        best=_simulated(list(best.values())[: asked.alternatives]), between=None,
         proven=True, improved=0.0, work=SolverEffort(), proof=SolverEffort(), inside=0.0,
     )  # fmt: skip
 
@@ -298,6 +338,17 @@ def _closest(relaxation: Relaxation, exact: ExactCombinations) -> tuple[Relaxati
     optimum = relaxation.optima[0] if relaxation.optima else None
     values = relaxation.values(optimum) if optimum else relaxation.start_values
     return exact.closest(relaxation, relaxation.sizes.nearest(values, whole))
+
+
+def _simulated(best: Sequence[tuple[Relaxation, Run]]) -> tuple[Standard, ...]:
+    """The first of some designs simulated, and the alternatives to it as far as there is time."""
+    found = [_standard(*one) for one in best[:1]]
+    for one in best[1:]:
+        optimizer = one[0].optimizer
+        with optimizer.deadline.late.trying(ALTERNATIVES):
+            optimizer.progress("simulating the alternatives")
+            found.append(_standard(*one))
+    return tuple(found)
 
 
 def _standard(relaxation: Relaxation, run: Run) -> Standard:

@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 from support import ROOT
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.trees import Trees
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.study import read_study
 

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound, Node
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, discrete_sizes, is_one
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.study import read_study_text
 

@@ -8,10 +8,10 @@ import psutil
 import pytest
 
 from tvimdesign.base.child_process import PARENT
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete import second_process
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task
 from tvimdesign.solve.discrete.second_process import TwoProcesses
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, read_study_text

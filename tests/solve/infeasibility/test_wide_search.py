@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from support import ROOT
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility import wide_search
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.infeasibility.wide_search import _DRAWN, _broken, _one_design, designs_all_over
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize

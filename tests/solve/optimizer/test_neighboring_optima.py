@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from support import ROOT
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.device import Input
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.problem import Free
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Run

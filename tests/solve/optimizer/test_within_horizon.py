@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve import search
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer

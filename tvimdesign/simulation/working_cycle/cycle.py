@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -51,13 +52,14 @@ class Simulator:
         phases: Collection[str] | None = None,
         stretches: Mapping[str, float] | None = None,
         wanted: Collection[str] | None = None,
+        deadline: Deadline = NEVER,
     ) -> Cycle:
         """Simulate the named phases (all unless given) and those they start from; the rest has infinite values.
 
         `drives` are currents by phase where they are not the constant ones of the inputs; `stretches` the lengths [s]
         of time, by phase, that are sampled at a time at first. Of the phases' quantities only those that are
         `wanted` need be sought (all unless given), as steady states and each event take time of their own. Raises
-        KeyboardInterrupt where an interrupt came that CasADi has swallowed.
+        KeyboardInterrupt where an interrupt came that CasADi has swallowed, TimeOverError once the deadline has passed.
         """
         raise_pending()
         values = dict.fromkeys(self.model.switch_names, np.inf)
@@ -74,7 +76,7 @@ class Simulator:
             simulator = self._phase(name)
             stretch = (stretches or {}).get(name, FIRST_STRETCH)
             state = before.states[:, -1] if before else None
-            found, trajectories[name] = simulator.run(inputs, profile, state, stretch, wanted)
+            found, trajectories[name] = simulator.run(inputs, profile, state, stretch, wanted, deadline)
             values |= found
             settles = np.isfinite(found[phase.ends]) and simulator.stays(wanted)
             balance = simulator.balance(inputs, trajectories[name]) if settles else None

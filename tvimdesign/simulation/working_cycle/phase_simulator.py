@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -102,6 +103,7 @@ class PhaseSimulator:
         before: Array | None,
         stretch: float,
         wanted: Collection[str] | None,
+        deadline: Deadline = NEVER,
     ) -> tuple[dict[str, float], Trajectory]:
         """Simulate until every event that is wanted has happened, nothing changes any more, or the horizon is over."""
         ends = self.phase.phase.ends
@@ -112,6 +114,7 @@ class PhaseSimulator:
         time, length = 0.0, stretch
         pieces: list[tuple[Array, Array, Array]] = []
         while time < horizon and not all(np.isfinite(moment) for moment in found.times.values()):
+            deadline.check("the working cycle of a design was simulated")
             length = min(length, profile.next_corner(time) - time, horizon - time)
             currents = profile.at(time + length * self._shares)
             states = self._stretch(begin, given, length, currents)

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
@@ -24,20 +25,21 @@ class BatchModel:
     """Some outputs of one module as a function of some of its inputs, compiled for columns of them."""
 
     def __init__(
-        self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str], often: Collection[str] = ()
-    ) -> None:
-        """Compile. All inputs but the `moving` are constants.
+        self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str], often: Collection[str] = (),
+        deadline: Deadline = NEVER,
+    ) -> None:  # fmt: skip
+        """Compile. All inputs but the `moving` are constants. Raises TimeOverError at the deadline.
 
         Phases that are gone through `often`, by name, are compiled to run as fast as can be.
         """
         model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
         needed = {base for name in outputs for base in (name.partition("@")[0], *resolved.table.ancestors(name))}
         supplied = [name for name in model.switch_names if name in needed]
-        self.cycle = CycleKernel(model, moving, supplied, often=often) if supplied else None
+        self.cycle = CycleKernel(model, moving, supplied, often=often, deadline=deadline) if supplied else None
         names = self.cycle.names if self.cycle else ()
         seen = np.ones(len(model.switch_names))
         places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
-        self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
+        self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places), deadline=deadline)
         self._simulator = Simulator(model)
 
     @cached_property
@@ -56,14 +58,15 @@ class BatchModel:
         return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
 
     def __call__(
-        self, columns: Array, workers: int = 1, pace: Pace | None = None, only: Collection[str] | None = None
+        self, columns: Array, workers: int = 1, pace: Pace | None = None, only: Collection[str] | None = None,
+        deadline: Deadline = NEVER,
     ) -> Array:  # fmt: skip
         """One row for each output; infinite or no number where something never happens.
 
         `pace` is that of another design than the one it was compiled at, where the columns are modules of that. With
-        `only` some phases of the cycle, by name, outputs of the others mean nothing.
+        `only` some phases of the cycle, by name, outputs of the others mean nothing. Raises TimeOverError.
         """
         pace = pace or self._pace
         if self.cycle is None or pace is None:
             return self._arithmetic(columns, workers)
-        return self._arithmetic(stacked(columns, self.cycle(columns, pace, workers, only)), workers)
+        return self._arithmetic(stacked(columns, self.cycle(columns, pace, workers, only, deadline)), workers)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
@@ -53,6 +54,7 @@ class CycleKernel:
         freezing: Steps = FREEZING,
         earlier: Steps = EARLIER,
         often: Collection[str] = (),
+        deadline: Deadline = NEVER,
     ) -> None:
         """Compile what the wanted supplied rows need; all inputs but the `moving` are constants.
 
@@ -69,7 +71,7 @@ class CycleKernel:
                 [row.name for row in phase.paths if row.name in rows],
                 [row.name for row in phase.steadies if row.name in rows],
                 freezing if phase.phase.after else earlier if self._before_end(phase, rows) else steps,
-                often=name in often,
+                often=name in often, deadline=deadline,
             )
             for name, phase in model.phases.items()
             if any(row.phase == name for row in rows.values()) or phase.phase.ends in ending
@@ -87,17 +89,19 @@ class CycleKernel:
         return mine or any(self._must_end(s.name, rows) or any(r.phase == s.name for r in rows) for s in after)
 
     def __call__(
-        self, columns: Array, pace: Pace, workers: int = 1, only: Collection[str] | None = None
+        self, columns: Array, pace: Pace, workers: int = 1, only: Collection[str] | None = None,
+        deadline: Deadline = NEVER,
     ) -> Array:  # fmt: skip
         """Values of `names`, one row each, for designs whose moving inputs are the columns; infinite where never.
 
-        With `only` some phases, by name, what belongs to the others is infinite.
+        With `only` some phases, by name, what belongs to the others is infinite. Raises TimeOverError at the deadline.
         """
         count = columns.shape[1]
         found = np.empty((len(self.names), count))
         starts = range(0, count, BLOCK)
 
         def fill(start: int) -> None:
+            deadline.check("all modules were drawn")
             values = self._block(np.ascontiguousarray(columns[:, start : start + BLOCK]), pace, only)
             for i, name in enumerate(self.names):
                 found[i, start : start + BLOCK] = values[name]

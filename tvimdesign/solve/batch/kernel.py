@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.batch.vector_code import LANES, Code, module_text
 
@@ -26,12 +27,15 @@ _BLOCK = 512 * LANES
 class Kernel:
     """A CasADi function of vectors, compiled for columns of designs."""
 
-    def __init__(self, function: Any, often: bool = False) -> None:
-        """Compile, what runs `often` as well as can be. Raises NotImplementedError naming what has no vector form."""
+    def __init__(self, function: Any, often: bool = False, deadline: Deadline = NEVER) -> None:
+        """Compile, what runs `often` as well as can be.
+
+        Raises NotImplementedError naming what has no vector form, TimeOverError at the deadline.
+        """
         scalar = function if function.is_a("SXFunction") else function.expand()
         self.rows_in = sum(scalar.numel_in(i) for i in range(scalar.n_in()))
         self.rows_out = sum(scalar.numel_out(i) for i in range(scalar.n_out()))
-        self._code = Code(module_text(scalar), often)
+        self._code = Code(module_text(scalar), often, deadline)
 
     def __call__(self, columns: Array, workers: int = 1, out: Array | None = None) -> Array:
         """Evaluate: one row for each scalar of all arguments, one column a design, to rows of results."""

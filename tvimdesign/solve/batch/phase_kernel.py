@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
@@ -69,11 +70,13 @@ class PhaseKernel:
         steadies: Sequence[str],
         steps: Steps,
         often: bool = False,
+        deadline: Deadline = NEVER,
     ) -> None:
         """Write and compile the Newton step, what is watched, and what stays the same all through the phase.
 
         Many more designs go through a phase that is gone through `often` than through others.
         """
+        self._deadline = deadline
         self.steps, self.after, self.size = steps, phase.phase.after, phase.state_size
         self.events, self.paths, self.steadies = list(events), list(paths), list(steadies)
         reduced = np.array([row.reduce for row in phase.paths if row.name in paths], dtype=str)
@@ -102,14 +105,17 @@ class PhaseKernel:
             if self.after
             else phase.initial.call([inputs], True, False)[0]
         )
-        self._constants = _kernel([free], ca.vertcat(*expressions, *bare))
-        self._begin = _kernel([free, before], begin)
-        self._newton = _kernel([state, base, step, constants], after, often)
+        self._constants = self._kernel([free], ca.vertcat(*expressions, *bare))
+        self._begin = self._kernel([free, before], begin)
+        self._newton = self._kernel([state, base, step, constants], after, often)
         # A kernel for each event: one costs a hundred times as much as another, and is asked for until it has come.
-        self._gaps = [_kernel([state, constants], gaps[i]) for i in range(len(self.events))]
-        self._samples = _kernel([state, constants], samples) if self.paths else None
+        self._gaps = [self._kernel([state, constants], gaps[i]) for i in range(len(self.events))]
+        self._samples = self._kernel([state, constants], samples) if self.paths else None
         if self.steadies:
             self._balance(phase, free, inputs)
+
+    def _kernel(self, arguments: Sequence[Any], result: Any, often: bool = False) -> Kernel:
+        return Kernel(ca.Function("kernel", list(arguments), [result], {"cse": True}), often, self._deadline)
 
     def _balance(self, phase: PhaseFunctions, free: Any, inputs: Any) -> None:
         """One Newton step to the steady state in which the ending event stays at zero, and the rows there."""
@@ -119,8 +125,8 @@ class PhaseKernel:
             _inlined(phase.rates, state, profile, inputs),
             _inlined(phase.watch([phase.phase.ends]), state, profile, inputs),
         )
-        self._rest = _kernel([unknowns, free], newton_step(unknowns, equations))
-        self._steady = _kernel([unknowns, free], _inlined(phase.watch(self.steadies), state, profile, inputs))
+        self._rest = self._kernel([unknowns, free], newton_step(unknowns, equations))
+        self._steady = self._kernel([unknowns, free], _inlined(phase.watch(self.steadies), state, profile, inputs))
 
     def run(
         self, columns: Array, before: Array | None, pace: float, balance: Array | None, keep: Course | None = None
@@ -311,7 +317,3 @@ class _March:
 
 def _inlined(function: Any, *arguments: Any) -> Any:
     return ca.densify(function.call(list(arguments), True, False)[0])
-
-
-def _kernel(arguments: Sequence[Any], result: Any, often: bool = False) -> Kernel:
-    return Kernel(ca.Function("kernel", list(arguments), [result], {"cse": True}), often)

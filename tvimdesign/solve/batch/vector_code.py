@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.machine_code import Lines, MachineCode, hexadecimal
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
@@ -254,9 +255,9 @@ def _write_log1p(w: VectorLines) -> str:
 class Code:
     """A compiled module; its machine code lives as long as this object."""
 
-    def __init__(self, text: str, often: bool = False) -> None:
-        """Compile for the processor this runs on, what runs `often` as well as can be."""
-        self._code = MachineCode(text, often)
+    def __init__(self, text: str, often: bool = False, deadline: Deadline = NEVER) -> None:
+        """Compile for the processor this runs on, what runs `often` as well as can be. Raises TimeOverError."""
+        self._code = MachineCode(text, often, deadline)
         pointer, number = ctypes.c_void_p, ctypes.c_int64
         self._call = self._code.function("kernel", (pointer, pointer, number, number, number, number))
 

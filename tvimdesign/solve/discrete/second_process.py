@@ -20,11 +20,11 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import PARENT, follow_parent, start_child
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task, answer
 from tvimdesign.solve.discrete.discrete_choices import Box
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.sent_trees import Asked, Begun
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.study import Study
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.trees import Trees
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.study import Study
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from tvimdesign.base.errors import InfeasibleError, InputError, SimulationError
+from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.errors import InfeasibleError, InputError, SimulationError, TimeOverError
 from tvimdesign.solve.discrete.discrete_choices import Sizes
 from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
 from tvimdesign.solve.discrete.possible_records import possible
 from tvimdesign.solve.discrete.record_families import Family
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.mixture import Mixture
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Progress
@@ -40,19 +40,26 @@ class Trees:
     def of(self, families: Sequence[Family]) -> list[Relaxation]:
         """The problem of each family, built once for all whose numbers alone differ.
 
-        Raises InfeasibleError where every family breaks a limit that nothing free can mend.
+        Raises InfeasibleError where every family breaks a limit that nothing free can mend, TimeOverError where the
+        time is over before the first problem is built.
         """
         trees: list[Relaxation] = []
         refused: list[InfeasibleError] = []
         for whole in families:
             if trees and self.deadline.passed:
                 break
+            if refused:
+                self.deadline.check("a family of records was found that no fixed limit excludes")
             try:
                 family = possible(self.study, whole)
                 optimizer = self._built(family, trees)
             except InfeasibleError as error:  # a limit that nothing free can mend, with these records
                 refused.append(error)
                 continue
+            except TimeOverError:
+                if trees:
+                    break
+                raise
             self.reference = optimizer.reference
             sizes = self.sizes.mixed(family.mixtures)
             trees.append(Relaxation(len(trees), optimizer, family.fixed, sizes, SolverEffort()))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -22,14 +23,14 @@ _MOST_RECORDS = 20
 """Combinations of records beyond which the search itself shall tell."""
 
 
-def refuse_infeasible(study: Study) -> None:
+def refuse_infeasible(study: Study, deadline: Deadline | None = None) -> None:
     """Raise InfeasibleError, naming the limits and the ranges' ends, where no start keeps the arithmetic limits."""
     records = discrete_records(study, study.table)
     if not study.vary or len(records) > _MOST_RECORDS:
         return
     said: list[str] = []
     for chosen in records:
-        reported = _conflict(with_records(study, chosen))
+        reported = _conflict(with_records(study, chosen), deadline)
         if not reported:
             return
         said.append(reported)
@@ -37,15 +38,15 @@ def refuse_infeasible(study: Study) -> None:
     raise InfeasibleError(f"{study.name}: {said[0]}{also}")
 
 
-def _conflict(study: Study) -> str:
-    """What conflicts, with what to do; empty where a start keeps all limits."""
+def _conflict(study: Study, deadline: Deadline | None) -> str:
+    """What conflicts, with what to do; empty where a start keeps all limits, or the time is over."""
     update = {
         "minimize": {},
         "solver": study.solver.model_copy(update={"starts": max(_STARTS, study.solver.starts)}),
         "profile": ProfileOptions(), "robust": None,
     }  # fmt: skip
     try:
-        optimizer = Optimizer(study.model_copy(update=update), without_cycle=True)
+        optimizer = Optimizer(study.model_copy(update=update), without_cycle=True, deadline=deadline)
     except InfeasibleError as error:  # a limit that nothing free can mend
         return str(error)
     if not optimizer.free or not optimizer.problem.limits:
@@ -56,7 +57,7 @@ def _conflict(study: Study) -> str:
         if runs[-1].start.converged:
             return ""
     found = find_conflicts(optimizer, runs, lambda _: None)
-    if found is None or found.conflict_set is None:
+    if found is None or found.conflict_set is None or optimizer.deadline.passed:
         return ""
     lines = conflict_in_words(found.conflict_set)
     fixed = _fixed(optimizer, found.conflict_set)

@@ -11,12 +11,13 @@ from __future__ import annotations
 import time
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.solve.nlp.ipopt import NLP, solver_of
+from tvimdesign.solve.nlp.ipopt import NLP, Solver, solver_of
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -76,8 +77,6 @@ class ElasticMode:
              ca.vertcat(rows[:first], rows[first:last] - slacks[each], rows[last:])],
             *NLP,
         )  # fmt: skip
-        self._solver: Any = None
-        self._limit = 0.0
         self._rows = ca.Function("rows", [whole["x"], whole["p"]], [rows])
 
     def settle(
@@ -97,7 +96,8 @@ class ElasticMode:
         lower, upper = optimizer.vector.bounds({})
         objectives, rest = len(problem.objectives), problem.slope_count + problem.peak_count
         no_equations = np.zeros(self.equations)
-        answer = self._solver_in_time()(
+        answer = self._solver(
+            optimizer.deadline,
             x0=np.concatenate([x, slacks]), p=np.concatenate([p, weights]),
             lbx=np.concatenate([lower, np.zeros(self.count)]),
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
@@ -108,15 +108,10 @@ class ElasticMode:
         )  # fmt: skip
         return self._settled(answer, begin, time.perf_counter() - clock)
 
-    def _solver_in_time(self) -> Any:
-        """The solver; built once more where half of the time it may take is over."""
-        left = self.optimizer.deadline.remaining
-        if self._solver is None or left < 0.5 * self._limit:
-            known = [] if self._solver is None else [self._solver]
-            asked = self.optimizer.study.solver
-            self._solver = solver_of(self._written, asked, known, of_parameters=False, most_seconds=left)
-            self._limit = left
-        return self._solver
+    @cached_property
+    def _solver(self) -> Solver:
+        asked = self.optimizer.study.solver
+        return solver_of(self._written, asked, of_parameters=False)
 
     def _settled(self, answer: dict[str, Any], begin: Array, seconds: float) -> Settled:
         size = self.optimizer.problem.unknown_count

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
-from tvimdesign.solve.nlp.ipopt import NLP
+from tvimdesign.solve.nlp.ipopt import NLP, Solver
 from tvimdesign.solve.nlp.mixture import shared
 from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -45,14 +45,14 @@ class FeasibilityScreen:
         self._at: Any = ca.Function("residuals", [self._unknowns], [self._limits]).expand()
 
     @cached_property
-    def _sum(self) -> Any:
+    def _sum(self) -> Solver:
         return self._solver(max(self._count, 1))
 
     @cached_property
-    def _worst(self) -> Any:
+    def _worst(self) -> Solver:
         return self._solver(1)
 
-    def _solver(self, count: int) -> Any:
+    def _solver(self, count: int) -> Solver:
         """IPOPT for the least sum of so many slacks: one for each limit, or one for all."""
         slacks, problem = ca.MX.sym("slacks", count), self._optimizer.problem
         inputs = problem.with_unknowns(ca.MX(ca.DM(self._optimizer.model.start)), self._unknowns)
@@ -61,7 +61,8 @@ class FeasibilityScreen:
         rows = ca.vertcat(problem.shares_less_one(inputs), broken)
         function = ca.Function("screen", known, [ca.sum1(slacks), rows], *NLP)
         options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
-        return ca.nlpsol("screen", "ipopt", function.expand(), options)
+        sizes = (function.size1_in(0), function.size1_out(1), 0)
+        return Solver("screen", function.expand(), options, sizes)
 
     def broken(self, inputs: Array) -> float:
         """The most by which some inputs break a limit, as a share of its scale; infinite at no geometry."""
@@ -106,7 +107,7 @@ class FeasibilityScreen:
         ends = begins[:: max(len(begins) - 1, 1)]
         return not any(self._least(self._worst, within, begin) <= ALGEBRAIC_TOLERANCE for begin in ends)
 
-    def _least(self, solver: Any, within: Mapping[str, Ends], begin: Array) -> float:
+    def _least(self, solver: Solver, within: Mapping[str, Ends], begin: Array) -> float:
         """The worst breach where a search from some inputs makes it, or the sum, least; NaN where it has no end."""
         optimizer = self._optimizer
         free, count = len(optimizer.free), solver.size1_in("x0") - len(optimizer.free)
@@ -117,7 +118,7 @@ class FeasibilityScreen:
         slacks = (broken if count == self._count else np.max(broken, initial=0.0, keepdims=True)) + _ROOM
         least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
         found = solver(
-            x0=np.append(start, slacks), lbg=np.append(least, np.full(self._count, -np.inf)),
+            optimizer.deadline, x0=np.append(start, slacks), lbg=np.append(least, np.full(self._count, -np.inf)),
             ubg=np.append(largest, np.zeros(self._count)), lbx=np.append(lower, np.zeros(count)),
             ubx=np.append(upper, np.full(count, np.inf)),
         )  # fmt: skip

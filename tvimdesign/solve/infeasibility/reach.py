@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Table
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -15,12 +16,12 @@ _ENDS = {
 """Of each target: the impedance it is held against, whether the least or the largest of that counts, and its band."""
 
 
-def refuse_unreachable(study: Study) -> None:
+def refuse_unreachable(study: Study, deadline: Deadline | None = None) -> None:
     """Raise InputError, with what would be reachable, for a stated target that no design within the ranges has."""
     if study.module.get("impedance_targets") != "stated":
         return
     for word, (row, sign, band) in _ENDS.items():
-        reached = _extreme(study, row, sign)
+        reached = _extreme(study, row, sign, deadline)
         target, factor = (_given(study, study.table, name) for name in (f"{word}_impedance", band))
         limit = target * factor if sign > 0.0 else target / factor
         if reached is not None and sign * (reached - limit) > 0.0:
@@ -33,8 +34,8 @@ def refuse_unreachable(study: Study) -> None:
             )
 
 
-def _extreme(study: Study, row: str, sign: float) -> float | None:
-    """Least or largest value of a row within the ranges and the machine's rules; None where the solver finds none."""
+def _extreme(study: Study, row: str, sign: float, deadline: Deadline | None) -> float | None:
+    """Least or largest value of a row within the ranges and the machine's rules; None where none is found in time."""
     asked = study.model_copy(
         update={
             "module": {**study.module, "impedance_targets": "operating_points"},
@@ -44,8 +45,8 @@ def _extreme(study: Study, row: str, sign: float) -> float | None:
         }
     )
     try:
-        optimizer = Optimizer(asked)
-    except InfeasibleError:
+        optimizer = Optimizer(asked, deadline=deadline)
+    except (InfeasibleError, TimeOverError):
         return None
     run = optimizer.solve()
     if not run.start.converged:

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -200,10 +201,16 @@ class Problem:
         return found
 
     def simulated(
-        self, simulator: Simulator, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None
+        self,
+        simulator: Simulator,
+        inputs: Array,
+        current_profiles: Mapping[str, CurrentProfile] | None = None,
+        deadline: Deadline = NEVER,
     ) -> Cycle:
-        """The working cycle at some inputs, as far as the problem needs it."""
-        return simulator.run(inputs, current_profiles, phases=self._phases, wanted=self._needed)
+        """The working cycle at some inputs, as far as the problem needs it. Raises SimulationError, TimeOverError."""
+        return simulator.run(
+            inputs, current_profiles, phases=self._phases, wanted=self._needed, deadline=deadline
+        )  # fmt: skip
 
     @cached_property
     def known(self) -> list[str]:

@@ -238,6 +238,8 @@ class Solution:
     """What of a yield that was asked for is reached; None where none is."""
     out_of_time: float | None = None
     """The time limit [s] that ended the search before its end; None where it came to that."""
+    left_out: tuple[str, ...] = ()
+    """What the time limit left undone of what follows the search, in words."""
     conflict_set: ConflictSet | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 

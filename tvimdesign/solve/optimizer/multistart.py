@@ -9,12 +9,12 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.errors import SimulationError
+from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import impossible, on_cycle
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.solver_run import Array, Progress
@@ -34,7 +34,7 @@ class Multistart:
         """Simulate the study's own start, which is in `model`, as far as the problem needs it.
 
         Where that is no module that can be simulated, a point that can takes its place in the model. Raises
-        SimulationError where none is found.
+        SimulationError where none is found, TimeOverError where the time of the whole command is over first.
         """
         self.deadline = deadline or Deadline()
         self.problem, self.model, self.simulator = problem, model, simulator
@@ -44,7 +44,7 @@ class Multistart:
         self.cycle = Cycle(dict.fromkeys(model.switch_names, np.inf), {}, {})
         """The switch of the study's own start."""
         try:
-            self.cycle = problem.simulated(simulator, model.start)
+            self.cycle = problem.simulated(simulator, model.start, deadline=self.deadline.whole)
         except SimulationError as error:
             self._move_start(error)
 
@@ -58,8 +58,7 @@ class Multistart:
             if cycle is not None:
                 self.model.start, self.cycle = inputs, cycle
                 return
-            if self.deadline.passed:
-                break
+            self.deadline.check("a module was found that can be simulated")
         raise SimulationError(
             f"{error}; neither can {MAX_DRAWS} points between the bounds: set `module` to a design that can"
         ) from error
@@ -144,10 +143,13 @@ class Multistart:
         return np.concatenate(links) if links else np.zeros(0)
 
     def trial(self, inputs: Array) -> Cycle | None:
-        """The switch at a point, None where it does not end, or is over before it begins: that tells nothing of it."""
+        """The switch at a point, None where it does not end, or is over before it begins: that tells nothing of it.
+
+        None also where the time is over.
+        """
         try:
             known = inputs is self.model.start
-            cycle = self.cycle if known else self.problem.simulated(self.simulator, inputs)
-        except SimulationError:
+            cycle = self.cycle if known else self.problem.simulated(self.simulator, inputs, deadline=self.deadline)
+        except (SimulationError, TimeOverError):
             return None
         return cycle if all(0.0 < cycle.values[event] < np.inf for event in self.problem.events) else None

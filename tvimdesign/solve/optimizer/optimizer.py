@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.device import Input
@@ -20,10 +21,9 @@ from tvimdesign.simulation.working_cycle.current_profile import ramp_time
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.derivatives import Known
-from tvimdesign.solve.nlp.ipopt import NLP, Beginning, solver_of
+from tvimdesign.solve.nlp.ipopt import NLP, TIME_OVER, Beginning, Solver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Problem
@@ -33,9 +33,6 @@ from tvimdesign.solve.nlp.transcription import ORDER
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
-REFINING = 10.0
-"""Seconds that an optimum of the coarse problem may take to lead to this one's, also when the time is over: it would be
-lost otherwise. It takes 0.2 to 2 s."""
 RAMP_ELEMENT = 15.0  # s, the longest element of a ramp, in which the current changes fastest
 
 
@@ -82,9 +79,7 @@ class Optimizer:
         self.problem = self._problem(self.kept_constraints(limits), objectives, study.solver.elements)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
-        self._solvers: dict[Beginning, Any] = {}
-        self._limits: dict[Beginning, float] = {}
-        """Seconds after which a run of each solver ends."""
+        self._solvers: dict[Beginning, Solver] = {}
         self.points: Known = {}
         """What is known of the derivatives of the functions that problems of this device call."""
         self._grids: dict[tuple[int, int], Optimizer] = {}
@@ -150,7 +145,7 @@ class Optimizer:
             first = copy(self)
             first.__dict__.pop("_compiled", None)
             first.problem = self._problem(list(self.problem.limits), self.problem.objectives, elements, order)
-            first._solvers, first._limits = {}, {}
+            first._solvers = {}
             self._grids[elements, order] = first
         other = copy(self._grids[elements, order])
         other.study, other.model, other.multistart = self.study, self.model, self.multistart
@@ -231,16 +226,13 @@ class Optimizer:
         written = self.problem.function
         return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
 
-    def _solver(self, beginning: Beginning) -> Any:
-        """The solver; built once more where half of the time it may take is over, which costs 0.06 s."""
-        left = max(self.deadline.remaining, REFINING if beginning == "refined" else 0.0)
-        if beginning not in self._solvers or left < 0.5 * self._limits[beginning]:
+    def _solver(self, beginning: Beginning) -> Solver:
+        """The solver, built when it is first needed."""
+        if beginning not in self._solvers:
             known, asked = self._solvers.values(), self.study.solver
             self._solvers[beginning] = solver_of(
-                self._compiled, asked, known, beginning,
-                points=self.points, of_parameters=not self.mixtures, most_seconds=left,
-            )  # fmt: skip
-            self._limits[beginning] = left
+                self._compiled, asked, known, beginning, points=self.points, of_parameters=not self.mixtures
+            )
         return self._solvers[beginning]
 
     def solve(
@@ -258,23 +250,38 @@ class Optimizer:
 
         `unknowns` stand in place of the switch simulated at `begin`; `beginning` says what is neither cold nor warm.
         An `objective` stands in place of the study's weights and bounds what is traded; nothing is built anew. Raises
-        KeyboardInterrupt where an interrupt came, also one that CasADi has swallowed.
+        KeyboardInterrupt where an interrupt came, also one that CasADi has swallowed. The run ends at the deadline; one
+        that refines a coarse optimum, which would be lost otherwise, at that of the whole command.
         """
         raise_pending()
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        solver = self._solver(beginning or ("cold" if warm is None else "warm"))
+        deadline = self.deadline.whole if beginning == "refined" else self.deadline
         if warm is not None:
             unknowns = warm.unknowns
+        if deadline.passed:
+            return self._not_begun(inputs, unknowns, within or {})
+        solver = self._solver(beginning or ("cold" if warm is None else "warm"))
         arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         objective = objective or Objective(self.study.minimize)
-        answer = solver(**arguments, p=self.parameters(objective), **self.ends(within or {}, objective))
+        answer = solver(deadline, **arguments, p=self.parameters(objective), **self.ends(within or {}, objective))
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
         run = self.record(answer, solver.stats(), inputs, seconds)
         return replace(run, within=within or {})
+
+    def _not_begun(self, inputs: Array, unknowns: Array | None, within: Mapping[str, Ends]) -> Run:
+        """Return a run that ended where it was to start, as the time was over: nothing is simulated or built."""
+        x = self.first_guess(inputs) if unknowns is None else unknowns
+        p = self.parameters(Objective(self.study.minimize))
+        value, rows = self._compiled(x, p)
+        answer = {"x": x, "f": value} | {
+            name: np.zeros(len(like)) for name, like in (("lam_g", np.asarray(rows)), ("lam_x", x), ("lam_p", p))
+        }
+        stats = {"return_status": TIME_OVER, "success": False, "iter_count": 0}
+        return replace(self.record(answer, stats, inputs, 0.0), within=within)
 
     def ends(self, within: Mapping[str, Ends], objective: Objective) -> dict[str, Array]:
         """Ends of the unknowns and of the rows for one run, as nlpsol names them."""

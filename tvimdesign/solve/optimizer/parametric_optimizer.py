@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.device import Input
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
-from tvimdesign.solve.nlp.deadline import Deadline
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free

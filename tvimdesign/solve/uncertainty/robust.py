@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
+from tvimdesign.base.errors import TimeOverError
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import on_cycle
@@ -19,6 +20,7 @@ from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Ends, Run
 from tvimdesign.solve.optimizer.coarse_first import search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import MARGINS
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.contributors import contributors_of
 from tvimdesign.solve.uncertainty.yield_search import Robust, reach_yield
@@ -35,7 +37,8 @@ Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 
 def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
     """The place of the first of some designs, the best first, that can be made as robust as its study asks, and the run
-    that is; where none can, of the one that comes nearest.
+    that is; where none can, of the one that comes nearest. Raises TimeOverError where the time is over before any is
+    known to come near.
     """
     found: list[tuple[int, Robust]] = []
     for place, candidate in enumerate(candidates):
@@ -45,7 +48,13 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
         ):
             continue
         optimizer.margins = {}
-        found.append((place, _robust(optimizer, run, within, None)))
+        try:
+            found.append((place, _robust(optimizer, run, within, None)))
+        except TimeOverError:
+            if not found:
+                raise
+            optimizer.deadline.leave_out(MARGINS)
+            break
         if found[-1][1].reached:
             break
     best, robust = max(found, key=lambda one: (one[1].reached, one[1].kept))
@@ -81,6 +90,9 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
     """By deviations: margins of the limits on what the cycle supplies."""
     for _ in range(ROUNDS):
         if not run.start.converged:
+            return run
+        if optimizer.deadline.passed:
+            optimizer.deadline.leave_out(MARGINS)
             return run
         margins = _margins(optimizer, run)
         before = optimizer.margins

@@ -12,16 +12,21 @@ _NAMED = 3
 
 
 def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float) -> YieldReached:
-    """Draw modules apart from those the design was found by, and simulate the `nominal` optimum without margins."""
-    yields, seed = yields_of(optimizer), optimizer.study.solver.seed
-    drawn = yields.at(run.inputs, seed + 1)
+    """Draw modules apart from those the design was found by, and simulate the `nominal` optimum without margins.
+
+    Raises TimeOverError where the time is over first.
+    """
+    deadline = optimizer.deadline.late
+    yields, seed = yields_of(optimizer, deadline), optimizer.study.solver.seed
+    drawn = yields.at(run.inputs, seed + 1, deadline)
+    without = yields.at(nominal.inputs, seed + 1, deadline).together.share
     table, points = optimizer.table, tuple(optimizer.study.operating_points)
     cycle = optimizer.simulator.run_to_show(nominal.inputs, nominal.current_profiles)
     values = optimizer.model.values(nominal.inputs, cycle.values)
     told = [name for name in table.names(points) if table.output(name).headline]
     return YieldReached(
         asked=share, modules=drawn.residuals.shape[1], shares=drawn.shares, together=drawn.together.share,
-        lost_to=tuple(_lost(drawn, optimizer)), nominal_together=yields.at(nominal.inputs, seed + 1).together.share,
+        lost_to=tuple(_lost(drawn, optimizer)), nominal_together=without,
         nominal={name: float(values[name]) for name in dict.fromkeys([*optimizer.study.minimize, *told])},
     )  # fmt: skip
 

@@ -13,11 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.errors import TimeOverError
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.coarse_first import search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import MARGINS
 from tvimdesign.solve.uncertainty.yields import Drawn, yields_of
 
 ROUNDS = 8
@@ -54,10 +56,18 @@ def reach_yield(
     """Seek the optimum `within` ends again from a converged run, until `share` of the modules keep every limit.
 
     Returns the best design that reaches it, else the one that most modules keep; its margins stay with the optimizer.
+    Raises TimeOverError where the time is over before modules are drawn of the first.
     """
     found: list[Robust] = []
     for _ in range(ROUNDS):
-        drawn, margins = yields_of(optimizer).at(run.inputs), dict(optimizer.margins)
+        try:
+            drawn = yields_of(optimizer, optimizer.deadline).at(run.inputs, deadline=optimizer.deadline)
+        except TimeOverError:
+            if not found:
+                raise
+            optimizer.deadline.leave_out(MARGINS)
+            break
+        margins = dict(optimizer.margins)
         found.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
         moves = _moves(drawn, share + _AIM * (1.0 - share), margins, _pressing(optimizer, run))
         if not moves or _no_better(found):
@@ -65,6 +75,8 @@ def reach_yield(
         optimizer.progress(f"{drawn.together.share:.1%} of the modules keep every limit: moving the margins")
         following = _tightened(optimizer, run, within, objective, margins, moves)
         if following is None:
+            if optimizer.deadline.passed:
+                optimizer.deadline.leave_out(MARGINS)
             break
         run = following
     best = min(found, key=lambda one: (not one.reached, one.run.start.objective if one.reached else -one.kept))

@@ -10,6 +10,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
@@ -66,8 +67,10 @@ class Drawn:
 class Yields:
     """Limits that what spreads can move, as functions of that and of what the study frees."""
 
-    def __init__(self, optimizer: Optimizer) -> None:
-        """Compile. A current that follows a profile is not a number: limits on its phases are left out."""
+    def __init__(self, optimizer: Optimizer, deadline: Deadline = NEVER) -> None:
+        """Compile. Raises TimeOverError at the deadline.
+
+        A current that follows a profile is not a number: limits on its phases are left out."""
         study, table = optimizer.study, optimizer.table
         self._study, self._model = study, optimizer.model
         spreading = [name for name in study.tolerances if name in optimizer.model.index]
@@ -80,14 +83,17 @@ class Yields:
         )  # fmt: skip
         self._outputs = list(dict.fromkeys(limit.output for limit in self.limits))
         start = dict(zip(optimizer.model.names, optimizer.model.start, strict=True))
-        self._many = BatchModel(self._rig(start), self._moving, self._outputs) if self._outputs else None
+        self._many = BatchModel(self._rig(start), self._moving, self._outputs, (), deadline) if self._outputs else None
 
     def _rig(self, values: Mapping[str, Any]) -> ResolvedModule:
         numbers = {name: float(values[name]) for name in self._model.names}
         return ResolvedModule(self._study, {**numbers, **self._model.words})
 
-    def at(self, inputs: Array, seed: int | None = None) -> Drawn:
-        """Draw modules of the design with these inputs, from the study's seed unless another is given."""
+    def at(self, inputs: Array, seed: int | None = None, deadline: Deadline = NEVER) -> Drawn:
+        """Draw modules of the design with these inputs, from the study's seed unless another is given.
+
+        Raises TimeOverError at the deadline.
+        """
         model = self._model
         contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
         if self._many is None or not contributors:  # nothing moves any limit
@@ -101,7 +107,7 @@ class Yields:
             every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
             every[places] = columns
             kept.append(columns)
-            return many(every, pace=pace)
+            return many(every, pace=pace, deadline=deadline)
 
         seed = self._study.solver.seed if seed is None else seed
         values = spread.monte_carlo(outputs, contributors, MODULES, seed).values
@@ -111,12 +117,13 @@ class Yields:
         return Drawn(self.limits, np.array(residuals), names, np.concatenate(kept, axis=1))
 
 
-def yields_of(optimizer: Optimizer) -> Yields:
+def yields_of(optimizer: Optimizer, deadline: Deadline = NEVER) -> Yields:
     """How many modules keep the limits at any design of a problem: compiled when first asked for, then kept as long as
-    the problem is.
+    the problem is. Raises TimeOverError where that is not done by the deadline.
     """
     if optimizer not in _COMPILED:
-        _COMPILED[optimizer] = Yields(optimizer)
+        optimizer.progress("compiling the equations, to draw modules")
+        _COMPILED[optimizer] = Yields(optimizer, deadline)
     return _COMPILED[optimizer]
 
 
