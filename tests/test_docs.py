@@ -12,6 +12,7 @@ from answers import shipped_answer
 from support import ROOT, STUDIES, Command
 
 from tvimdesign.catalog import Catalog, check_records
+from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study, read_study_text
 
@@ -57,7 +58,9 @@ def test_sizes_and_times_of_the_studies_are_what_they_come_to(study: Path) -> No
 
 @pytest.mark.parametrize(("study", "column"), [("paper_as_published", 1), ("paper_shear", 2)])
 def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column: int) -> None:
-    values = shipped_answer(study).design.values
+    design = shipped_answer(study).design
+    values, spread = design.values, Uncertainty(read_study(ROOT / f"studies/{study}.yaml")).data(design)
+    soft = spread["intervals"]["softening_time"]
     cold, hot = values["joint_stiffness@cold"], values["joint_stiffness@hot"]
     expected = {
         "envelope": f"{1e3 * values['envelope_diameter']:.0f} mm x {1e3 * values['envelope_height']:.1f} mm",
@@ -69,11 +72,29 @@ def test_the_table_in_the_readme_is_what_the_studies_come_to(study: str, column:
         "joint soft": f"{values['softening_time']:.0f} s",
         "joint stiff again, cold side in free air": f"{values['stiffening_time']:.0f} s",
         "every slice of the layer half frozen": f"{values['frozen_time']:.0f} s",
-        "stiff again, as the melting curve would claim": f"{values['equilibrium_stiffening_time']:.0f} s",
+        "joint soft, over the assumed ranges": f"{soft['low']:.0f} to {soft['high']:.0f} s",
+        "hottest PETG, rated for 60 °C (accepted)": f"{60.0 - values['structure_temperature_margin']:.0f} °C",
+        "yield at standard tolerances": f"{100.0 * spread['parts_yield']['share']:.0f} %",
     }
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in README.splitlines() if line.startswith("|")]
     reported = {row[0]: row[column] for row in rows if row[0] in expected}
     assert reported == expected
+    assert ["", "reconstructed", "re-optimised"] in rows
+
+
+def test_the_caption_in_the_readme_says_what_the_table_says() -> None:
+    (caption,) = re.findall(r"^\*(The paper's module .+?)\*$", README, re.M | re.S)
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in README.splitlines() if line.startswith("|")]
+    table = {row[0]: row[1:] for row in rows if len(row) == 3}
+    spread, petg = (
+        table["joint soft, over the assumed ranges"][1],
+        "hottest PETG, rated for 60 °C (accepted)",
+    )
+    before, after = (re.sub(" mm x .*", " mm", table["envelope"][column]) for column in (0, 1))
+    assert f"{after} and {table['mass'][1]}, soft after {table['joint soft'][1]} ({spread}" in caption
+    assert f"yield is {table['yield at standard tolerances'][1]}" in caption
+    assert f"reaches {table[petg][1]}" in caption
+    assert f"measures {before} and {table['mass'][0]}." in caption
 
 
 def test_the_study_in_the_readme_has_an_optimum_that_every_start_leads_to() -> None:
