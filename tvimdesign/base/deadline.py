@@ -11,6 +11,7 @@ import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TypeVar
 
 from tvimdesign.base.errors import TimeOverError
 
@@ -25,6 +26,9 @@ def counts_processor_time() -> bool:
 
 def _now() -> float:
     return time.process_time() if counts_processor_time() else time.monotonic()
+
+
+_Result = TypeVar("_Result")
 
 
 class Deadline:
@@ -91,14 +95,14 @@ class Deadline:
         if step not in self.left_out:
             self.left_out.append(step)
 
-    @contextmanager
-    def trying(self, step: str) -> Iterator[None]:
-        """Skip the rest of what is done in here where the time is over, and note the step."""
+    def attempt(self, step: str, do: Callable[[], _Result]) -> _Result | None:
+        """Return what a step comes to; where the time is over before, note the step and return None."""
         try:
             self.check(step)
-            yield
+            return do()
         except TimeOverError:
             self.leave_out(step)
+            return None
 
     @contextmanager
     def paused(self) -> Iterator[None]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.interrupts import interrupt_came
@@ -32,7 +33,7 @@ from tvimdesign.solve.nlp.solution import (
 from tvimdesign.solve.nlp.solver_run import Progress, Run
 from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import ALTERNATIVES, BELOW_YIELD, MARGINS, NO_COMBINATION, OPTIMAL
+from tvimdesign.solve.optimizer.statuses import ALTERNATIVES, BELOW_YIELD, BETWEEN, MARGINS, NO_COMBINATION, OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 from tvimdesign.study import SolverOptions, Study
@@ -105,13 +106,13 @@ def _optimize(
         if listed and in_time is None:
             search.run()
     choosing: Choosing | None = None
-    found = free
+    found, shown, exact = free, list[tuple[Relaxation, Run]](), building.exact()
     if listed and in_time is None:
         begin = Begin(study, reference, objectives, trees)
-        choosing, found = _choose(search, building.exact(), combinations, begin, enumerate_all)
+        choosing, found, shown = _choose(search, exact, combinations, begin, enumerate_all)
         in_time = _in_time(study, found, deadline)
     elif combinations > 1:
-        choosing = _chosen(free, combinations, study.solver)
+        choosing, shown = _chosen(free, combinations, study.solver)
     if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
@@ -120,8 +121,8 @@ def _optimize(
     recorded = [*free, *(found if listed else [])]
     nominal = run
     if study.robust:
-        with deadline.trying(MARGINS):
-            relaxation, nominal, run = _robust(found)
+        robust = deadline.attempt(MARGINS, partial(_robust, found))
+        relaxation, nominal, run = robust or (relaxation, nominal, run)
         if study.robust.share is None:
             recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
     margined = study.robust is not None and study.robust.share is not None and run is not nominal
@@ -138,7 +139,7 @@ def _optimize(
     starts = tuple(one.start for _, one in recorded if not (margined and one is run))  # those without margins
     solution = replace(
         _account(trees, relaxation, run, nominal, starts),
-        choosing=choosing,
+        choosing=choosing and _with_alternatives(choosing, trees, exact, shown),
         conflict_set=conflict_set,
         out_of_time=whole.seconds if deadline.met else None,
         left_out=tuple(whole.left_out),
@@ -160,13 +161,12 @@ def _account(
     passed_over = sum((Counter(relaxation.optimizer.multistart.passed_over) for relaxation in trees), Counter[str]())
     optimizer, robust = relaxation.optimizer, relaxation.optimizer.study.robust
     solution = replace(verify_optimum(optimizer, run, starts, seconds), passed_over=dict(passed_over))
-    if relaxation.constant_current_optimum.best is not None:
-        with optimizer.deadline.late.trying("the comparison with constant currents"):
-            solution = replace(solution, constant=relaxation.constant_current_optimum.found())
+    constant, late = relaxation.constant_current_optimum, optimizer.deadline.late
+    if constant.best is not None:
+        solution = replace(solution, constant=late.attempt("the comparison with constant currents", constant.found))
     if robust is not None and robust.share is not None and run.start.converged:
-        with optimizer.deadline.late.trying("the yield of the design"):
-            reached = _yield_reached(optimizer, run, nominal, robust.share)
-            solution = replace(solution, yield_reached=reached)
+        account = partial(_yield_reached, optimizer, run, nominal, robust.share)
+        solution = replace(solution, yield_reached=late.attempt("the yield that is asked for", account))
     return solution
 
 
@@ -248,8 +248,10 @@ def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline
 
 def _choose(
     search: BranchAndBound, exact: ExactCombinations, combinations: int, begin: Begin, enumerate_all: Enumerate
-) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
-    """The best combinations that branch and bound found, and where that is asked for by solving all."""
+) -> tuple[Choosing, list[tuple[Relaxation, Run]], list[tuple[Relaxation, Run]]]:
+    """The best combinations that branch and bound found, and where that is asked for by solving all: the account, the
+    designs, and those of them that are to be reported, which are not simulated yet.
+    """
     trees, asked = begin.trees, begin.study.solver
     stopped = trees[0].optimizer.deadline.met
     found, proof = dict(search.found), SolverEffort()
@@ -266,27 +268,25 @@ def _choose(
         combinations=combinations, solved=len(found), pruned=pruned,
         without_design=0 if stopped else combinations - len(found) - pruned,
         not_searched=combinations - len(found) - pruned if stopped else 0,
-        best=_simulated(shown), between=_between(trees, exact, shown), bound=_least(trees),
+        best=(), between=None, bound=_least(trees),
         proven=asked.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
     others = [one for key, one in zip(ranked, told, strict=True) if key in search.found or one in shown]
     plain = [one for one in others[1:] if not one[0].sizes.mixtures]
-    return choosing, [best, *plain] if best else [_closest(trees[0], exact)]
+    return choosing, [best, *plain] if best else [_closest(trees[0], exact)], shown
 
 
 def _between(
     trees: Sequence[Relaxation], exact: ExactCombinations, best: Sequence[tuple[Relaxation, Run]]
 ) -> Standard | None:
     """The best design with every size free; with the best records, where these are mixed."""
-    with trees[0].optimizer.deadline.late.trying("the best design between the listed sizes"):
-        if any(relaxation.sizes.mixtures for relaxation in trees):
-            run = exact.between(*best[0]) if best else None
-            return _standard(best[0][0], run) if run else None
-        optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
-        between = min(optima, key=lambda one: order(one[1]), default=None)
-        return _standard(*between) if between else None
-    return None
+    if any(relaxation.sizes.mixtures for relaxation in trees):
+        run = exact.between(*best[0]) if best else None
+        return _standard(best[0][0], run) if run else None
+    optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
+    between = min(optima, key=lambda one: order(one[1]), default=None)
+    return _standard(*between) if between else None
 
 
 def _least(trees: Sequence[Relaxation]) -> float | None:
@@ -296,20 +296,25 @@ def _least(trees: Sequence[Relaxation]) -> float | None:
     return min((relaxation.optima[0].start.objective for relaxation in trees if relaxation.optima), default=None)
 
 
-def _chosen(runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions) -> Choosing:
-    """The account where only records of different structure are listed: each has been searched from every start."""
+def _chosen(
+    runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions
+) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
+    """The account where only records of different structure are listed: each has been searched from every start.
+
+    With it the designs that are to be reported, which are not simulated yet.
+    """
     best: dict[int, tuple[Relaxation, Run]] = {}
     stopped = any(relaxation.optimizer.deadline.met for relaxation, _ in runs)
     searched = len({relaxation.place for relaxation, _ in runs}) if stopped else records
     for relaxation, run in sorted(runs, key=lambda one: order(one[1])):
         if run.start.converged:
             best.setdefault(relaxation.place, (relaxation, run))
-    return Choosing(
+    choosing = Choosing(
         combinations=records, solved=len(best), pruned=0, without_design=searched - len(best),
         not_searched=records - searched,
-        best=_simulated(list(best.values())[: asked.alternatives]), between=None,
-        proven=True, improved=0.0, work=SolverEffort(), proof=SolverEffort(), inside=0.0,
+        best=(), between=None, proven=True, improved=0.0, work=SolverEffort(), proof=SolverEffort(), inside=0.0,
     )  # fmt: skip
+    return choosing, list(best.values())[: asked.alternatives]
 
 
 def _each(known: _Found, blocks: Iterable[tuple[Block, SolvedBlock]]) -> tuple[_Found, SolverEffort]:
@@ -340,15 +345,23 @@ def _closest(relaxation: Relaxation, exact: ExactCombinations) -> tuple[Relaxati
     return exact.closest(relaxation, relaxation.sizes.nearest(values, whole))
 
 
-def _simulated(best: Sequence[tuple[Relaxation, Run]]) -> tuple[Standard, ...]:
-    """The first of some designs simulated, and the alternatives to it as far as there is time."""
+def _with_alternatives(
+    choosing: Choosing,
+    trees: Sequence[Relaxation],
+    exact: ExactCombinations,
+    best: Sequence[tuple[Relaxation, Run]],
+) -> Choosing:
+    """The account with the best combination simulated, and the alternatives to it as far as there is time."""
     found = [_standard(*one) for one in best[:1]]
     for one in best[1:]:
         optimizer = one[0].optimizer
-        with optimizer.deadline.late.trying(ALTERNATIVES):
-            optimizer.progress("simulating the alternatives")
-            found.append(_standard(*one))
-    return tuple(found)
+        optimizer.progress("simulating the alternatives")
+        if other := optimizer.deadline.late.attempt(ALTERNATIVES, partial(_standard, *one)):
+            found.append(other)
+    between: Standard | None = None
+    if any(one.sizes.names for one in trees):
+        between = trees[0].optimizer.deadline.late.attempt(BETWEEN, partial(_between, trees, exact, best))
+    return replace(choosing, best=tuple(found), between=between)
 
 
 def _standard(relaxation: Relaxation, run: Run) -> Standard:

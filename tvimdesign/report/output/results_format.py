@@ -319,6 +319,7 @@ class RunResults(Answered):
     front: NotRequired[FrontEntry]
     uncertainty: NotRequired[UncertaintyEntry]
     sensitivities_left_out: NotRequired[list[str]]
+    left_out: NotRequired[list[str]]
     cad: NotRequired[Parts]
     folder: NotRequired[str]
     not_done: NotRequired[list[str]]

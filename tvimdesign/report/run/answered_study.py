@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, cast
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.partly_done import noting
 from tvimdesign.report.output.progress import Progress
+from tvimdesign.report.output.remaining_time import duration
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RunResults
 from tvimdesign.report.output.tables import results
@@ -42,6 +44,16 @@ class AnsweredStudy:
     """The table of sensitivities as CSV, where it was asked for."""
     heat_map: dict[str, Any] = field(default_factory=dict)
     """What its figure is drawn from."""
+    deadline: Deadline = field(default_factory=Deadline)
+    """Until when it is answered, with what is left out for it."""
+
+    @property
+    def left_out(self) -> str:
+        """What the time limit left out, and how to get it; empty where it left out nothing."""
+        if not self.deadline.left_out:
+            return ""
+        limit, steps = duration(self.deadline.seconds), "; ".join(self.deadline.left_out)
+        return f"the time limit of {limit} ended before these were done: {steps}. Raise --time-limit to get them"
 
     @cached_property
     def warnings(self) -> list[Warned]:
@@ -57,30 +69,36 @@ def answer_study(
     drawn_only: bool = False,
     sensitivities: bool = False,
     folder: ResultsFolder | None = None,
-    search: Search = optimize,
+    search: Search | None = None,
     early: Callable[[StudyResult], None] = lambda _: None,
     designed: Designed = lambda _: None,
+    deadline: Deadline | None = None,
 ) -> AnsweredStudy:
     """Read and answer a study: evaluate or optimise it, and seek its front, which a `folder` lets go on later.
 
     With `drawn_only` nothing is optimised: what may change stands at its start. `early` is told the answer before the
-    front is sought, `designed` a design that is found before that. Raises InputError, and InfeasibleError
-    for what no search can mend; a search that finds no design is a result.
+    front is sought, `designed` a design that is found before that. All of it ends at the `deadline`: the study's time
+    limit from now on unless given; a `search` in place of the usual one has its own.
+
+    Raises InputError, InfeasibleError for what no search can mend, and TimeOverError where the time is over before the
+    search; a search that finds no design is a result.
     """
     study = read_tree(tree)
     study = proving(study) if prove else study
     table = study.table
     study = drawn(study) if drawn_only else study
-    front = FrontOfRun(study, table, folder)
+    deadline = deadline or Deadline(study.solver.time_limit)
+    front, search = FrontOfRun(study, table, folder), search or partial(optimize, deadline=deadline)
     found = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search, designed=designed)
     early(found)
-    answered = AnsweredStudy(tree, study, found, front, _reported(found, table))
+    answered = AnsweredStudy(tree, study, found, front, _reported(found, table), deadline=deadline)
     answered.reported["doubts"] = record_checks(study)
     if found.found and (sensitivities or study.write.sensitivities):
         progress("differentiating the outputs")
         with noting(answered.failures):
-            _differentiate(answered)
+            deadline.attempt("the sensitivities", partial(_differentiate, answered))
     front.seek(found, progress, answered.reported, answered.failures)
+    note_left_out(answered)
     progress("")
     return answered
 
@@ -103,7 +121,7 @@ def _differentiate(answered: AnsweredStudy) -> None:
     """Add what every variable does to every output. Raises SimulationError."""
     from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
 
-    derivatives, resolved = sensitivities(answered.result)
+    derivatives, resolved = sensitivities(answered.result, answered.deadline)
     answered.sensitivities = sensitivities_csv(derivatives, resolved)
     answered.reported["sensitivities_left_out"] = list(derivatives.left_out)
     answered.heat_map = heat_map(derivatives, resolved)
@@ -113,6 +131,12 @@ def note_uncertainty(answered: AnsweredStudy, data: Mapping[str, Any]) -> None:
     """Add to what is reported how sure the design is, without what only the screen needs."""
     if data:
         answered.reported["uncertainty"] = cast("UncertaintyEntry", {name: data[name] for name in _OF_RESULTS})
+
+
+def note_left_out(answered: AnsweredStudy) -> None:
+    """Add to what is reported which steps the time limit left out."""
+    if answered.deadline.left_out:
+        answered.reported["left_out"] = list(answered.deadline.left_out)
 
 
 def note_no_uncertainty(answered: AnsweredStudy, error: TvimError) -> None:

@@ -6,6 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from rich.console import Console
 from rich.table import Table as Grid
 
 from tvimdesign import __version__
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import AboveRatingError, TvimError
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
@@ -29,7 +31,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.ratings import exceeded, sorted_by_acceptance
 from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, OPTIMAL
 from tvimdesign.solve.pareto.front import Front, completed, trace_front
-from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
+from tvimdesign.solve.pareto.tradeoff import OUT_OF_TIME, Point, Tradeoff
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design, design_json
@@ -73,14 +75,20 @@ class FrontOfRun:
         progress("simulating the whole cycle of the front's points")
         front = self.front = completed(sought, trade)
         self.optimum = trade.optimum
-        self.kept = kept_at(trade.optimizer, front) if self.study.robust else []
+        late = trade.optimizer.deadline.late
+        if self.study.robust:
+            drawing = partial(kept_at, trade.optimizer, front, late)
+            self.kept = late.attempt("the yield of each point of the front", drawing) or []
         accept = self.study.model_dump(include={"accept"})
         self.above = [of_ratings(point, accept, self.table)["above_rating"] for point in front.points]
         reported["front"] = plain(front, shown_names(self.study, front), self.table, self.kept, self.above)
         if any(self.above):
             troubles.append(AboveRatingError(said_of_ratings(self.above)))
-        if front.failures:
-            where = "; ".join(f"{one.where}: {one.reason}" for one in front.failures)
+        failures = [one for one in front.failures if one.reason != OUT_OF_TIME]
+        if len(failures) < len(front.failures):
+            late.leave_out(f"{len(front.failures) - len(failures)} points of the front")
+        if failures:
+            where = "; ".join(f"{one.where}: {one.reason}" for one in failures)
             troubles.append(TvimError(f"the front has {len(front.points)} points, but no design was found at {where}"))
 
     def write(self, folder: ResultsFolder, found: StudyResult) -> None:
@@ -134,12 +142,13 @@ def shown_names(study: Study, front: Front) -> list[str]:
     return list(dict.fromkeys([*front.outputs, *study.minimize, *numbers]))
 
 
-def kept_at(optimizer: Optimizer, front: Front) -> list[float]:
-    """The share of modules drawn at random that keep all limits, for each point."""
+def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline) -> list[float]:
+    """The share of modules drawn at random that keep all limits, for each point. Raises TimeOverError."""
     inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
     from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
 
-    return [yields_of(optimizer).at(one).together.share for one in inputs]
+    yields = yields_of(optimizer, deadline)
+    return [yields.at(one, deadline=deadline).together.share for one in inputs]
 
 
 def said_of_ratings(above: Sequence[tuple[str, ...]]) -> str:

@@ -189,8 +189,9 @@ def _verdict(answer: StudyResult) -> str:
             count = len(answer.undecided)
             return f"[yellow]Evaluated; history decides whether {count} of the limits hold{warned}.[/yellow]"
         return f"[green]Evaluated; every rule and requirement holds{warned}.[/green]"
+    late = solution.out_of_time is not None
     if not answer.found:
-        return "[red]No design found that keeps every limit.[/red]"
+        return f"[red]No design found that keeps every limit{' before the time limit' if late else ''}.[/red]"
     starts = solution.free_starts
     converged = sum(start.converged for start in starts)
     optima = len(solution.distinct_optima())
@@ -200,7 +201,8 @@ def _verdict(answer: StudyResult) -> str:
     of_start = sum(answer.design.study["minimize"].values())
     ended = f"[green]Optimal{warned}[/green]"
     if answer.design.status == BELOW_YIELD:
-        ended = f"[red]Fewer modules keep the limits than the study asks{warned}[/red]"
+        missed = "The time limit ended the search before its margins were found"
+        ended = f"[red]{missed if late else 'Fewer modules keep the limits than the study asks'}{warned}[/red]"
     elif answer.design.above_rating:
         ended = f"[red]The best design is beyond ratings that the study does not accept{warned}[/red]"
     elif answer.design.accepting:

@@ -22,6 +22,8 @@ def complaint(answer: StudyResult, table: Table) -> str:
     conflict_set = solution.conflict_set if solution else None
     kept = solution is not None and solution.feasible and meaning(FEASIBLE).words in answer.design.status
     missed = "no design known to be the best one" if kept else "no design found that keeps every limit"
+    late = solution is not None and solution.out_of_time is not None and not conflict_set
+    missed += " before the time limit ended the search" if late else ""
     lines = [f"{answer.design.name}: {missed} ({answer.design.status})."]
     if conflict_set:
         lines += conflict_in_words(conflict_set)
@@ -48,8 +50,8 @@ def complaint(answer: StudyResult, table: Table) -> str:
         lines.append(
             "Ease a limit, or widen a range under `vary`. The design.json written is the one that comes closest."
         )
-    elif between is not None and solution is not None and solution.out_of_time is not None:
-        lines.append("The time was over before all were searched: raise `solver.time_limit` (or --time-limit).")
+    elif late:
+        lines.append("Whether there is one is not known: raise `solver.time_limit` (or --time-limit).")
     elif between is None:
         lines += endings(solution.starts if solution else ())
         lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")

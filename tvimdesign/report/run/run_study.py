@@ -5,12 +5,21 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.markup import escape
 
-from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
+from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.errors import (
+    AboveRatingError,
+    BelowYieldError,
+    InfeasibleError,
+    InputError,
+    TimeOverError,
+    TvimError,
+)
 from tvimdesign.base.extras import how_to_install
 from tvimdesign.report.output.partly_done import done_in_part, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
@@ -50,6 +59,7 @@ def run_study(
         folder = _claimed(stack, out, study, place, overwrite=overwrite, resume=resume, as_json=as_json)
         if folder is None:
             return
+        deadline = Deadline(study.solver.time_limit)
         # Begun before what solves and reports is loaded here: both take their time to load as much.
         making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
@@ -70,16 +80,17 @@ def run_study(
                 prove=prove,
                 sensitivities=sensitivities,
                 folder=folder,
-                search=_search(folder, place, progress),
+                search=_search(folder, place, progress, deadline),
                 early=best.note,
                 designed=_asked_of_design(making, folder, screen),
+                deadline=deadline,
             )
         found, failures = answered.result, answered.failures
         if drawing and found.found:
             vector = bool(making) or study.write.vector
             drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
         write_answer(folder, answered)  # before this run waits for other processes
-        _wait_for_uncertainty(answered, screen)
+        _wait_for_uncertainty(answered, screen, progress)
         write_results(folder, answered)
         progress("")
         screen.tell(answered, folder, None if as_json else wide_console(), full=full)
@@ -118,14 +129,14 @@ def _claimed(
     return claimed(stack, out, proving(study), where, overwrite=overwrite, resume=resume, as_json=as_json)
 
 
-def _search(folder: ResultsFolder, where: Where | None, progress: Progress) -> Search:
+def _search(folder: ResultsFolder, where: Where | None, progress: Progress, deadline: Deadline) -> Search:
     if where is None:
         from tvimdesign.solve.search import optimize
 
-        return optimize
+        return partial(optimize, deadline=deadline)
     from tvimdesign.report.run.shared_proof import proved_in
 
-    return proved_in(folder.path, where, progress)
+    return proved_in(folder.path, where, progress, deadline)
 
 
 def _parts_ahead(mode: str) -> PartsAhead:
@@ -151,11 +162,16 @@ def _asked_of_design(making: PartsAhead | None, folder: ResultsFolder, screen: R
     return asked
 
 
-def _wait_for_uncertainty(answered: AnsweredStudy, screen: RunScreen) -> None:
-    from tvimdesign.report.run.answered_study import note_no_uncertainty, note_uncertainty
+def _wait_for_uncertainty(answered: AnsweredStudy, screen: RunScreen, progress: Progress) -> None:
+    from tvimdesign.report.run.answered_study import note_left_out, note_no_uncertainty, note_uncertainty
+    from tvimdesign.report.run.first_screen.uncertainty_process import STEP
 
+    progress(f"computing {STEP}")
     try:
-        note_uncertainty(answered, screen.uncertainty())
+        note_uncertainty(answered, screen.uncertainty(answered.deadline))
+    except TimeOverError:
+        answered.deadline.leave_out(STEP)
+        note_left_out(answered)
     except TvimError as error:
         note_no_uncertainty(answered, error)
 

@@ -6,6 +6,7 @@ import csv
 import io
 from typing import Any
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.report.output.axis_labels import name_in_words
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
@@ -16,15 +17,19 @@ _SHOWN = 5e-3
 """Elasticity below which a row or a column of the heat map has nothing to say."""
 
 
-def sensitivities(answer: StudyResult) -> tuple[OutputSensitivities, ResolvedModule]:
-    """Differentiate what a summary shows and what the study limits or minimises. Raises SimulationError."""
+def sensitivities(answer: StudyResult, deadline: Deadline) -> tuple[OutputSensitivities, ResolvedModule]:
+    """Differentiate what a summary shows and what the study limits or minimises.
+
+    Raises SimulationError, TimeOverError.
+    """
     resolved = resolve_design(answer.design)
     asked = {*answer.design.study["minimize"], *(one["output"] for one in answer.design.study["require"])}
     wanted = [
         name for name in resolved.table.names(resolved.points) if resolved.table.output(name).headline or name in asked
     ]
     options = answer.design.study["solver"]
-    return output_sensitivities(resolved, FINER * options["elements"], options["cells"], wanted), resolved
+    elements, cells = FINER * options["elements"], options["cells"]
+    return output_sensitivities(resolved, elements, cells, wanted, deadline=deadline), resolved
 
 
 def sensitivities_csv(found: OutputSensitivities, resolved: ResolvedModule) -> str:

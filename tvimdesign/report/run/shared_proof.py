@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 
+from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
@@ -84,10 +85,10 @@ def proof_asked(begin: Begin) -> CellsAsked:
     return CellsAsked(ProofWork(asked, tuple(Begun.of(begin.trees))), keys, texts.__getitem__, "block")
 
 
-def proved_in(folder: Path, where: Where, progress: Progress) -> Search:
+def proved_in(folder: Path, where: Where, progress: Progress, deadline: Deadline | None = None) -> Search:
     """A search whose combinations are solved as cells that a folder keeps: all of them, whatever part others have.
 
-    It raises TvimError where a block cannot be solved.
+    Its `deadline` is the study's time limit unless given. It raises TvimError where a block cannot be solved.
     """
     everything = replace(where, part=(1, 1))
 
@@ -98,7 +99,7 @@ def proved_in(folder: Path, where: Where, progress: Progress) -> Search:
         for block, kept in zip(blocks_of(begin.trees), asked.there(folder), strict=True):
             yield block, _solved(kept.answer, folder)
 
-    return partial(optimize, enumerate_all=enumerated)
+    return partial(optimize, enumerate_all=enumerated, deadline=deadline)
 
 
 def prove_part(study: Study, folder: Path, where: Where, progress: Progress) -> SweepDone:

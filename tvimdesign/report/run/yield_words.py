@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
+from tvimdesign.report.output.remaining_time import duration
 from tvimdesign.report.output.tables import number
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
@@ -48,9 +49,11 @@ def _changes(answer: StudyResult, before: Mapping[str, float], after: Mapping[st
 
 def below_yield(answer: StudyResult) -> str:
     """What to say of a design that fewer modules keep than asked: which limits, by which tolerance; else empty."""
-    reached = yield_of(answer)
-    if reached is None or answer.design.status != BELOW_YIELD:
+    reached, limit = yield_of(answer), answer.solution.out_of_time if answer.solution else None
+    if answer.design.status != BELOW_YIELD or not answer.found:
         return ""
+    if limit is not None or reached is None:
+        return _not_in_time(answer, reached, limit)
     lines = [
         f"{answer.design.name}: no design found that {percent(reached.asked)} of the modules keep; "
         f"of the best {percent(reached.together)} do. Most is lost to"
@@ -58,6 +61,18 @@ def below_yield(answer: StudyResult) -> str:
     lines += [f"  {lost_in_words(one)}" for one in reached.lost_to]
     lines.append("Ease these limits, widen a range under `vary`, tighten these tolerances, or ask `robust` for less.")
     return "\n".join(lines)
+
+
+def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float | None) -> str:
+    """What to say of a design whose margins the time limit ended."""
+    limited = "" if limit is None else f" of {duration(limit)}"
+    ended = f"the time limit{limited} ended the search before it had all margins against spread"
+    said = "how many modules satisfy every limit is not known"
+    if reached is not None:
+        said = (
+            f"{percent(reached.together)} of the modules satisfy every limit so far, {percent(reached.asked)} are asked"
+        )
+    return f"{answer.design.name}: {ended}; {said}. Raise `solver.time_limit` (or --time-limit)."
 
 
 def lost_in_words(lost: LostTo) -> str:

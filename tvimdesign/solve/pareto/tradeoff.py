@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.errors import SimulationError
+from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, on_cycle
@@ -121,11 +121,18 @@ class Tradeoff:
         if found is None:
             self.progress(where)
             found = self._search(objective, where, near, guess)
+            if isinstance(found, Failure) and self.optimizer.deadline.passed:
+                return Failure(where, OUT_OF_TIME)
             if self._memory:
                 self._memory.keep(number, objective, found)
         if isinstance(found, Point):
             self.found.append(found)
+            self._leave_time()
         return found
+
+    def _leave_time(self) -> None:
+        """Leave time for the whole cycle of every point to be simulated, which takes about as long as setting up."""
+        self.optimizer.deadline.leave(self.optimizer.seconds["set_up"] * (2 + len(self.found)))
 
     def again(self, point: Point, other: Point) -> Point | None:
         """A point sought once more from another one; None where nothing better is found."""
@@ -137,6 +144,8 @@ class Tradeoff:
         if found is None:
             self.progress(f"{point.where}, from another side")
             found = self._from(other, point.objective, point.where, point.cost)
+            if isinstance(found, Failure) and self.optimizer.deadline.passed:
+                return None
             if self._memory:
                 self._memory.keep(number, point.objective, found)
         if isinstance(found, Failure):
@@ -146,6 +155,8 @@ class Tradeoff:
 
     def completed(self, point: Point) -> Point | Failure:
         """A point with the whole working cycle simulated: every output of it, whether the problem needs it or not."""
+        if self.optimizer.deadline.late.passed:
+            return Failure(point.where, OUT_OF_TIME)
         inputs = self._inputs(point)
         current_profiles = {phase: CurrentProfile.from_plain(plain) for phase, plain in point.current_profiles.items()}
         try:
@@ -219,8 +230,12 @@ class Tradeoff:
         from tvimdesign.solve.uncertainty.robust import settle
 
         for run in runs:
-            settled = settle(self.optimizer, run, self._fixed, objective)
-            self.optimizer.margins = dict(self._margins)
+            try:
+                settled = settle(self.optimizer, run, self._fixed, objective)
+            except TimeOverError:
+                return
+            finally:
+                self.optimizer.margins = dict(self._margins)
             if settled.start.converged:
                 yield settled
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si
 from tvimdesign.device import FirstOscillation, Table
@@ -39,6 +40,9 @@ _LEAST_SHARE = 1e-3
 """Share of a step below which it is taken as it is."""
 _NOTHING = 1e-4
 """Value, in the unit people read it in, below which a share of it means nothing: a gap that is closed."""
+
+
+_STEP = "the outputs were differentiated"
 
 
 @dataclass(frozen=True)
@@ -70,12 +74,16 @@ class OutputSensitivities:
 
 
 def output_sensitivities(
-    resolved: ResolvedModule, elements: int, cells: int, wanted: Sequence[str], by: Sequence[str] | None = None
-) -> OutputSensitivities:
-    """Differentiate the wanted outputs by every variable of the module, or `by` some inputs. Raises SimulationError."""
+    resolved: ResolvedModule, elements: int, cells: int, wanted: Sequence[str], by: Sequence[str] | None = None,
+    deadline: Deadline = NEVER,
+) -> OutputSensitivities:  # fmt: skip
+    """Differentiate the wanted outputs by every variable of the module, or `by` some inputs.
+
+    Raises SimulationError, TimeOverError.
+    """
     model = DeviceFunctions(resolved.table, resolved.values, resolved.points, cells)
     simulator = Simulator(model)
-    cycle = simulator.run(model.start, resolved.current_profiles)
+    cycle = simulator.run(model.start, resolved.current_profiles, deadline=deadline)
     names = [n for n in wanted if not isinstance(resolved.table.quantity(n), FirstOscillation)]
     supplied = {name: _supplied_behind(model, name) for name in names}
     lost = _lost(model, cycle, set(resolved.current_profiles))
@@ -86,7 +94,7 @@ def output_sensitivities(
     place = [model.index[name] for name in variables]
     of_cycle = np.zeros((len(model.switch_names), len(place)))
     if needed:
-        of_cycle = _cycle_by_inputs(simulator, cycle, needed, place, elements)
+        of_cycle = _cycle_by_inputs(simulator, cycle, needed, place, elements, deadline)
     inputs, seen = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("cycle", len(model.switch_names))
     outputs = model.outputs(kept)(inputs, seen)
     function = ca.Function("by", [inputs, seen], [outputs, ca.jacobian(outputs, inputs), ca.jacobian(outputs, seen)])
@@ -146,7 +154,7 @@ def behind_profiles(table: Table, driven: Collection[str]) -> set[str]:
 
 
 def _cycle_by_inputs(
-    simulator: Simulator, cycle: Cycle, needed: Sequence[str], inputs: Sequence[int], elements: int
+    simulator: Simulator, cycle: Cycle, needed: Sequence[str], inputs: Sequence[int], elements: int, deadline: Deadline
 ) -> Array:
     """Derivatives of what the cycle supplies by some of the inputs, from the equations the optimiser hands to IPOPT."""
     model = simulator.model
@@ -154,11 +162,13 @@ def _cycle_by_inputs(
     x, p = problem.function["x"], problem.function["p"]
     count, peaks = problem.equation_count, problem.peak_count
     equations, samples = problem.function["g"][:count], problem.function["g"][count:]
+    deadline.check(_STEP)
     places = [model.switch_names.index(name) for name in needed]
     reached = problem.cycle[places]
     newton = ca.Function("newton", [x, p], [equations, ca.jacobian(equations, x)])
     given = np.concatenate([model.start, np.ones(len(needed))])
     unknowns = _solved(newton, _begin(problem, simulator, cycle), given, len(problem.peaks))
+    deadline.check(_STEP)
     rows, by_x, by_p, ends_by_x, ends_by_p = ca.Function(
         "cycle", [x, p],
         [samples, *(ca.jacobian(problem.function["g"], one) for one in (x, p)),

@@ -91,17 +91,23 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
     for _ in range(ROUNDS):
         if not run.start.converged:
             return run
-        if optimizer.deadline.passed:
+        try:
+            margins = _margins(optimizer, run)
+        except TimeOverError:
             optimizer.deadline.leave_out(MARGINS)
             return run
-        margins = _margins(optimizer, run)
         before = optimizer.margins
         optimizer.margins = margins
         _tell_what_is_not(optimizer, margins)
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
         optimizer.progress("staying within the limits on times by what they spread")
-        run = _again(optimizer, run, within, objective)
+        found = _again(optimizer, run, within, objective)
+        if not found.start.converged and optimizer.deadline.passed:
+            optimizer.deadline.leave_out(MARGINS)
+            optimizer.margins = before
+            return run
+        run = found
     return run
 
 
@@ -134,7 +140,7 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
     names = [contributor.name for contributor in contributors]
     options = study.solver
     wanted = list(dict.fromkeys(limit.output for limit in limits))
-    exact = output_sensitivities(resolved, options.elements, options.cells, wanted, names)
+    exact = output_sensitivities(resolved, options.elements, options.cells, wanted, names, optimizer.deadline)
     known = [contributors[names.index(name)] for name in exact.variables]
     deviations = dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0], strict=True))
     return {limit.name: study.robust.sigma * float(deviations.get(limit.output, np.nan)) / limit.scale

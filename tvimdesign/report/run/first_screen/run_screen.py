@@ -12,6 +12,7 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.page.page_file import FILE as PAGE
 from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -58,18 +59,21 @@ class RunScreen:
             self._process.begin(design)
             self._asked = True
 
-    def uncertainty(self) -> dict[str, Any]:
-        """Return how sure the design is; empty if nobody asked. Raises TvimError once if it cannot be computed."""
+    def uncertainty(self, deadline: Deadline = NEVER) -> dict[str, Any]:
+        """Return how sure the design is; empty if nobody asked. Raises TvimError once if it cannot be computed.
+
+        Raises TimeOverError once if that takes longer than the deadline allows.
+        """
         if self._uncertainty is None:
             self._uncertainty = {}
             if self._process and self._asked:
-                self._uncertainty = self._process.finish()
+                self._uncertainty = self._process.finish(deadline)
         return self._uncertainty
 
     def told(self, answered: AnsweredStudy, *, timed: bool) -> Told:
         """What is to be told beside the answer; a file is not told the seconds, so that it is the same every time."""
         seconds = time.perf_counter() - self._began if timed else None
-        return Told(seconds, self.uncertainty(), answered.warnings, answered.front.front)
+        return Told(seconds, self.uncertainty(), answered.warnings, answered.front.front, answered.left_out)
 
     def tell(self, answered: AnsweredStudy, folder: ResultsFolder, console: Console | None, *, full: bool) -> None:
         """Write summary.txt, and print the first screen, or everything."""
@@ -85,13 +89,13 @@ def write_summary(answered: AnsweredStudy, folder: ResultsFolder, uncertainty: M
     """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
     stream = io.StringIO()
     file = OwnMarkupConsole(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False)
-    _print_all(answered, Told(None, uncertainty, answered.warnings, answered.front.front), file)
+    _print_all(answered, Told(None, uncertainty, answered.warnings, answered.front.front, answered.left_out), file)
     folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")
 
 
 def print_screen(answered: AnsweredStudy, console: Console) -> None:
     """Print the first screen of an answer of which nobody asked how sure it is."""
-    told = Told(warnings=answered.warnings, front=answered.front.front)
+    told = Told(warnings=answered.warnings, front=answered.front.front, left_out=answered.left_out)
     show(first_screen(answered.result, answered.study.table, told, console.width), console)
 
 

@@ -11,7 +11,14 @@ from tvimdesign.report.run.first_screen.held_back import held_back_lines, margin
 from tvimdesign.report.run.first_screen.measured import measured_lines
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
 from tvimdesign.report.run.first_screen.requirements import Line, lines_of, screen_lines
-from tvimdesign.report.run.first_screen.verdict import chosen_lines, current_lines, header, module_lines, trade_lines
+from tvimdesign.report.run.first_screen.verdict import (
+    chosen_lines,
+    current_lines,
+    header,
+    left_out_lines,
+    module_lines,
+    trade_lines,
+)
 from tvimdesign.report.run.first_screen.warnings import Warned, warning_lines
 from tvimdesign.solve.result import StudyResult
 
@@ -33,6 +40,8 @@ class Told:
     warnings: Sequence[Warned] = ()
     """What `warnings_of` says."""
     front: Any = None
+    left_out: str = ""
+    """What the time limit left out, and how to get it."""
 
 
 def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> list[str]:
@@ -40,7 +49,7 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
     assumptions = told.uncertainty.get("assumptions", {})
     intervals = told.uncertainty.get("intervals", {})
     requirements = lines_of(answer, table, assumptions, intervals)
-    head, top = header(answer, told.seconds, width), []
+    head, top = [*header(answer, told.seconds, width), *left_out_lines(told.left_out, width)], []
     if answer.found:
         top += qualification_lines(answer, table, width)
         top += module_lines(answer, table, intervals, width)
@@ -48,7 +57,9 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
         top += trade_lines(told.front, table, width)
         top += measured_lines(told.uncertainty, width)
         top += margin_lines(answer, table, width) + held_back_lines(answer, width)
-    bottom = yield_lines(answer, told.uncertainty, width, timed=told.seconds is not None)
+    bottom = []
+    if told.uncertainty or not told.left_out:
+        bottom = yield_lines(answer, told.uncertainty, width, timed=told.seconds is not None)
     left = LINES - AFTER - len(head) - len(top) - len(bottom)
     asked = _some(requirements, width, min(_REQUIREMENTS, left - 1))
     left -= len(asked)

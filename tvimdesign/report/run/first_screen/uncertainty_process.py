@@ -13,17 +13,22 @@ import json
 import signal
 import subprocess
 import sys
+import threading
 from importlib import import_module
+from queue import SimpleQueue
 from types import TracebackType
 from typing import Any
 
 from tvimdesign.base.child_process import follow_parent, start_child
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.process_tree import Behind, end_process_tree, give_way
-from tvimdesign.base.processor_time import ProcessorTimeError, communicate
+from tvimdesign.base.processor_time import CHECK_EVERY, ProcessorLimit, ProcessorTimeError
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
+STEP = "yield and intervals"
+"""What the process computes, in words."""
 PROCESSOR_LIMIT = 600.0
 """Seconds of processor time; it takes about two."""
 
@@ -38,7 +43,10 @@ class UncertaintyProcess:
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
         )  # fmt: skip
         give_way(self._child.pid, Behind.A_LITTLE)  # to the solver
-        self._write(study.model_dump_json() + "\n")
+        self._lines: SimpleQueue[str] = SimpleQueue()
+        self._lines.put(study.model_dump_json() + "\n")
+        self._writing = threading.Thread(target=self._write, daemon=True)
+        self._writing.start()
 
     def __enter__(self) -> UncertaintyProcess:
         """Return itself."""
@@ -48,22 +56,31 @@ class UncertaintyProcess:
         """End the process if it has not ended."""
         if self._child.poll() is None:
             end_process_tree(self._child.pid)
+        self._lines.put("")
+        self._writing.join()
         self._child.communicate()
 
     def begin(self, design: Design) -> None:
         """Ask for a design's, and come back at once."""
-        self._write(design.model_dump_json() + "\n")
+        self._lines.put(design.model_dump_json() + "\n")
+        self._lines.put("")
 
-    def _write(self, line: str) -> None:
-        assert self._child.stdin is not None
-        with contextlib.suppress(BrokenPipeError):  # a process that has died has nothing to say
-            self._child.stdin.write(line)
-            self._child.stdin.flush()
+    def _write(self) -> None:
+        """Write the lines, from a thread: a process that compiles reads nothing, and a pipe holds no design."""
+        stdin = self._child.stdin
+        assert stdin is not None
+        with contextlib.suppress(OSError, ValueError):  # a process that has died has nothing to say
+            for line in iter(self._lines.get, ""):
+                stdin.write(line)
+                stdin.flush()
 
-    def finish(self) -> dict[str, Any]:
-        """Return what `Uncertainty` says of the design. Raises TvimError, with how to get it, if the process fails."""
+    def finish(self, deadline: Deadline = NEVER) -> dict[str, Any]:
+        """Return what `Uncertainty` says of the design. Raises TvimError, with how to get it, if the process fails.
+
+        Raises TimeOverError if the deadline passes first.
+        """
         try:
-            said, _ = communicate(self._child, PROCESSOR_LIMIT)
+            said = self._heard(deadline)
         except ProcessorTimeError as error:
             reason = str(error)
         else:
@@ -76,6 +93,18 @@ class UncertaintyProcess:
             f"the uncertainty of the design could not be computed: {reason}; "
             "for the yield and the ranges, run `tvimdesign tolerate` with the results folder"
         )
+
+    def _heard(self, deadline: Deadline) -> str:
+        """What the process prints. Raises ProcessorTimeError, TimeOverError."""
+        watch = ProcessorLimit(self._child.pid, PROCESSOR_LIMIT)
+        while True:
+            deadline.check(STEP)
+            timeout = min(CHECK_EVERY, deadline.remaining)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._writing.join(timeout)
+                if not self._writing.is_alive():
+                    return str(self._child.communicate(timeout=timeout)[0])
+            watch.check()
 
 
 def main() -> None:

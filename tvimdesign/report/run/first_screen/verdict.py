@@ -27,10 +27,16 @@ def header(answer: StudyResult, seconds: float | None, width: int) -> list[str]:
     return joined("", parts, width)
 
 
+def left_out_lines(left_out: str, width: int) -> list[str]:
+    """What the time limit left out, where it left out anything."""
+    return block("Left out", left_out, width) if left_out else []
+
+
 def status(answer: StudyResult) -> str:
     """What a study came to, in capitals."""
     if not answer.found:
-        return "NO DESIGN FOUND"
+        late = answer.solution is not None and answer.solution.out_of_time is not None
+        return "NO DESIGN FOUND IN TIME" if late else "NO DESIGN FOUND"
     return _of_evaluation(answer) if answer.solution is None else _of_optimum(answer)
 
 
@@ -52,6 +58,8 @@ def _of_optimum(answer: StudyResult) -> str:
     """
     said = _of_ratings(answer)
     reached = yield_of(answer)
+    if reached is None and answer.design.status == BELOW_YIELD:
+        return f"WITHIN ITS LIMITS, MARGINS NOT FINISHED IN TIME{said and ', '}{said}"
     if reached is not None and answer.design.status == BELOW_YIELD:
         return f"YIELD {percent(reached.together)}, {percent(reached.asked)} ASKED{said and ', '}{said}"
     return said if answer.design.above_rating else f"OPTIMAL{said and ', '}{said}"

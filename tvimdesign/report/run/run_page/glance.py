@@ -17,6 +17,7 @@ from tvimdesign.report.run.first_screen.screen import Told
 from tvimdesign.report.run.first_screen.verdict import (
     chosen_lines,
     current_lines,
+    left_out_lines,
     module_lines,
     starts,
     trade_lines,
@@ -32,9 +33,10 @@ def glance(answered: AnsweredStudy, told: Told) -> list[Block]:
     """What the first screen tells, but the requirements, which have a section."""
     answer, table, told_of = answered.result, answered.study.table, told.uncertainty
     if not answer.found:
-        return [Points(complaint(answer, table).splitlines()[1:])]
+        return [Points([*([told.left_out] if told.left_out else []), *complaint(answer, table).splitlines()[1:]])]
     intervals = told_of.get("intervals", {})
     lines = [
+        *left_out_lines(told.left_out, _WIDE),
         *module_lines(answer, table, intervals, _WIDE),
         *qualification_lines(answer, table, _WIDE),
         *chosen_lines(answer, table, _WIDE),
