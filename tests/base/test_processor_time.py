@@ -71,6 +71,7 @@ def test_time_without_checks_is_no_idle_time(monkeypatch: pytest.MonkeyPatch) ->
 
 def test_the_count_starts_again_with_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     used = [0.0]
+    monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.0)
     monkeypatch.setattr(processor_time, "processor_time", lambda _process: used[0])
     limit = ProcessorLimit(1, 5.0)
     for _ in range(4):

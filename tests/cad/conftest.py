@@ -12,7 +12,7 @@ from cad_designs import BLOCKS, CASES, Made, design_of, whole
 
 from tvimdesign.base.kept_folder import FOLDER_VARIABLE
 from tvimdesign.cad import CadReport, make_cad
-from tvimdesign.cad.make import JOB
+from tvimdesign.cad.make import JOB, LIMIT
 from tvimdesign.study.design import Design, write_design
 
 QUICK = {"paper", "blocks"}
@@ -58,7 +58,7 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", str(Path(quick_parts.__file__).parent), prepend=os.pathsep)
         job = quick_parts.__name__ if name != request.param else JOB
-        report = make_cad(folder / "design.json", folder / "cad", 300.0, steps.append, job=job)
+        report = make_cad(folder / "design.json", folder / "cad", steps.append, job=job)
     return Made(design, report, steps, whole=name == request.param)
 
 
@@ -66,10 +66,10 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 def job(tmp_path: Path) -> Callable[..., CadReport]:
     """Make the parts of the paper's module with some values changed behind the model's back."""
 
-    def run(timeout_s: float = 240.0, **values: float) -> CadReport:
+    def run(limit: float = LIMIT, **values: float) -> CadReport:
         good = whole(design_of("changed", {}))
         design = good.model_copy(update={"values": good.values | values})
         write_design(design, tmp_path / "design.json")
-        return make_cad(tmp_path / "design.json", tmp_path / "cad", timeout_s)
+        return make_cad(tmp_path / "design.json", tmp_path / "cad", limit=limit)
 
     return run

@@ -16,8 +16,10 @@ import pytest
 import trimesh
 from cad_designs import Made
 
+from tvimdesign.base import processor_time
 from tvimdesign.base.child_process import hear
 from tvimdesign.base.errors import GeometryError, InputError
+from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import _linear
@@ -199,22 +201,28 @@ def test_a_part_the_model_has_wrong_is_written_and_reported(job: Callable[..., C
     assert (report.folder / "step/retainer.step").exists()
 
 
-def test_time_out_is_an_error(job: Callable[..., CadReport]) -> None:
-    with pytest.raises(GeometryError, match=r"no answer in 0.2 s"):
-        job(timeout_s=0.2)
+def test_a_process_that_reports_no_progress_is_an_error(
+    job: Callable[..., CadReport], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.05)
+    with pytest.raises(GeometryError, match=r"the CAD process failed: it was stopped after 0.05 s of processor time"):
+        job(limit=0.05)
 
 
-def test_a_child_that_says_what_it_does_is_given_time_and_one_that_falls_silent_is_not() -> None:
-    line = "print(json.dumps({'progress': step}), flush=True); time.sleep(0.4)"
-    says = f"import json, time\nfor step in range(8):\n    {line}\n"
-    for more, ends in (("", True), ("time.sleep(60)", False)):
+def test_a_child_that_says_what_it_does_is_given_time_and_one_that_falls_silent_is_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.05)
+    burn = "    end = time.process_time() + 0.4\n    while time.process_time() < end: pass\n"
+    says = f"import json, time\nfor step in range(8):\n    print(json.dumps({{'progress': step}}), flush=True)\n{burn}"
+    for more, ends in (("", True), ("while True: pass", False)):
         child = subprocess.Popen([sys.executable, "-S", "-c", says + more], stdout=subprocess.PIPE, text=True)
         try:
             said: queue.Queue[str | None] = queue.Queue()
             hear(child, said.put)
-            heard = _messages(said, 2.5)  # eight steps are 3.2 s
+            heard = _messages(said, ProcessorLimit(child.pid, 2.5))  # eight steps are 3.2 s
             assert [next(heard)["progress"] for _ in range(8)] == list(range(8))
-            with pytest.raises(StopIteration if ends else TimeoutError):
+            with pytest.raises(StopIteration if ends else ProcessorTimeError):
                 next(heard)
         finally:
             child.kill()
@@ -223,7 +231,7 @@ def test_a_child_that_says_what_it_does_is_given_time_and_one_that_falls_silent_
 
 def test_a_crash_names_the_part() -> None:
     with pytest.raises(GeometryError, match="rotor: the CAD process ended with code -11"):
-        _report(Path(), {"progress": "rotor"}, -11, 60.0, "")
+        _report(Path(), {"progress": "rotor"}, "the CAD process ended with code -11", "")
 
 
 @pytest.mark.gate

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import queue
 import subprocess
 import time
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 import psutil
 
@@ -15,6 +17,8 @@ LIMIT = 600.0
 IDLE_LIMIT = 600.0
 """Seconds without any processor time, by which a deadlocked process is recognised."""
 CHECK_EVERY = 1.0  # s
+Result = TypeVar("Result")
+_TRY_AGAIN = (subprocess.TimeoutExpired, queue.Empty)
 
 
 class ProcessorTimeError(TvimError):
@@ -35,12 +39,15 @@ class ProcessorLimit:
         self._idle, self._checked = 0.0, time.monotonic()
 
     def check(self) -> None:
-        """Raise ProcessorTimeError if a limit is exceeded; call it every `CHECK_EVERY` seconds.
+        """Raise ProcessorTimeError if a limit is exceeded; call it every `CHECK_EVERY` seconds, or more often.
 
         Idle time is the sum of the intervals between checks, each counted as at most two seconds. A computer that
         sleeps, or a stopped process group, therefore adds no idle time.
         """
-        used, now = processor_time(self._process), time.monotonic()
+        now = time.monotonic()
+        if now - self._checked < 0.9 * CHECK_EVERY:
+            return
+        used = processor_time(self._process)
         if self._start < 0.0:
             self._start = used
         self._idle = 0.0 if used != self._last else self._idle + min(now - self._checked, 2.0 * CHECK_EVERY)
@@ -49,6 +56,18 @@ class ProcessorLimit:
             raise ProcessorTimeError(f"it was stopped after {self._limit:g} s of processor time")
         if self._idle > self._idle_limit:
             raise ProcessorTimeError(f"it was stopped: it used no processor time for {self._idle_limit:g} s")
+
+
+def wait_for(watch: ProcessorLimit, wait: Callable[[float], Result]) -> Result:
+    """Return what `wait` returns, which takes a timeout [s] as Popen.wait and Queue.get do.
+
+    Raises ProcessorTimeError if the process exceeds its limit first.
+    """
+    while True:
+        try:
+            return wait(CHECK_EVERY)
+        except _TRY_AGAIN:
+            watch.check()
 
 
 def processor_time(process: int) -> float:

@@ -1,4 +1,4 @@
-"""Makes the parts of a design in a child process that is ended when it takes too long."""
+"""Makes the parts of a design in a child process, which is ended if it exceeds its limit of processor time."""
 
 from __future__ import annotations
 
@@ -18,28 +18,29 @@ from tvimdesign.base.child_process import hear, start_child
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.extras import require_extra
 from tvimdesign.base.process_tree import end_process_tree
+from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError, wait_for
 from tvimdesign.base.whole_files import make_folder
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
-TIMEOUT = 300.0
-"""Seconds without a word; a module takes about ten, many times that where the machine has other work."""
-PART_TIMEOUT = 90.0
-"""Seconds for one part with its files, or one set of checks; the longest takes two."""
+LIMIT = 3600.0
+"""Seconds of processor time, of all processes together, without a report of progress."""
+PART_LIMIT = 600.0
+"""Seconds of processor time for one part with its files, or one set of checks; the longest takes about two."""
 HALF_MADE = ".parts.{}."
 """What the name of the folder begins with in which a process makes parts where none are kept between runs."""
 JOB = "tvimdesign.cad.build.main"
 WAITING = "--wait"
 """First argument of a child that is told on standard input what to make: a line of JSON with design, folder and
-time-out. The second is the mode of the design that will come, or empty."""
+limit of processor time of a part. The second is the mode of the design that will come, or empty."""
 
 
 def make_cad(
     design_path: Path,
     out: Path,
-    timeout_s: float = TIMEOUT,
     progress: Callable[[str], None] | None = None,
     *,
-    part_timeout_s: float = PART_TIMEOUT,
+    limit: float = LIMIT,
+    part_limit: float = PART_LIMIT,
     job: str = JOB,
 ) -> CadReport:
     """Build, check and write the parts of the design file into the folder `out`.
@@ -47,13 +48,13 @@ def make_cad(
     `progress` is told each step. The files are written even where a check fails (`report.failed`), so that one can look
     at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
     (`MODULES` in `cad/assembly/module_parts.py`) and call this one's `main`. Raises GeometryError where a part cannot
-    be built or takes more than `part_timeout_s` [s], naming the part, once the files of the others are written; also
-    where the process crashes or says nothing for `timeout_s` [s]. Raises InputError where the
-    design cannot be read, or the extra [cad] is not installed.
+    be built or takes more than `part_limit` of processor time [s], naming the part, once the files of the others are
+    written; also where the process crashes or takes more than `limit` [s] without a report of progress. Raises
+    InputError where the design cannot be read, or the extra [cad] is not installed.
     """
     with PartsProcess(job) as process:
-        process.begin(design_path, out, part_timeout_s)
-        return process.finish(timeout_s, progress)
+        process.begin(design_path, out, part_limit)
+        return process.finish(progress, limit)
 
 
 class PartsProcess:
@@ -95,48 +96,43 @@ class PartsProcess:
             for half_made in self._out.glob(f"{HALF_MADE.format(self._process.pid)}*"):
                 shutil.rmtree(half_made, ignore_errors=True)
 
-    def begin(self, design_path: Path, out: Path, part_timeout_s: float = PART_TIMEOUT) -> None:
+    def begin(self, design_path: Path, out: Path, part_limit: float = PART_LIMIT) -> None:
         """Let it make the parts of a design file, which it reads at once, into the folder `out`; comes back at once."""
         make_folder(out)
         self._out = out
         assert self._process.stdin is not None
         with contextlib.suppress(BrokenPipeError):  # that it has died is told at the end
-            asked = [str(design_path.resolve()), str(out.resolve()), str(part_timeout_s)]
+            asked = [str(design_path.resolve()), str(out.resolve()), str(part_limit)]
             self._process.stdin.write(json.dumps(asked) + "\n")
             self._process.stdin.flush()
 
-    def finish(self, timeout_s: float = TIMEOUT, progress: Callable[[str], None] | None = None) -> CadReport:
+    def finish(self, progress: Callable[[str], None] | None = None, limit: float = LIMIT) -> CadReport:
         """Wait for what came of it; `progress` is told each step. Raises as `make_cad` does."""
         assert self._out is not None
         state: dict[str, Any] = {"progress": "starting"}
-        code: int | None
+        watch = ProcessorLimit(self._process.pid, limit)
         try:
-            for message in _messages(self._said, timeout_s):
+            for message in _messages(self._said, watch):
                 state |= message
                 if progress and "progress" in message:
                     progress(message["progress"])
-            code = self._process.wait(timeout=10.0)
-        except (TimeoutError, subprocess.TimeoutExpired):
-            code = None
-        return _report(self._out, state, code, timeout_s, _tail(self._tail))
+            code = wait_for(watch, lambda seconds: self._process.wait(timeout=seconds))
+            why = f"the CAD process ended with code {code}"
+        except ProcessorTimeError as error:
+            why = f"the CAD process failed: {error}"
+        return _report(self._out, state, why, _tail(self._tail))
 
 
-def _messages(said: queue.Queue[str | None], silence_s: float) -> Iterator[dict[str, Any]]:
-    """What a child says, until it ends; raises TimeoutError once it has said nothing for so long [s]."""
-    while True:
-        try:
-            line = said.get(timeout=silence_s)
-        except queue.Empty:
-            raise TimeoutError from None
-        if line is None:
-            return
-        message = json.loads(line)
+def _messages(said: queue.Queue[str | None], watch: ProcessorLimit) -> Iterator[dict[str, Any]]:
+    """Yield what a child reports, until it ends. Raises ProcessorTimeError between two reports."""
+    while (line := wait_for(watch, lambda seconds: said.get(timeout=seconds))) is not None:
+        watch.restart()
+        message: dict[str, Any] = json.loads(line)
         yield message
 
 
-def _report(out: Path, state: dict[str, Any], code: int | None, timeout_s: float, tail: str) -> CadReport:
-    """Turn what the child said, and how it ended, into a report or an error."""
-    why = f"no answer in {timeout_s:g} s" if code is None else f"the CAD process ended with code {code}"
+def _report(out: Path, state: dict[str, Any], why: str, tail: str) -> CadReport:
+    """Turn the last state that the child reported, and how it ended, into a report or an error."""
     if "error" in state:
         raise (GeometryError if state["code"] == GeometryError.exit_code else InputError)(state["error"])
     if "checks" not in state:

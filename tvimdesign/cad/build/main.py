@@ -40,7 +40,7 @@ _KEPT = "cad"
 """What the user's folder of parts is called."""
 
 
-def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
+def run(design_path: Path, out: Path, part_limit: float, lines: TextIO) -> None:
     """Make what is not kept from before, put all files into `out`; tells `lines` each step, then what came of it."""
 
     def say(**message: Any) -> None:
@@ -62,7 +62,7 @@ def run(design_path: Path, out: Path, timeout_s: float, lines: TextIO) -> None:
         own = kept_folder(_KEPT) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
         workshop = WorkerPool(
-            TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), timeout_s,
+            TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), part_limit,
             made=lambda result: _hand_out(result, out),
         )  # fmt: skip
         done = workshop.do(build_plan(dimensions(design)))

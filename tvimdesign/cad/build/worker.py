@@ -1,4 +1,6 @@
-"""Does pieces of work in child processes, several at once, each with a time-out; what is kept is not done again.
+"""Does pieces of work in child processes, several at once, each with a limit of processor time.
+
+What is kept is not done again.
 
 A child is forked once the CAD kernel is loaded, so that it starts at once, and does one piece of work after another: a
 fork for each would copy what it touches of the kernel's memory anew. One that is stuck in the kernel, or crashes, is
@@ -13,7 +15,6 @@ import multiprocessing as mp
 import os
 import sys
 import threading
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -25,14 +26,13 @@ from typing import Any
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.process_tree import give_way_further
+from tvimdesign.base.processor_time import CHECK_EVERY, LIMIT, ProcessorLimit, ProcessorTimeError
 from tvimdesign.cad.build.cache import Cache, Result
 from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.study.design import Design
 
-TIMEOUT = 90.0
-"""Seconds for one piece of work; the longest takes two."""
 Progress = Callable[[str], None]
 
 
@@ -99,8 +99,10 @@ class _Running:
     work: Work
     hand: _Hand
     folder: Path
-    deadline: float
+    watch: ProcessorLimit
     step: str
+    stopped: str = ""
+    """Which limit it exceeded."""
     reported: dict[str, Any] | None = None
 
 
@@ -112,7 +114,7 @@ class WorkerPool:
         subject: TrackedDesign,
         store: Cache,
         progress: Progress,
-        timeout_s: float = TIMEOUT,
+        limit: float = LIMIT,
         hands: int | None = None,
         made: Callable[[Result], object] = lambda _result: None,
     ) -> None:
@@ -122,7 +124,7 @@ class WorkerPool:
         """
         self._made = made
         self._subject, self._store, self._progress = subject, store, progress
-        self._timeout = timeout_s
+        self._limit = limit
         self._hands = hands or min(os.cpu_count() or 1, 4)
         # Elsewhere a fork is not safe: a library's threads may hold locks, and macOS ends such a child.
         self._context: Any = mp.get_context("fork" if sys.platform == "linux" else "spawn")
@@ -187,7 +189,8 @@ class WorkerPool:
         needs = {need: result.folder / "kept" for need, result in self._needs(work, done).items()}
         with contextlib.suppress(OSError):  # that it has died is heard in `_listen`
             hand.line.send((self._plan.index(work), needs, folder))
-        return _Running(work, hand, folder, time.monotonic() + self._timeout, work.name)
+        assert hand.process.pid is not None
+        return _Running(work, hand, folder, ProcessorLimit(hand.process.pid, self._limit), work.name)
 
     def _fork(self) -> _Hand:
         line, its_end = self._context.Pipe()
@@ -197,13 +200,12 @@ class WorkerPool:
         return _Hand(process, line)
 
     def _listen(self, running: list[_Running], done: Done) -> None:
-        """Wait until one of those at work says something, ends, or has taken too long."""
+        """Wait until one of those at work says something, ends, or exceeds its limit."""
         if not running:
             return
-        first = min(one.deadline for one in running)
-        ready = wait([one.hand.line for one in running], timeout=max(0.0, first - time.monotonic()))
+        ready = wait([one.hand.line for one in running], timeout=CHECK_EVERY)
         for one in list(running):
-            over = self._hear(one) if one.hand.line in ready else time.monotonic() >= one.deadline
+            over = self._hear(one) if one.hand.line in ready else _exceeds_limit(one)
             if over:
                 running.remove(one)
                 self._settle(one, done)
@@ -225,11 +227,9 @@ class WorkerPool:
         """Keep what a child made, or say why there is nothing; one that answered waits for more."""
         name = one.work.name
         if one.reported is None:
-            late = time.monotonic() >= one.deadline
-            if not late:
+            if not one.stopped:
                 one.hand.process.join(timeout=5.0)
-            code = one.hand.process.exitcode
-            why = f"no answer in {self._timeout:g} s" if late else f"its process ended with code {code}"
+            why = one.stopped or f"its process ended with code {one.hand.process.exitcode}"
             at = "" if one.step == name else f" (at: {one.step})"
             done.failed[name] = f"{name}: {why}{at}"
             _end(one.hand)
@@ -244,6 +244,15 @@ class WorkerPool:
             self._idle.append(one.hand)
         if name in done.failed:
             self._store.discard(one.folder)
+
+
+def _exceeds_limit(one: _Running) -> bool:
+    """Whether a piece of work exceeds its limit; notes which."""
+    try:
+        one.watch.check()
+    except ProcessorTimeError as error:
+        one.stopped = f"{error}; a part takes seconds: change one of its dimensions a little"
+    return bool(one.stopped)
 
 
 def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> None:

@@ -14,9 +14,6 @@ from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts
 from tvimdesign.study.design import Design, write_design
 
-CAD_TIME_LIMIT = 300.0  # s
-
-
 _ASKED = ".design.json.part"
 """The design as the parts are asked for, beside them: it is removed once they are made."""
 
@@ -72,7 +69,7 @@ class PartsAhead:
         """Wait for the parts, and write their checks.json. Raises GeometryError where they cannot be made."""
         progress("parts: starting the CAD kernel")
         try:
-            report = self._process.finish(CAD_TIME_LIMIT, lambda text: progress(f"parts: {text}"))
+            report = self._process.finish(lambda text: progress(f"parts: {text}"))
         finally:
             self.stop()
         write_whole(self._out / "checks.json", (json.dumps(plain_report(report), indent=2) + "\n").encode())

@@ -21,7 +21,7 @@ BASE, MOVING = "base", "moving"
 """What stands with the housing, and what turns with the rotor."""
 
 
-def run(design_path: Path, out: Path, _timeout_s: float, lines: TextIO) -> None:
+def run(design_path: Path, out: Path, _part_limit: float, lines: TextIO) -> None:
     """Write mass properties and meshes of both bodies; tells `lines` each step, then what the checks found."""
 
     def say(**message: Any) -> None:
