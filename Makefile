@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-slider gallery screenshots fuzz kills sweep-kills random-studies machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
+.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -79,6 +79,9 @@ fuzz: $(STAMP)  ## mutated inputs of every kind, from studies to the explorer's 
 
 kills: $(STAMP)  ## end every command at random moments, and look at what is left (an hour)
 	$(BIN)/python campaigns/kills.py
+
+folders: $(STAMP)  ## 10,000 random folders with a user's files under every command: no byte of theirs is changed (minutes)
+	OMP_NUM_THREADS=1 $(BIN)/python campaigns/folders.py
 
 sweep-kills: $(STAMP)  ## end jobs of an array, workers and scheduler of a cluster, and compare the tables (minutes)
 	$(BIN)/python campaigns/sweep_kills.py

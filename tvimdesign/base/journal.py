@@ -21,7 +21,7 @@ UNFINISHED = "unfinished"
 RUN = ".run.json"
 """File in that folder that names the run and the process that writes."""
 JOURNALS = ".written-*.jsonl"
-ANY = ""
+ANY = "half written"
 """Digest of a file whose content is not known beforehand: one that is half written."""
 
 

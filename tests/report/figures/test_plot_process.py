@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from small_sweeps import SMALL
 from support import Command
 
+import tvimdesign as tvim
 from tvimdesign.base.child_process import start_child
 from tvimdesign.report.figures import plot_process
 
@@ -26,6 +28,8 @@ COMMANDS = {
     "run": (["run", "arm.yaml", "--no-cad"], {"results.json", "design.json", "summary.txt"}),
     "simulate": (["simulate", "arm.yaml", "--test", "frequency"], {"findings.json", "simple_bodies.csv"}),
     "fit": (["fit", "weights.csv", "--set", "arm=100 mm"], {"fit.json", "residuals.csv"}),
+    "compare": (["compare", "arm.yaml", "other.yaml"], {"compare.json", "compare.csv", "summary.txt"}),
+    "sweep": (["sweep", "grid.yaml", "--workers", "1"], {"sweep.json", "cells.csv"}),
     "tolerate": (["tolerate", "arm.yaml", "--samples", "256"], {"tolerances.json", "outputs.csv"}),
 }
 
@@ -47,6 +51,8 @@ def test_plots_that_take_too_long_cost_no_number(
     name: str, tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "arm.yaml").write_text(STUDY)
+    (tmp_path / "other.yaml").write_text(STUDY.replace("ignored", "ignored, coil_count: 3.5"))
+    (tmp_path / "grid.yaml").write_text(SMALL)
     (tmp_path / "weights.csv").write_text(WEIGHTS)
     _draws_by(BURNS, tmp_path, monkeypatch)
     words, files = COMMANDS[name]
@@ -55,7 +61,7 @@ def test_plots_that_take_too_long_cost_no_number(
     assert done.returncode == 4, done.stderr
     said = " ".join(done.stderr.split())
     assert "the plots could not be drawn: it was stopped after 0.2 s of processor time" in said
-    assert "for the plots, repeat the command with --overwrite" in said
+    assert f"for the plots, repeat the command with --{'resume' if name == 'sweep' else 'overwrite'}" in said
     (missing,) = json.loads(done.stdout)["not_done"]
     assert missing.startswith("the plots could not be drawn")
     manifest = json.loads((out / "manifest.json").read_text())
@@ -74,3 +80,11 @@ def test_a_drawing_process_that_fails_says_why(
     assert done.returncode == 4
     assert re.search(r"stiffness .*N·m/rad", done.stdout)
     assert "could not be drawn: RuntimeError: no fonts" in " ".join(done.stderr.split())
+
+
+def test_a_result_that_is_saved_without_plots_warns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    _draws_by(BURNS, tmp_path, monkeypatch)
+    result = tvim.example("paper_as_published").evaluate(progress=False)
+    with pytest.warns(UserWarning, match=r"0\.2 s of processor time.*save again with overwrite=True"):
+        result.save(tmp_path / "out")
+    assert {"report.html", "design.json", "results.json"} <= {path.name for path in (tmp_path / "out").iterdir()}

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from contextlib import suppress
 from pathlib import Path
 
@@ -285,7 +286,7 @@ def test_a_run_on_another_host_is_not_taken_for_dead(tmp_path: Path) -> None:
     killed(tmp_path)
     said = json.loads((tmp_path / UNFINISHED / RUN).read_text())
     assert said["host"] == platform.node()
-    assert 0.0 < said["started"] < psutil.Process().create_time() + 60.0
+    assert psutil.Process().create_time() <= said["started"] <= time.time()
     (tmp_path / UNFINISHED / RUN).write_text(json.dumps({**said, "host": "elsewhere"}))
     with pytest.raises(FolderInUseError, match=r"on elsewhere\) is writing it; .*or remove .*\.run\.json if"):
         ResultsFolder(tmp_path, overwrite=True)

@@ -151,9 +151,10 @@ def test_soft_is_told_with_what_it_means(reported: dict[str, Any], found: StudyR
 
 def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -> None:
     with ResultsFolder(tmp_path / "out") as folder:
-        curves = folder.write("curves.csv", curves_csv({"stiffness": [1.0]}, {"stiffness": "N*m/rad"}, "1"))
-        other = folder.write("summary.txt", "N·m")
+        folder.write("curves.csv", curves_csv({"stiffness": [1.0]}, {"stiffness": "N*m/rad"}, "1"))
+        folder.write("summary.txt", "N·m")
         folder.finish("done", {}, {})
+    curves, other = (tmp_path / "out" / name for name in ("curves.csv", "summary.txt"))
     assert curves.read_bytes().startswith(b"\xef\xbb\xbf")
     assert curves.read_text("utf-8-sig").splitlines()[0] == "stiffness [N·m/rad]"
     assert not other.read_bytes().startswith(b"\xef\xbb\xbf")

@@ -58,7 +58,7 @@ def row(asked: SweepPlan, number: int, mass: float | None) -> list[Any]:
 
 def page(asked: SweepPlan, table: CellTable, out: Path, kept: bytes = b"") -> str:
     with ResultsFolder(out, overwrite=True) as folder:
-        (out / "cells.csv").write_text("cell\n")
+        folder.write("cells.csv", "cell\n")
         write_sweep_page(asked, table, folder, kept)
         folder.finish("swept", {}, {})
     text = (out / FILE).read_text("utf-8")

@@ -73,7 +73,7 @@ class Claim:
         with suppress(OSError):  # the user may have removed it
             names = {path.name for path in self.folder.iterdir()}
             journals = list(self.folder.glob(JOURNALS))
-            if remove and names <= {RUN, *(path.name for path in journals)}:
+            if remove and not self.folder.is_symlink() and names <= {RUN, *(path.name for path in journals)}:
                 for path in (*journals, self._path):
                     path.unlink(missing_ok=True)
                 self.folder.rmdir()

@@ -18,7 +18,7 @@ from typing import Any
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
-from tvimdesign.base.journal import UNFINISHED, digest_of, is_as_written, recorded
+from tvimdesign.base.journal import ANY, UNFINISHED, digest_of, is_as_written, recorded
 from tvimdesign.base.whole_files import TABLE_ENCODING, make_folder, write_whole
 from tvimdesign.report.output.claim import FORMAT, RUNNING, Claim, is_run
 from tvimdesign.report.output.manifest import MANIFEST, Manifest, manifest_text, read_manifest
@@ -192,6 +192,8 @@ class ResultsFolder:
     def _write_manifest(
         self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float]
     ) -> None:
+        if self.path.is_symlink():
+            raise OutputError(f"{self.path}: was moved while the run was writing it; what it wrote is there")
         written = recorded(self.path)
         content = {
             "format": FORMAT,
@@ -206,7 +208,7 @@ class ResultsFolder:
             "files": {
                 name: digest_of(self.path / name)
                 for name, digests in sorted(written.items())
-                if name != MANIFEST and is_as_written(self.path, name, digests - {""})
+                if name != MANIFEST and is_as_written(self.path, name, digests - {ANY})
             },
         }
         self.write_at_the_end(MANIFEST, manifest_text(content))
