@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
+.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -88,6 +88,9 @@ sweep-kills: $(STAMP)  ## end jobs of an array, workers and scheduler of a clust
 
 random-studies: $(STAMP)  ## whole searches of random studies, each answer attacked by random search, evolution and COBYLA (minutes)
 	$(BIN)/python campaigns/random_studies.py
+
+time-limits: $(STAMP)  ## every shipped study with time limits of 5, 20 and 60 s: each is kept, and the reason given is the right one (half an hour)
+	$(BIN)/python campaigns/time_limits.py
 
 machine: $(STAMP)  ## a run without room, descriptors, memory, a home or letters: done, or one line and the right code (minutes)
 	$(BIN)/python campaigns/machine.py

@@ -120,7 +120,7 @@ def _optimize(
     relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if listed else [])]
     nominal = run
-    if study.robust:
+    if study.robust and run.start.converged:
         robust = deadline.attempt(MARGINS, partial(_robust, found))
         relaxation, nominal, run = robust or (relaxation, nominal, run)
         if study.robust.share is None:

@@ -21,6 +21,7 @@ from tvimdesign.simulation.working_cycle.trajectory import Array, Trajectory
 
 FIRST_STRETCH = 120.0  # s; each after it is twice as long
 _EQUAL_STRETCHES = 64  # of a shorter one; each after them is twice as long, too, as another event may take for ever
+MOST_SOLVER_STEPS = 10_000  # of CVODES in a stretch; shipped studies take 1,000, and one that takes more never ends
 MOST_STEPS = 50  # of Newton; a steady state takes less than ten
 _FEW = 5  # every fifth sample of a stretch is looked at first
 STALLED = 1e-7  # change of the scaled state over the rest of the horizon below which nothing will happen any more
@@ -84,7 +85,7 @@ class PhaseSimulator:
             {
                 "reltol": tolerance,
                 "abstol": tolerance * 1e-2,
-                "max_num_steps": 100_000,
+                "max_num_steps": MOST_SOLVER_STEPS,
                 # A phase that cannot be simulated raises; what CVODES and CasADi say meanwhile is not for people.
                 "show_eval_warnings": False,
                 "disable_internal_warnings": True,

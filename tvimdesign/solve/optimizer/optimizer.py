@@ -259,9 +259,12 @@ class Optimizer:
         deadline = self.deadline.whole if beginning == "refined" else self.deadline
         if warm is not None:
             unknowns = warm.unknowns
-        if deadline.passed:
+        beginning = beginning or ("cold" if warm is None else "warm")
+        takes = 0.0 if self._solvers else self.seconds["set_up"]  # building a solver takes about as long
+        if deadline.remaining <= takes:
+            self.deadline.met = True
             return self._not_begun(inputs, unknowns, within or {})
-        solver = self._solver(beginning or ("cold" if warm is None else "warm"))
+        solver = self._solver(beginning)
         arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
         if warm is not None:
             arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
