@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.errors import TimeOverError
 from tvimdesign.base.interrupts import interrupt_came
 from tvimdesign.solve.best_so_far import SearchInterrupted, best_so_far
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
@@ -41,9 +42,10 @@ from tvimdesign.study import SolverOptions, Study
 Keep = Callable[[Optimizer, list[Run]], None]
 Search = Callable[[Study, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
 """What finds the best design of a study, as `optimize` does."""
-_TO_VERIFY, _OVER_SET_UP = 0.05, 2.0
+_TO_VERIFY, _OVER_SET_UP, _LEAST_OVER_SET_UP = 0.05, 2.0, 3.0
 """What a search leaves of its time to what follows: a twentieth of the limit, or twice what setting up its first
-problem took, if that is longer. Simulating a design again takes about that."""
+problem took, if that is longer. Simulating a design again takes about that. Less than the last one of these times that
+is no time to search: the solver, too, takes as long to build as its problem."""
 _Found = dict[tuple[int, Box], Run]
 """Designs of single combinations: the place of their tree, their sizes, the run that found them."""
 
@@ -64,7 +66,7 @@ def optimize(
     that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
     has the best design so far. Where the study asks that every combination be solved, `enumerate_all` does that.
     The search ends in time for its design to be verified before the `deadline`: the study's time limit from now on
-    unless given.
+    unless given. Raises TimeOverError where there is no time to search.
     """
     trees: list[Relaxation] = []
     try:
@@ -95,7 +97,7 @@ def _optimize(
     building = Trees(study, reference, progress, objectives, deadline, sizes)
     with second_process(study, reference, objectives, deadline, combinations) as helper:
         trees += building.of(families)
-        deadline.leave(_OVER_SET_UP * trees[0].optimizer.seconds["set_up"])
+        _leave_time(deadline, trees[0].optimizer.seconds["set_up"])
         listed = any(relaxation.sizes.names for relaxation in trees)
         hopeless = all(relaxation.hopeless() for relaxation in trees)
         free = _free_runs(trees, 1 if hopeless else None, deadline)
@@ -133,8 +135,7 @@ def _optimize(
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
     if run.start.converged and all(run is not one for _, one in recorded):
         recorded.append((relaxation, run))
-    for number, (_, one) in enumerate(recorded):
-        one.start = replace(one.start, number=number)
+    _number(one for _, one in recorded)
     keep(relaxation.optimizer, [one for other, one in recorded if other is relaxation])
     starts = tuple(one.start for _, one in recorded if not (margined and one is run))  # those without margins
     solution = replace(
@@ -145,6 +146,18 @@ def _optimize(
         left_out=tuple(whole.left_out),
     )
     return replace(solution, status=_status(study, solution, no_combination=listed and search.hopeless))
+
+
+def _number(runs: Iterable[Run]) -> None:
+    for number, run in enumerate(runs):
+        run.start = replace(run.start, number=number)
+
+
+def _leave_time(deadline: Deadline, set_up: float) -> None:
+    """Leave time for what follows the search. Raises TimeOverError where there is no time to search, then."""
+    deadline.leave(_OVER_SET_UP * set_up)
+    if deadline.whole.remaining < _LEAST_OVER_SET_UP * set_up:
+        raise TimeOverError("the search could start", deadline.seconds)
 
 
 def _account(
