@@ -5,12 +5,17 @@ import math
 import re
 from functools import partial
 
+import numpy as np
 import pytest
 
 from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.errors import TimeOverError
+from tvimdesign.report.run.first_screen.verdict import status
 from tvimdesign.report.run.first_screen.warnings import warnings_of
+from tvimdesign.report.run.yield_words import below_yield
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.optimizer.statuses import OPTIMAL
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import ALTERNATIVES, BELOW_YIELD, MARGINS, OPTIMAL
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, StudyError, read_study_text
@@ -127,6 +132,94 @@ def test_a_search_in_time_says_nothing_of_it() -> None:
     solution = optimize(read_study_text(SEARCHED.replace("starts: 6", "starts: 1")))
     assert solution.out_of_time is None
     assert dataclasses.asdict(solution.starts[0])["converged"]
+
+
+ROBUST = """
+mode: shear
+module: {transmission: unity, placement_radius: 60 mm, pin_diameter: 6 mm}
+vary: {wire_diameter: [1.5 mm, 3.2 mm], coil_count: [3, 8]}
+require: {spring_stiffness: ">= 5 N.m/rad"}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+minimize: springs_mass
+tolerances: {wire_diameter: 0.05 mm, coil_diameter: {row: coil_diameter_tolerance}, spring_youngs_modulus: 2 %}
+robust: {yield: 95 %}
+solver: {starts: 1, time_limit: 5 min}
+"""
+
+
+@pytest.mark.parametrize(
+    ("word", "then"), [("compiling the equations", FOLLOWING), ("moving the margins", 1e6)], ids=["begun", "moved"]
+)
+def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word: str, then: float) -> None:
+    clock = Clock(word, then)
+    answered = clock.answer(read_study_text(ROBUST))
+    assert answered.solution is not None
+    assert (answered.design.status, answered.feasible, answered.found) == (BELOW_YIELD, True, True)
+    assert answered.solution.out_of_time == LIMIT
+    assert MARGINS in clock.deadline.left_out
+    missed = below_yield(answered)
+    assert "no design found" not in missed
+    assert "the time limit of 5 min 00 s ended the search before it had all margins" in missed
+    assert "--time-limit" in missed
+    if then > LIMIT:
+        assert "how many modules satisfy every limit is not known" in missed
+        assert status(answered).startswith("WITHIN ITS LIMITS, MARGINS NOT FINISHED IN TIME")
+
+
+TIMED = """
+mode: shear
+module: {transmission: unity}
+vary: {current: [0.5 A, 2.5 A], pcl_thickness: [0.8 mm, 2 mm]}
+require: {response_time: "<= 300 s", pcl_stiffness@hot: "<= 3.5 N.m/rad"}
+accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
+minimize: peak_power
+tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
+robust: {sigma: 1.5}
+solver: {starts: 1, cells: 12, elements: 3, time_limit: 5 min}
+"""
+
+
+def test_a_design_without_its_margins_by_deviations_is_no_optimum() -> None:
+    clock = Clock("staying within the limits")
+    answered = clock.answer(read_study_text(TIMED))
+    assert (answered.design.status, answered.found) == (BELOW_YIELD, True)
+    assert clock.deadline.left_out == [MARGINS]
+    assert "ended the search before it had all margins" in below_yield(answered)
+
+
+def test_alternatives_that_are_left_out_are_named() -> None:
+    clock = Clock("simulating the alternatives", 1e6)
+    solution = clock.optimize(read_study_text(LISTED))
+    assert solution.status == OPTIMAL
+    assert solution.choosing is not None
+    assert len(solution.choosing.best) < 5
+    assert ALTERNATIVES in solution.left_out
+
+
+def test_a_search_without_time_is_not_started() -> None:
+    with pytest.raises(TimeOverError, match="before the search could start"):
+        optimize(read_study_text(SEARCHED), deadline=Deadline(1e-3, lambda: 0.0))
+
+
+def test_a_simulation_ends_with_the_time() -> None:
+    optimizer = Optimizer(read_study_text(SEARCHED))
+    over = Deadline(0.0, lambda: 0.0)
+    with pytest.raises(TimeOverError, match="before the working cycle of a design was simulated"):
+        optimizer.problem.simulated(optimizer.simulator, optimizer.model.start, deadline=over)
+
+
+def test_a_run_of_the_solver_ends_between_two_iterations() -> None:
+    """One solver serves a run that has time, one that has not, and one that has time again."""
+    optimizer, ticks = Optimizer(read_study_text(SEARCHED)), iter(range(10_000))
+    whole = optimizer.solve()
+    optimizer.deadline = Deadline(8.0, lambda: float(next(ticks)))
+    cut = optimizer.solve()
+    optimizer.deadline = Deadline()
+    again = optimizer.solve()
+    assert (cut.start.status, cut.start.converged) == ("Maximum_WallTime_Exceeded", False)
+    assert 0 < cut.start.iterations < whole.start.iterations
+    assert np.array_equal(again.unknowns, whole.unknowns)
+    assert len(optimizer._solvers) == 1
 
 
 def test_what_others_solve_meanwhile_does_not_count() -> None:

@@ -107,15 +107,14 @@ def _compiled(text: str, machine: Any) -> bytes:
 def _compiled_in_child(text: str, effort: int, deadline: Deadline) -> bytes:
     """Compile in a process of its own, as nothing ends the compiler in this one. Raises TimeOverError."""
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    child = start_child("tvimdesign.base.machine_code", [str(effort)], **pipes)
-    try:
-        code, _ = child.communicate(text.encode(), timeout=deadline.remaining)
-    except subprocess.TimeoutExpired:
-        raise TimeOverError(_STEP, deadline.seconds) from None
-    finally:
-        if child.poll() is None:
+    with start_child("tvimdesign.base.machine_code", [str(effort)], **pipes) as child:
+        try:
+            code, _ = child.communicate(text.encode(), timeout=deadline.remaining)
+        except BaseException as error:  # an interrupt as well
             child.kill()
-            child.communicate()
+            if isinstance(error, subprocess.TimeoutExpired):
+                raise TimeOverError(_STEP, deadline.seconds) from None
+            raise
     return code if child.returncode == 0 else _compiled(text, _machine(effort))
 
 

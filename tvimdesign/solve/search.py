@@ -42,10 +42,10 @@ from tvimdesign.study import SolverOptions, Study
 Keep = Callable[[Optimizer, list[Run]], None]
 Search = Callable[[Study, Progress, dict[str, float] | None, Keep, Sequence[str]], Solution]
 """What finds the best design of a study, as `optimize` does."""
-_TO_VERIFY, _OVER_SET_UP, _LEAST_OVER_SET_UP = 0.05, 2.0, 3.0
-"""What a search leaves of its time to what follows: a twentieth of the limit, or twice what setting up its first
-problem took, if that is longer. Simulating a design again takes about that. Less than the last one of these times that
-is no time to search: the solver, too, takes as long to build as its problem."""
+_TO_VERIFY, _OVER_SET_UP, _LEAST_OVER_SET_UP = 0.05, 3.0, 4.0
+"""What a search leaves of its time to what follows: a twentieth of the limit, or three times what setting up its
+first problem took, if that is longer. Verifying and reporting a design takes twice that. A search with less than four
+times that is not started, as its solver takes as long to build as its problem."""
 _Found = dict[tuple[int, Box], Run]
 """Designs of single combinations: the place of their tree, their sizes, the run that found them."""
 
@@ -371,9 +371,9 @@ def _with_alternatives(
         optimizer.progress("simulating the alternatives")
         if other := optimizer.deadline.late.attempt(ALTERNATIVES, partial(_standard, *one)):
             found.append(other)
-    between: Standard | None = None
-    if any(one.sizes.names for one in trees):
-        between = trees[0].optimizer.deadline.late.attempt(BETWEEN, partial(_between, trees, exact, best))
+    between, late = None, trees[0].optimizer.deadline.late
+    if any(one.sizes.names for one in trees) and (best or not late.passed):
+        between = late.attempt(BETWEEN, partial(_between, trees, exact, best))
     return replace(choosing, best=tuple(found), between=between)
 
 

@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table as Grid
 
 from tvimdesign import __version__
-from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import AboveRatingError, TvimError
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
@@ -142,7 +142,7 @@ def shown_names(study: Study, front: Front) -> list[str]:
     return list(dict.fromkeys([*front.outputs, *study.minimize, *numbers]))
 
 
-def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline) -> list[float]:
+def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> list[float]:
     """The share of modules drawn at random that keep all limits, for each point. Raises TimeOverError."""
     inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
     from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
