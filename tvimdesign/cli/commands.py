@@ -74,7 +74,7 @@ def run(
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
     time_limit: Annotated[
         str,
-        typer.Option("--time-limit", metavar="TIME", help="End the search then, with the best design found; 30 min."),
+        typer.Option("--time-limit", metavar="TIME", help="End the run then, with the best design found; 30 min."),
     ] = "",
     verified: Annotated[
         bool, typer.Option("--verify", help="Hold the design against finite elements after it, as `verify` does.")

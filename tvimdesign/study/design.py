@@ -30,7 +30,7 @@ class Design(BaseModel):
     mode: str
     status: str
     """`evaluated`, `optimal`, `above_rating` (the optimum, beyond a rating that the study does not accept),
-    `below_yield` (a design that fewer modules keep than the study asks), or why not."""
+    `below_yield` (a design that fewer modules keep than the study asks, as far as the search came), or why not."""
     above_rating: tuple[str, ...] = ()
     """Quantities beyond their rating that the study does not accept."""
     accepting: tuple[str, ...] = ()
