@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,7 @@ from tvimdesign.api import html
 from tvimdesign.api.quantity import Quantity
 from tvimdesign.api.shown_progress import shown_progress
 from tvimdesign.api.tables import constraint_table, interval_table, value_table
-from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.base.units import from_si, parse_quantity
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import margin_text, value_text
@@ -211,25 +212,32 @@ class Result:
     # --- files ---
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False, plots: bool = True) -> Path:
-        """Write what `tvimdesign run --no-cad` writes; returns the folder. Raises InputError where it is in use."""
+        """Write what `tvimdesign run --no-cad` writes; returns the folder. Raises InputError where it is in use.
+
+        Plots that cannot be drawn are a warning.
+        """
         from tvimdesign.report.figures.plot_process import PlotProcess
+        from tvimdesign.report.output.partly_done import noting
         from tvimdesign.report.run.first_screen.run_screen import write_summary
         from tvimdesign.report.run.first_screen.screen import Told
         from tvimdesign.report.run.run_page.run_page import write_run_page
         from tvimdesign.report.run.write_answer import finish, write_answer
 
+        failures: list[TvimError] = []
         with ResultsFolder(Path(folder), overwrite) as written:
             write_answer(written, self._answered)
             uncertainty = dict(self.data.get("uncertainty", {}))
             write_summary(self._answered, written, uncertainty)
             asked = drawings(self._answered) if plots else []
             if asked:
-                with PlotProcess() as drawing:
+                with PlotProcess() as drawing, noting(failures):
                     drawing.begin(written.path / "plots", asked, self.name)
-                    drawing.finish()
+                    drawing.finish("save again with overwrite=True")
             told = Told(None, uncertainty, self._answered.warnings, self._answered.front.front)
             write_run_page(written, self._answered, told)
             finish(written, self._answered)
+        for failure in failures:
+            warnings.warn(str(failure), stacklevel=2)
         return Path(folder)
 
     def parts(

@@ -14,6 +14,7 @@ from types import TracebackType
 from typing import Any
 
 from tvimdesign.base import run_watched
+from tvimdesign.base.processor_time import communicate
 
 _GROUPS = os.name == "posix"
 """Whether processes have groups, and a pipe can be handed on to one."""
@@ -43,16 +44,16 @@ class CommandGroup:
             os.close(self._holds)  # its watchers end with it
             os.close(self._reads)
 
-    def run(self, command: Sequence[str], within: float, **options: Any) -> subprocess.CompletedProcess[str]:
+    def run(self, command: Sequence[str], limit: float, **options: Any) -> subprocess.CompletedProcess[str]:
         """Run a command to its end and give back what it says; `options` are Popen's.
 
-        Raises subprocess.TimeoutExpired after `within` seconds. The code is below zero where the group is left.
+        Raises ProcessorTimeError after `limit` seconds of processor time. The code is negative if the group is left.
         """
         process = self._started(command, options)
         if process is None:
             return subprocess.CompletedProcess(command, -int(signal.SIGTERM), "", "")
         try:
-            out, err = process.communicate(timeout=within)
+            out, err = communicate(process, limit)
         except BaseException:
             _end(process)
             process.communicate()

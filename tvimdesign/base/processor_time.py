@@ -92,9 +92,4 @@ def communicate(process: subprocess.Popen[Any], limit: float = LIMIT) -> tuple[A
 
     Raises ProcessorTimeError if the process exceeds its limit; the caller then ends it.
     """
-    watch = ProcessorLimit(process.pid, limit)
-    while True:
-        try:
-            return process.communicate(timeout=CHECK_EVERY)
-        except subprocess.TimeoutExpired:
-            watch.check()
+    return wait_for(ProcessorLimit(process.pid, limit), lambda seconds: process.communicate(timeout=seconds))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import subprocess
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -13,13 +12,14 @@ from pathlib import Path
 
 from tvimdesign.base.command_group import CommandGroup
 from tvimdesign.base.errors import InputError, SimulationError
+from tvimdesign.base.processor_time import ProcessorTimeError
 
 SOLVERS = Path(__file__).with_name("solvers")
 COARSER = 1.6
 """How much larger the elements of the second mesh are, by which the first is judged."""
-LONGEST = 1800.0
-"""Time [s] after which a solver is given up: ten times what the slowest takes."""
-_TO_IMPORT = 120.0  # s
+PROCESSOR_LIMIT = 1800.0
+"""Processor time [s] after which a solver is stopped: ten times that of the slowest."""
+_TO_IMPORT = 120.0  # s of processor time
 AT_ONCE = 2
 
 
@@ -42,8 +42,8 @@ def hold_ready(python: str) -> None:
     try:
         with CommandGroup() as commands:
             tried = commands.run([python, "-c", "import netgen.occ, ngsolve"], _TO_IMPORT)
-    except subprocess.TimeoutExpired as error:
-        raise InputError(f"verify: {python} has not imported ngsolve within {_TO_IMPORT:g} s; try again") from error
+    except ProcessorTimeError as error:
+        raise InputError(f"verify: {python} cannot import ngsolve: {error}; name another Python") from error
     if tried.returncode:
         raise InputError(
             f"verify: {python} cannot import netgen and ngsolve; pip install 'tvimdesign[fe]', or name a Python that "
@@ -77,9 +77,9 @@ def run_solvers(
 def _run(commands: CommandGroup, command: list[str], about: str) -> None:
     alone = {**os.environ, "OMP_NUM_THREADS": "1", "NGS_NUM_THREADS": "1"}
     try:
-        done = commands.run(command, LONGEST, env=alone)
-    except subprocess.TimeoutExpired as error:
-        raise SimulationError(f"verify: {about}: no answer in {LONGEST:g} s") from error
+        done = commands.run(command, PROCESSOR_LIMIT, env=alone)
+    except ProcessorTimeError as error:
+        raise SimulationError(f"verify: {about}: {error}") from error
     if done.returncode or "NOT ALL FACES" in done.stdout:
         last = (done.stderr.strip() or done.stdout.strip() or "it said nothing").splitlines()[-1]
         raise SimulationError(f"verify: {about}: {last}")

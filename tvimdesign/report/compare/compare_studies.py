@@ -21,6 +21,7 @@ from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.compare.shared_answers import found_of, studies_asked
 from tvimdesign.report.figures.plot_process import PlotProcess
 from tvimdesign.report.output.page_sections import write_page
+from tvimdesign.report.output.partly_done import PARTLY_DONE
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.shared_folder import answered_cells, say_part
@@ -73,6 +74,9 @@ def compare_studies(
             drawing.begin(folder.path, asked_for, " against ".join(one.study.name for one in entrants.values()))
         _write(folder, outcome, settings)
         progress("")
+        outcome.seconds["whole"] = time.perf_counter() - began
+        reported = outcome.plain()
+        folder.write_json("compare.json", reported)
         if not as_json:
             print_comparison(outcome, wide_console())
         troubles = [f"{label}, {trouble['step']}: {trouble['error']}" for label, trouble in outcome.troubles]
@@ -83,13 +87,10 @@ def compare_studies(
             except TvimError as error:
                 troubles.append(str(error))
         progress("")
-        outcome.seconds["whole"] = time.perf_counter() - began
-        reported = outcome.plain()
-        folder.write_json("compare.json", reported)
         write_page(folder, comparison_page(folder, outcome, tuple(settings)))
         studies = {label: entrant.study.model_dump(mode="json") for label, entrant in entrants.items()}
         inputs = {label: entrant.path for label, entrant in entrants.items()}
-        folder.finish("partly done" if troubles else "compared", inputs, studies, outcome.seconds)
+        folder.finish(PARTLY_DONE if troubles else "compared", inputs, studies, outcome.seconds)
     _say(reported, folder.out, troubles, as_json=as_json)
     if troubles:
         raise _trouble(outcome, troubles)

@@ -16,8 +16,10 @@ from typing import Any
 import numpy as np
 from rich.markup import escape
 
+from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, noting
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.paper import paper_case
@@ -35,8 +37,12 @@ AGAINST = {
 
 
 def write_level_sets(out: Path, overwrite: bool) -> Path:
-    """Compute and draw them, and write the folder; returns it. Raises InputError where the folder is in use."""
+    """Compute and draw them, and write the folder; returns it. Raises InputError where the folder is in use.
+
+    Raises TvimError once all but the plots is done.
+    """
     model, wanted, thin = published_model(), from_paper("response_time"), list(THICKNESSES)
+    failures: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder, progress_output() as say, PlotProcess() as drawing:
         sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
         say("what the ratio of compression to shear hangs on: every assumed input through its range")
@@ -52,8 +58,11 @@ def write_level_sets(out: Path, overwrite: bool) -> Path:
         folder.write("response_times.csv", _table(_time_rows(sets, units)))
         folder.write("paper_case.csv", _table(_in_cells(paper_case.table_rows())))
         folder.write("paper_case_choices.csv", _table(_in_cells(paper_case.alternative_rows())))
-        drawing.finish()
-        folder.finish("evaluated", {}, {})
+        with noting(failures):
+            drawing.finish()
+        folder.finish(PARTLY_DONE if failures else "evaluated", {}, {})
+    if failures:
+        raise done_in_part(failures)
     return folder.path
 
 

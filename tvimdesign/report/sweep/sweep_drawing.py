@@ -58,7 +58,7 @@ class SweepDrawing:
             self._process = self._stack.enter_context(PlotProcess())
 
     def draw(self, plan: SweepPlan, seen: CellTable, folder: ResultsFolder) -> str:
-        """Put the figure into the folder; returns its mark."""
+        """Put the figure into the folder; returns its mark. Raises TvimError if it cannot be drawn."""
         data, vector = figure_data(plan, seen), plan.study.write.vector
         mark = mark_of(data, vector=vector)
         if mark == self._kept.mark:
@@ -68,5 +68,5 @@ class SweepDrawing:
         process = self._process or self._stack.enter_context(PlotProcess())
         process.begin(folder.path, [Drawing("sweep", "sweep_figure.sweep", data)], plan.study.name, vector=vector)
         folder.look_up_versions()
-        process.finish()
+        process.finish("repeat the command with --resume")
         return mark

@@ -10,7 +10,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.errors import TvimError
 from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.shared_folder import gatherer, joined, say_part
@@ -97,22 +99,29 @@ def _gathered(
     if plan.study.catalog_folder:  # the explorer reads study.yaml, whose own word for it is as seen from elsewhere
         found["catalog"] = str(Path(plan.study.catalog_folder).resolve())
     folder.write("study.yaml", study_file(plan.written))
-    if figure:
-        found[DRAWN_FROM] = figure.draw(plan, seen, folder)
     folder.write_json("sweep.json", found)
+    failures: list[TvimError] = []
+    if figure:
+        with noting(failures):
+            found[DRAWN_FROM] = figure.draw(plan, seen, folder)
+            folder.write_json("sweep.json", found)
     write_sweep_page(plan, seen, folder, kept)
     spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
     seconds = time.perf_counter() - began
     timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}
+    status = PARTLY_DONE if failures else "swept"
     folder.finish(
-        "swept", {"study": plan.tree.path} if plan.tree.path else {}, {"solver": {"seed": plan.block.seed}}, timing
+        status, {"study": plan.tree.path} if plan.tree.path else {}, {"solver": {"seed": plan.block.seed}}, timing
     )
     progress("")
-    return {**found, "run": timing, "folder": str(folder.out)}
+    return {**found, "run": timing, "folder": str(folder.out), **not_done(failures)}
 
 
 def _say(told: dict[str, Any], plan: SweepPlan, out: Path, *, as_json: bool) -> None:
+    """Print the results. Raises TvimError if the figure is missing."""
     if as_json:
         print(json.dumps(told, indent=2, allow_nan=False))
     else:
         print_sweep(told, plan, out, wide_console())
+    if told["not_done"]:
+        raise done_in_part([TvimError(text) for text in told["not_done"]])

@@ -18,6 +18,7 @@ from tempfile import TemporaryDirectory
 
 from tvimdesign.base.command_group import CommandGroup
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.processor_time import ProcessorTimeError
 from tvimdesign.base.whole_files import whole_file
 from tvimdesign.report.robot.fmu.fmu_variables import Variable, fmu_variables
 from tvimdesign.report.robot.fmu.joint_equations import JointEquations, joint_equations, listed, sizes
@@ -26,8 +27,8 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 COMPILERS = ("cc", "gcc", "clang")
 FLAGS = ("-std=c99", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w")
-WITHIN = 600.0
-"""Time that compiling may take [s]."""
+PROCESSOR_LIMIT = 600.0
+"""Processor time [s] for compiling; it takes some seconds."""
 SETTINGS = {"FIRST_STEP": 1e-3, "LONGEST_STEP": 1.0, "TOLERANCE": 1e-5}
 """Of the heat's integration: steps [s], error of a step in a state, which is of the order of one."""
 _BESIDE = ".fmu-"
@@ -136,8 +137,11 @@ def compiled(sources: Mapping[str, str], suffix: str, folder: Path) -> bytes:
             f"the C compiler {command[0]!r} cannot build the FMU; choose another by CC, or none by CC=none "
             f"for an FMU of sources alone:\n{error.stderr[-1000:]}"
         ) from error
-    except subprocess.TimeoutExpired as error:
-        raise InputError(f"the C compiler {command[0]!r} took more than {WITHIN:g} s to build the FMU") from error
+    except ProcessorTimeError as error:
+        raise InputError(
+            f"the C compiler {command[0]!r} did not build the FMU: {error}; choose another by CC, or none by CC=none "
+            "for an FMU of sources alone"
+        ) from error
     return built.read_bytes()
 
 
@@ -145,7 +149,7 @@ def _run(command: list[str], folder: Path) -> None:
     """Run a compiler whose own files stay in a folder; where this process ends, all that it started ends."""
     own = {name: str(folder.absolute()) for name in ("TMPDIR", "TMP", "TEMP")}
     with CommandGroup() as commands:
-        done = commands.run(command, WITHIN, cwd=folder, env={**os.environ, **own})
+        done = commands.run(command, PROCESSOR_LIMIT, cwd=folder, env={**os.environ, **own})
     if done.returncode:
         raise subprocess.CalledProcessError(done.returncode, command, stderr=done.stderr)
 
