@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import psutil
@@ -12,6 +13,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete import second_process
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task
 from tvimdesign.solve.discrete.second_process import TwoProcesses
+from tvimdesign.solve.discrete.sent_trees import Asked
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, read_study_text
@@ -121,3 +123,20 @@ def test_one_process_answers_in_the_order_of_the_tasks() -> None:
     trees: Any = [Tree()]
     tasks = [Task(0, ((i, i),), None, "within") for i in range(3)]
     assert [one.certain for one in OneProcess(trees).solve(tasks)] == [False, True, False]
+
+
+def test_a_task_of_the_other_process_is_not_waited_for_once_the_time_is_over(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    class Tree:
+        optimizer = SimpleNamespace(deadline=Deadline(0.0, lambda: 0.0))
+
+        def best_within(self, _box: Any, _near: Any) -> tuple[None, bool]:
+            return None, False
+
+    monkeypatch.setattr(second_process, "start_child", lambda *_, **__: None)
+    monkeypatch.setattr(TwoProcesses, "_write", lambda *_: None)
+    both: Any = TwoProcesses(Asked("", None, (), 0.0))
+    both._trees, task = [Tree()], Task(0, ((0, 0),), None, "within")
+    both._under_way = task  # and never answered
+    assert both.solve([task]) == [Answer(None, certain=False)]

@@ -30,6 +30,7 @@ from tvimdesign.study import Study
 
 WORTH = 1000
 """Combinations from which on a second process is started: it takes seconds to build its problems."""
+_LOOK_AGAIN = 1.0  # s
 _LOST = (OSError, EOFError, pickle.UnpicklingError)
 
 
@@ -57,6 +58,8 @@ class TwoProcesses:
         """Tasks that nobody has begun, the most urgent first."""
         self._under_way: Task | None = None
         """The other process's task."""
+        self._taken: set[tuple[int, Box, str, int]] = set()
+        """Its tasks that were taken from it."""
         self._heard: dict[tuple[int, Box, str, int], _Heard] = {}
         self._child = start_child(
             "tvimdesign.solve.discrete.second_process",
@@ -94,17 +97,24 @@ class TwoProcesses:
         return [mine[task.key] if task.key in mine else self._used(task) for task in tasks]
 
     def _next_of(self, tasks: Sequence[Task]) -> Task | None:
-        """One of these tasks that nobody has begun; None once the other process has answered the last of them."""
-        keys = {task.key for task in tasks}
+        """One of these tasks that nobody has begun; None once the other process has answered the last of them.
+
+        Once the time is over its task is taken from it, as it would have to be waited for: here it ends at once.
+        """
+        keys, deadline = {task.key for task in tasks}, self._trees[0].optimizer.deadline
         with self._changed:
             while True:
                 for task in self._waiting:
                     if task.key in keys:
                         self._waiting.remove(task)
                         return task
-                if self._under_way is None or self._under_way.key not in keys:
+                under_way = self._under_way
+                if under_way is None or under_way.key not in keys or under_way.key in self._taken:
                     return None
-                self._changed.wait()
+                if deadline.passed:
+                    self._taken.add(under_way.key)
+                    return under_way
+                self._changed.wait(min(_LOOK_AGAIN, deadline.remaining))
 
     def _used(self, task: Task) -> Answer:
         """The other process's answer; what it took counts as work of the tree here."""
