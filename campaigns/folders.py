@@ -163,7 +163,8 @@ def replay(command: str, files: dict[str, bytes], out: Path, flags: list[str], m
         if command == "front":
             folder.write(f"{PROGRESS}/0001.json", "{}")
         for number, (name, data) in enumerate(files.items()):
-            folder.write(name, data)
+            if not (folder.path / name).exists():  # a cell that is continued from is not written again
+                folder.write(name, data)
             if number == len(files) // 2:
                 meanwhile()
         folder.remove(PROGRESS)

@@ -7,6 +7,7 @@ a recorded digest. What the user adds or edits is never in a journal.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
@@ -26,11 +27,16 @@ ANY = "half written"
 
 
 def record(path: Path, digest: str) -> None:
-    """Record that a file is about to be written; does nothing for a file outside an unfinished run. Raises OSError."""
+    """Record that a file is about to be written; does nothing for a file outside an unfinished run.
+
+    Raises OSError, also where a link leads out of the folder.
+    """
     folder = next((one for one in path.absolute().parents if one.name == UNFINISHED and (one / RUN).exists()), None)
     if folder is None:
         return
     name = path.absolute().relative_to(folder).as_posix()
+    if way := link_on_the_way(folder, name):
+        raise OSError(errno.ELOOP, f"{way} is a link")
     host = re.sub(r"[^\w-]", "_", platform.node())
     handle = os.open(folder / f".written-{host}-{os.getpid()}.jsonl", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
     try:

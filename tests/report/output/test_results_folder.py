@@ -210,6 +210,18 @@ def test_a_link_that_comes_while_a_run_is_going_leaves_both_results_whole(tmp_pa
     assert texts(out) == {"summary.txt": "newer"}
 
 
+def test_a_link_within_an_unfinished_run_is_not_written_through(tmp_path: Path) -> None:
+    elsewhere = tmp_path / "elsewhere"
+    with ResultsFolder(tmp_path / "out") as folder:
+        folder.write("plots/heat.png", "png")
+        shutil.move(folder.path / "plots", elsewhere)
+        (folder.path / "plots").symlink_to(elsewhere)
+        with pytest.raises(OutputError, match="plots is a link"):
+            folder.write("plots/heat.png", "newer")
+        folder.finish("failed", {}, {})
+    assert (elsewhere / "heat.png").read_text() == "png"
+
+
 def test_a_link_in_place_of_a_file_is_not_followed(tmp_path: Path) -> None:
     out, precious = tmp_path / "out", tmp_path / "precious.csv"
     finished(out, {"results.csv": "old"})
