@@ -13,7 +13,9 @@ import pytest
 from browsers import said_of_no_browser
 from hypothesis import settings
 from shell_signals import follow_signals
-from support import ROOT, Command, called, environment
+from support import ROOT, Command, called, environment, run_process
+
+from tvimdesign.base.processor_time import LIMIT
 
 pytest_plugins = ["shared_models", "shear_designs"]
 
@@ -91,16 +93,9 @@ def process() -> Command:
     """Run `python -m tvimdesign` with arguments as a user's shell does; returns the finished process."""
 
     def call(
-        *arguments: object, cwd: Path = ROOT, timeout: float = 600.0, spread: str = "off"
+        *arguments: object, cwd: Path = ROOT, limit: float = LIMIT, spread: str = "off"
     ) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [sys.executable, "-m", "tvimdesign", *map(str, arguments)],
-            capture_output=True,
-            text=True,
-            cwd=cwd,
-            timeout=timeout,
-            check=False,
-            env=environment(spread),
-        )
+        command = [sys.executable, "-m", "tvimdesign", *arguments]
+        return run_process(command, limit, text=True, cwd=cwd, env=environment(spread))
 
     return call

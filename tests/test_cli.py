@@ -12,8 +12,9 @@ import time
 from pathlib import Path
 
 import pytest
-from support import ROOT, Command
+from support import ROOT, Command, wait_until
 
+from tvimdesign.base.processor_time import communicate
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.report.virtual_tests import TESTS
 
@@ -297,13 +298,10 @@ def test_an_interrupt_ends_the_run_with_its_code_and_a_folder_that_can_be_used_a
         text=True,
         start_new_session=True,
     )
-    for _ in range(1200):
-        if (out / "manifest.json").exists():
-            break
-        time.sleep(0.05)
+    assert wait_until((out / "manifest.json").exists)
     time.sleep(after)
     os.killpg(process.pid, number)
-    _, said = process.communicate(timeout=60)
+    _, said = communicate(process)
     assert process.returncode == 128 + number, said
     assert "interrupted" in said
     assert "Traceback" not in said
@@ -323,7 +321,7 @@ def test_cad_refuses_what_is_no_design(tvimdesign: Command, process: Command, tm
     for name in ("pipe", "zero", "folder", "text", "mode", "huge"):
         words = ("cad", tmp_path / f"{name}.json", "--out", tmp_path / f"{name}_out")
         # Who reads these two never comes to an end.
-        done = process(*words, timeout=20.0) if name in {"pipe", "zero"} else tvimdesign(*words)
+        done = process(*words, limit=20.0) if name in {"pipe", "zero"} else tvimdesign(*words)
         assert done.returncode == 2, (name, done.stderr)
         assert "Traceback" not in done.stderr
 

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from support import ROOT, environment
+from support import ROOT, environment, run_process
 
 NASTY = "name: '[/bold] [red] N·m 名 :key:'\nmode: shear\n"
 
@@ -15,7 +15,7 @@ NASTY = "name: '[/bold] [red] N·m 名 :key:'\nmode: shear\n"
 def run(*words: object, **more: str) -> subprocess.CompletedProcess[bytes]:
     """A process of its own, with more in its environment."""
     command = [sys.executable, "-m", "tvimdesign", *map(str, words)]
-    return subprocess.run(command, capture_output=True, check=False, timeout=100, env={**environment(), **more})
+    return run_process(command, env={**environment(), **more})
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
@@ -41,7 +41,7 @@ def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered:
     around = {**environment(), "PYTHONUNBUFFERED": unbuffered}
     with Path("/dev/full").open("wb") as full:
         command = [sys.executable, "-m", "tvimdesign", *words]
-        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False, timeout=100, env=around)
+        done = run_process(command, stdout=full, env=around)
     assert done.returncode == 4
     assert b"No space left on device" in done.stderr
     assert done.stderr.count(b"\n") == 1
@@ -50,10 +50,10 @@ def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered:
 @pytest.mark.gate
 def test_a_file_that_cannot_be_written_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
     out = tmp_path / "out"
-    done = subprocess.run(
+    done = run_process(
         [sys.executable, "-m", "tvimdesign", "run", "studies/paper_as_published.yaml", "--no-cad", "--no-plots",
          "--out", str(out)],
-        capture_output=True, text=True, check=False, timeout=100, cwd=ROOT, env=environment(),
+        text=True, cwd=ROOT, env=environment(),
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),
     )  # fmt: skip
     assert done.returncode == 4

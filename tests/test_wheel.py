@@ -20,7 +20,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from support import ROOT
+from support import ROOT, run_process
 
 pytestmark = pytest.mark.slow
 
@@ -70,8 +70,10 @@ class Installed:
 
 def run(words: list[object], folder: Path, *, check: bool = True) -> subprocess.CompletedProcess[str]:
     known = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
-    texts = [str(word) for word in words]
-    return subprocess.run(texts, cwd=folder, env=known, capture_output=True, text=True, timeout=1800, check=check)
+    done = run_process(words, 3600.0, cwd=folder, env=known, text=True)
+    if check:
+        done.check_returncode()
+    return done
 
 
 @pytest.fixture(scope="module")

@@ -4,10 +4,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
-from support import ROOT, is_at_work
+from support import ROOT, are_gone, is_at_work
 
 CHILD = """
 import os, sys, time
@@ -18,20 +17,20 @@ if not other:
     follow_parent(first)
 else:
     print(first, other, sys.stdout.encoding, flush=True)
-time.sleep(60)
+time.sleep(600)
 """
 PARENT = """
 import time
 from tvimdesign.base.child_process import start_child
 start_child("sleeping_child")
-time.sleep(60)
+time.sleep(600)
 """
 
 
 SLOW = """
 import os, time
 print(os.getpid(), flush=True)
-time.sleep(60)
+time.sleep(600)
 """
 
 
@@ -43,14 +42,6 @@ def started(name: str, text: str, folder: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
 
 
-def all_gone(numbers: list[int]) -> bool:
-    """Whether these processes are gone within two seconds."""
-    end = time.monotonic() + 2.0
-    while time.monotonic() < end and any(map(is_at_work, numbers)):
-        time.sleep(0.02)
-    return not any(map(is_at_work, numbers))
-
-
 def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path: Path) -> None:
     parent = started("slow_child", SLOW, tmp_path)
     assert parent.stdout is not None
@@ -59,7 +50,7 @@ def test_a_child_that_is_still_imported_ends_with_its_parent(tmp_path: Path) -> 
     parent.kill()
     parent.wait()
     parent.stdout.close()
-    assert all_gone([child])
+    assert are_gone([child])
 
 
 def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
@@ -72,7 +63,7 @@ def test_children_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     parent.send_signal(signal.SIGKILL)
     parent.wait()
     parent.stdout.close()
-    assert all_gone([int(first), int(other)])
+    assert are_gone([int(first), int(other)])
 
 
 ELSEWHERE = """
@@ -84,7 +75,7 @@ child_process.sys = SimpleNamespace(platform="darwin", executable=sys.executable
 NAMES_ITS_PIPE = """
 import os, time
 print(os.getpid(), os.environ["TVIMDESIGN_ALIVE"], flush=True)
-time.sleep(60)
+time.sleep(600)
 """
 
 
@@ -98,7 +89,7 @@ def test_a_child_is_told_by_a_pipe_where_the_kernel_does_not_tell_it(tmp_path: P
     parent.kill()
     parent.wait()
     parent.stdout.close()
-    gone = all_gone([child])
+    gone = are_gone([child])
     if not gone:
         os.kill(child, signal.SIGKILL)
     assert gone

@@ -2,19 +2,18 @@
 
 import subprocess
 import sys
-import time
 
 import psutil
-from support import is_at_work
+from support import are_gone, is_at_work
 
 from tvimdesign.base.process_tree import Behind, end_process_tree, give_way, give_way_further
 
-CHILD = "import time; time.sleep(60)"
+CHILD = "import time; time.sleep(600)"
 PARENT = f"""
 import subprocess, sys, time
 others = [subprocess.Popen([sys.executable, "-c", {CHILD!r}], start_new_session=apart) for apart in (False, True)]
 print(*(other.pid for other in others), flush=True)
-time.sleep(60)
+time.sleep(600)
 """
 
 
@@ -25,11 +24,8 @@ def test_descendants_end_with_their_process() -> None:
     assert [is_at_work(other.pid) for other in others] == [True, True]
     end_process_tree(process.pid)
     process.stdout.close()
-    assert process.wait(timeout=5.0) != 0
-    end = time.monotonic() + 5.0
-    while time.monotonic() < end and any(is_at_work(other.pid) for other in others):
-        time.sleep(0.02)
-    assert not any(is_at_work(other.pid) for other in others)
+    assert are_gone([process.pid, *(other.pid for other in others)])
+    assert process.wait() != 0
 
 
 def test_a_process_that_is_gone_is_none_to_end() -> None:

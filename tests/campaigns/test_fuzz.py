@@ -16,7 +16,7 @@ import pytest
 from fuzzing import watched
 from fuzzing.kind import Drawn, Kind
 from fuzzing.mutations import ODD, mutated_data, mutated_table, mutated_text, paths
-from support import ROOT
+from support import ROOT, run_process
 
 USUAL = ["studies", "settings", "sweeps", "records", "designs", "data_files", "column_maps"]
 
@@ -113,7 +113,7 @@ def test_a_campaign_goes_on_where_it_was_ended(tmp_path: Path) -> None:
     command = [sys.executable, str(ROOT / "campaigns/fuzz.py"), "--kinds", "column_maps", "--out", tmp_path / "found"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     for inputs, chunks in ((1000, 1), (2000, 2), (2000, 2)):
-        subprocess.run([*command, "--inputs", str(inputs)], check=True, env=environment, timeout=600)
+        run_process([*command, "--inputs", inputs], env=environment).check_returncode()
         found = [json.loads(line) for line in (tmp_path / "found").read_text().splitlines()]
         assert [(one["first"], one["end"], one["inputs"]) for one in found] == [
             (1000 * i, 1000 * (i + 1), 1000) for i in range(chunks)

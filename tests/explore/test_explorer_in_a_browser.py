@@ -246,10 +246,10 @@ def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browse
             page.get_by_text("Variables", exact=True).wait_for()
             explorer.answered(before, "exact")
             page.get_by_role("button", name="Make CAD").click()
-            page.locator("#report #assembly").wait_for(timeout=300_000)
+            page.locator("#report #assembly").wait_for()
             figure = page.locator("#figure-solids")
             figure.scroll_into_view_if_needed()
-            page.wait_for_selector("#figure-solids[data-state=drawn]", timeout=120_000)
+            page.wait_for_selector("#figure-solids[data-state=drawn]")
             assert explorer.complaints == []
     finally:
         found.end()

@@ -40,7 +40,7 @@ def test_a_worker_that_cannot_start_is_given_up_and_asked_anew_with_the_next_job
         begun = worker.starts
         for number in (1, 2):
             worker.ask(_Asked(number))
-            async with asyncio.timeout(60.0):
+            async with asyncio.timeout(600.0):
                 while (number, "given up") not in told:
                     await asyncio.sleep(0.02)
         await asyncio.sleep(0.3)

@@ -14,7 +14,7 @@ from typing import Any
 from support import ROOT, environment
 
 from tvimdesign.base.process_tree import end_process_tree
-from tvimdesign.report.output.shared_folder import CellsAsked, join
+from tvimdesign.report.output.shared_folder import CellsAsked, joined
 from tvimdesign.sweep.run_sweep import SweepDone, Where, run_cells
 
 
@@ -34,7 +34,7 @@ class LocalCluster:
     def start_scheduler(self) -> None:
         """Start the scheduler, or start it again, and wait until it listens."""
         self.scheduler = self._start("scheduler", "--host", "127.0.0.1", "--port", str(self.port), "--no-dashboard")
-        end = time.monotonic() + 60.0
+        end = time.monotonic() + 600.0
         while time.monotonic() < end and self.scheduler.poll() is None:
             with socket.socket() as client:
                 if client.connect_ex(("127.0.0.1", self.port)) == 0:
@@ -86,9 +86,9 @@ def answered_on(cluster: LocalCluster, asked: CellsAsked, out: Path, at: dict[in
         for count in [count for count in left if number >= count]:
             left.pop(count)()
 
-    join(out, overwrite=False)
     where = Where(scheduler=cluster.address)
-    done = run_cells(asked.work, asked.keys, asked.texts, out, where, heard, asked.called)
+    with joined(out) as shared:
+        done = run_cells(asked.work, asked.keys, asked.texts, shared, where, heard, asked.called)
     assert not left
     return done
 

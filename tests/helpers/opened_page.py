@@ -9,6 +9,9 @@ from typing import Any
 
 from playwright.sync_api import Browser, Page
 
+PATIENCE = 600_000
+"""Milliseconds that a page may take on a busy machine."""
+
 
 class Opened:
     """A page in the browser, with what it asked of the network and what it complained of."""
@@ -20,12 +23,13 @@ class Opened:
         page.on("request", lambda request: self.requests.append(request.url))
         page.on("console", lambda said: self.complaints.append(said.text) if said.type != "log" else None)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.set_default_timeout(PATIENCE)
 
     def figure(self, name: str) -> Any:
         """A figure, once it is drawn."""
         figure = self.page.locator(f"#figure-{name}")
         figure.scroll_into_view_if_needed()
-        self.page.wait_for_selector(f"#figure-{name}[data-state]", timeout=60_000)
+        self.page.wait_for_selector(f"#figure-{name}[data-state]")
         assert figure.get_attribute("data-state") == "drawn", figure.inner_text()
         return figure
 

@@ -11,11 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from opened_page import PATIENCE
 from playwright.sync_api import Browser, Page
 from support import environment
-
-PATIENCE = 90_000
-"""Milliseconds that an answer may take on a busy machine."""
 
 
 @dataclass

@@ -5,16 +5,21 @@ from __future__ import annotations
 import gc
 import io
 import os
+import subprocess
 import sys
+import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 from subprocess import CompletedProcess
+from typing import Any
 from unittest import mock
 
 import psutil
 
+from tvimdesign.base.process_tree import end_process_tree
+from tvimdesign.base.processor_time import LIMIT, communicate
 from tvimdesign.cli.main import main
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -42,6 +47,34 @@ def is_at_work(process: int) -> bool:
         return psutil.Process(process).status() != psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:
         return False
+
+
+def wait_until(condition: Callable[[], bool], within: float = 600.0) -> bool:
+    """Wait until a condition holds, generously: other processes may use all processors. Return whether it does."""
+    end = time.monotonic() + within
+    while not condition():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.02)
+    return True
+
+
+def are_gone(processes: Sequence[int]) -> bool:
+    """Wait until processes have ended, at most a minute; tests start longer ones. Return whether they have."""
+    return wait_until(lambda: not any(map(is_at_work, processes)), 60.0)
+
+
+def run_process(command: Sequence[object], limit: float = LIMIT, **options: Any) -> CompletedProcess[Any]:
+    """Run a command with a limit on its processor time; return its output; `options` are Popen's."""
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
+    words = [str(word) for word in command]
+    with subprocess.Popen(words, **options) as process:
+        try:
+            out, err = communicate(process, limit)
+        except BaseException:
+            end_process_tree(process.pid)
+            raise
+    return CompletedProcess(words, process.returncode, out, err)
 
 
 def digits(name: str, usual: float) -> float:

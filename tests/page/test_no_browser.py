@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 
 import pytest
-from support import ROOT, environment
+from support import ROOT, environment, run_process
 
 
 @pytest.mark.slow
 def test_the_last_line_says_how_many_tests_no_browser_has_run() -> None:
     words = ["tests/page/test_page_in_a_browser.py", "-q", "-k", "sorts or filtered", "-p", "no:cacheprovider"]
-    found = subprocess.run(
-        [sys.executable, "-m", "pytest", *words],
-        cwd=ROOT,
-        env={**environment(), "PATH": ""},
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=False,
-    )
+    command = [sys.executable, "-m", "pytest", *words]
+    found = run_process(command, cwd=ROOT, env={**environment(), "PATH": ""}, text=True)
     last = found.stdout.rstrip().splitlines()[-1]
     assert last == "NO BROWSER: 2 tests of the pages were not run; install chromium and run them again", found.stdout

@@ -93,7 +93,7 @@ def test_it_is_read_without_its_code(opened: Open, report: Path) -> None:
 
 def test_it_prints_on_a4_with_its_figures(opened: Open, report: Path, tmp_path: Path) -> None:
     found = opened(report, color_scheme="dark")
-    found.page.wait_for_selector("html[data-ready=all]", timeout=60_000)
+    found.page.wait_for_selector("html[data-ready=all]")
     assert [found.page.locator(f"#figure-{name}").get_attribute("data-state") for name in FIGURES] == ["drawn"] * 3
     printed = found.page.pdf(path=tmp_path / "report.pdf", prefer_css_page_size=True, print_background=True)
     boxes = {tuple(map(float, box.split())) for box in re.findall(rb"/MediaBox\s*\[([^\]]+)\]", printed)}

@@ -11,6 +11,7 @@ import pytest
 from opened_page import Opened
 from PIL import Image
 from sample_pages import LEG_MOVED, RING
+from support import wait_until
 
 VIEWER = "document.getElementById('figure-solids').viewer"
 
@@ -21,7 +22,7 @@ class Solids:
     def __init__(self, found: Opened) -> None:
         self.found = found
         self.figure = found.figure("solids")
-        found.page.wait_for_selector("html[data-ready=all]", timeout=60_000)  # the steps' pictures are taken of it, too
+        found.page.wait_for_selector("html[data-ready=all]")  # the steps' pictures are taken of it, too
 
     def part(self, name: str, what: str) -> Any:
         """An expression of a part."""
@@ -130,9 +131,7 @@ def test_the_layer_has_the_colour_of_its_temperature(solids: Solids) -> None:
     cold = solids.found.page.evaluate(colours)
     assert max(cold[0::3]) < min(cold[2::3])  # blue at the start
     solids.found.page.evaluate("import('page/time.js').then(({ moveTo }) => moveTo(60))")
-    solids.found.page.wait_for_timeout(50)
-    warm = solids.found.page.evaluate(colours)
-    assert max(warm[0::3]) > max(cold[0::3])
+    assert wait_until(lambda: max(solids.found.page.evaluate(colours)[0::3]) > max(cold[0::3]))
 
 
 def test_the_assembly_is_put_together_step_by_step_with_pictures(solids: Solids) -> None:

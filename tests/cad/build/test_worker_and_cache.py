@@ -9,7 +9,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +16,7 @@ from pathlib import Path
 import psutil
 import pytest
 from cad_designs import design_of, whole
-from support import ROOT, is_at_work
+from support import ROOT, are_gone, is_at_work
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
@@ -293,10 +292,7 @@ def test_a_spawned_child_is_gone_with_its_parent_though_it_is_at_work(tmp_path: 
         assert is_at_work(child)
         parent.kill()
         parent.wait()
-        end = time.monotonic() + 2.0
-        while is_at_work(child) and time.monotonic() < end:
-            time.sleep(0.02)
-        left = is_at_work(child)
+        left = not are_gone([child])
         if left:
             os.kill(child, signal.SIGKILL)
     assert not left

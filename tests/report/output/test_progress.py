@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 import re
 import signal
-import time
 from contextlib import suppress
 
 import pytest
+from support import wait_until
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.output import progress
@@ -47,6 +47,12 @@ def test_times_are_told_as_people_do() -> None:
     assert clock(3.0, 90.0) == "3 s, about 1 min 30 s left"
 
 
+def read_on(capsys: pytest.CaptureFixture[str], lines: list[str]) -> list[str]:
+    """Add what was printed since to lines, and return them."""
+    lines += capsys.readouterr().err.splitlines()
+    return lines
+
+
 def test_plain_lines_come_every_few_seconds_and_the_last_thing_said_is_told(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -54,12 +60,12 @@ def test_plain_lines_come_every_few_seconds_and_the_last_thing_said_is_told(
     with progress.progress_output() as say:
         for i in range(10):
             say(f"start {i + 1} of 40")
-        time.sleep(1.6)  # nothing is said: a thread tells the last
+        lines = list[str]()
+        assert wait_until(lambda: len(read_on(capsys, lines)) == 2)  # nothing is said: a thread tells the last
         say("")
-    lines = capsys.readouterr().err.splitlines()
+    assert len(read_on(capsys, lines)) == 2
     assert lines[0] == "... start 1 of 40"
-    assert len(lines) == 2
-    assert re.fullmatch(r"\.\.\. start 10 of 40 · [1-9] s(, about .* left)?", lines[1])
+    assert re.fullmatch(r"\.\.\. start 10 of 40 · \d+ s(, about .* left)?", lines[1])
 
 
 @pytest.mark.parametrize("error", [SystemError, RuntimeError, InputError])

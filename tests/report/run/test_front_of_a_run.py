@@ -8,14 +8,13 @@ import os
 import re
 import subprocess
 import sys
-import time
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
 from comparable import SHEAR, written
 from rich.console import Console
-from support import ROOT, Command
+from support import ROOT, Command, wait_until
 
 from tvimdesign.device import table_for
 from tvimdesign.report.output.results_folder import ResultsFolder
@@ -84,9 +83,7 @@ def test_a_front_that_was_killed_goes_on_and_ends_with_the_same_bytes(
         [sys.executable, "-m", "tvimdesign", "run", str(study), "--no-cad", "--no-plots", "--out", str(out)],
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
-    deadline = time.monotonic() + 120.0
-    while not (out / "front/progress/0002.json").exists() and time.monotonic() < deadline:
-        time.sleep(0.005)
+    assert wait_until((out / "front/progress/0002.json").exists)
     process.kill()
     process.wait()
     known = len(list((out / "front/progress").glob("0*.json")))
