@@ -17,7 +17,7 @@ module: {impedance_targets: stated, soft_impedance: 5 N.m/rad, stiff_impedance: 
 
 def refuse(monkeypatch: pytest.MonkeyPatch, hot: float | None, cold: float | None) -> None:
     extremes = {"joint_impedance@hot": hot, "joint_impedance@cold": cold}
-    monkeypatch.setattr(reach, "_extreme", lambda _study, row, _sign: extremes[row])
+    monkeypatch.setattr(reach, "_extreme", lambda _study, row, _sign, _deadline: extremes[row])
     reach.refuse_unreachable(read_study_text(STUDY, "a test"))
 
 

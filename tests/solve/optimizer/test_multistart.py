@@ -32,7 +32,7 @@ def searches(
     )
     model.values = lambda inputs, _: {"mass": mass(inputs[0]), "time": np.nan}
 
-    def simulated(_: Any, inputs: np.ndarray) -> Cycle:
+    def simulated(_: Any, inputs: np.ndarray, **_given: object) -> Cycle:
         return Cycle({"time": takes(float(inputs[0]))}, {}, {})
 
     free = (Free("size", LOWER, UPPER, 2.0),)
