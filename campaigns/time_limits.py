@@ -80,7 +80,7 @@ def _in_short(printed: str, errors: str) -> str:
     """The status and what was left out; where there is no screen, the error."""
     head = printed.splitlines()[0].split(" · ")[2:3] if printed else []
     left_out = [line.split("done: ")[-1] for line in printed.splitlines() if line.startswith("Left out")]
-    last = [line for line in errors.splitlines() if not line.startswith("...")][:1]
+    last = [line for line in errors.splitlines() if _LATE in line][-1:] or errors.splitlines()[-1:]
     return "; ".join(part for part in (*head, *left_out, *([] if head else last)) if part)
 
 
