@@ -57,7 +57,7 @@ def test_a_file_that_cannot_be_written_is_named_and_the_others_are_kept(tmp_path
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),
     )  # fmt: skip
     assert done.returncode == 4
-    assert done.stderr.splitlines()[-1].startswith(f"{out}/results.json: cannot be written: File too large;")
+    assert done.stderr.splitlines()[-1].startswith(f"{out}/unfinished/results.json: cannot be written: File too large;")
     assert "Traceback" not in done.stderr
     assert json.loads((out / "study.resolved.json").read_text())["mode"] == "shear"
     assert json.loads((out / "manifest.json").read_text())["status"] == "failed"

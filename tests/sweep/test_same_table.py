@@ -21,8 +21,11 @@ from support import ROOT, Command, environment
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
+from tvimdesign.report.output.shared_folder import joined
+from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.gather import write_parquet
 from tvimdesign.sweep.job import Job
+from tvimdesign.sweep.plan import plan_of
 from tvimdesign.sweep.pool import Pool
 from tvimdesign.sweep.run_sweep import Where, run_sweep
 from tvimdesign.sweep.shards import Shards
@@ -80,14 +83,24 @@ def test_two_workers_and_a_resumed_sweep_give_the_same_bytes(
     first = swept(study_file, out, workers=2)
     assert (first["reused"], first["computed"]) == (0, 6)
     assert tables(out) == tables(one_process)
-    for path in (out / "shards").iterdir():  # as if each had been killed in its last line
+    again = swept(study_file, out, resume=True, workers=1)
+    assert (again["reused"], again["computed"]) == (6, 0)
+    assert tables(out) == tables(one_process)
+
+
+@pytest.mark.gate
+def test_a_sweep_whose_workers_were_killed_in_a_line_is_resumed(
+    study_file: Path, one_process: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    with joined(out) as folder:
+        run_sweep(plan_of(tree_of_file(study_file)), folder, Where(2), lambda _: None)
+    for path in (folder / "shards").iterdir():
         path.write_bytes(path.read_bytes()[:-10])
     again = swept(study_file, out, resume=True, workers=1)
     assert 1 <= again["computed"] <= 2
     assert again["reused"] == 6 - again["computed"]
     assert tables(out) == tables(one_process)
-    last = swept(study_file, out, resume=True, workers=1)
-    assert (last["reused"], last["computed"]) == (6, 0)
 
 
 @pytest.mark.gate

@@ -214,7 +214,7 @@ def test_a_process_that_dies_is_told_and_the_other_kept(tmp_path: Path, monkeypa
     out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
     elsewhere.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(elsewhere))
-    (out / ".studies.killed").mkdir(parents=True)
+    out.mkdir()
     beside: list[list[Path]] = []
     asked = [Asked("gone", tmp_path / "gone.yaml"), Asked("there", path)]
     found = answers(asked, out, 2, lambda _: None, lambda: beside.append([*out.iterdir(), *elsewhere.iterdir()]))
@@ -222,8 +222,7 @@ def test_a_process_that_dies_is_told_and_the_other_kept(tmp_path: Path, monkeypa
     assert "no such file" in found["gone"]["troubles"][0]["error"]
     assert found["there"]["troubles"] == []
     assert "drawn" in found["there"]
-    assert [path.parent for path in beside[0]] == [out]  # what a kill leaves is in the folder of results, made anew
-    assert beside[0][0].name != ".studies.killed"
+    assert [path.parent for path in beside[0]] == [out]  # what a kill leaves is in the folder of results
     assert list(out.iterdir()) == []
 
 
