@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from tvimdesign.base.deadline import Deadline
-from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError
 from tvimdesign.device import Input, Table
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.nlp.solution import Solution
@@ -81,7 +81,7 @@ class AnchoredSearch:
 
         try:
             optimize(self._anchor_study, reference=self._reference, keep=remember)
-        except (InfeasibleError, InputError):
+        except (InfeasibleError, InputError, TimeOverError):
             return None
         return kept[0] if kept else None
 

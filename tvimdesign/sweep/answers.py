@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
+from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError, TvimError
 from tvimdesign.device import Choice
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -47,6 +47,8 @@ class CellAnswers:
             return self._nothing("infeasible", error)
         except InputError as error:
             return self._nothing("refused", error)
+        except TimeOverError as error:
+            return self._nothing("not_converged", error)
 
     def search_of(self, texts: Texts) -> AnchoredSearch:
         """What finds the optimum of a cell: it begins at the optimum of the study's own numbers with its words."""
