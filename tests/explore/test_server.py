@@ -18,6 +18,7 @@ from aiohttp.test_utils import TestServer
 from explored import SMALL, TOKEN, awaited, served, small_study, talking
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.explore.serve import serve
 from tvimdesign.explore.server import HOST, Server
 from tvimdesign.explore.states.history import FILE
 from tvimdesign.explore.states.messages import read_message
@@ -194,6 +195,46 @@ def test_a_folder_of_something_else_and_a_study_that_changed_are_refused(tmp_pat
     folder = tmp_path / "other"
     with pytest.raises(InputError, match="no explorer's"):
         awaited(opened())
+
+
+def test_overwriting_loses_no_history_where_the_explorer_is_refused(tmp_path: Path) -> None:
+    study, folder = small_study(tmp_path), tmp_path / "out"
+
+    async def change() -> None:
+        async with talking(study, folder) as page:
+            await page.send(kind="require", name="peak_power", texts=["<= 10 W"])
+            await page.kind("state")
+
+    awaited(change())
+    before = (folder / FILE).read_bytes()
+    with socket.create_server((HOST, 0)) as taken, pytest.raises(InputError, match="cannot be used"):
+        serve(study, folder, taken.getsockname()[1], "", overwrite=True, browse=False, settings=())
+    assert (folder / FILE).read_bytes() == before
+    (folder / FILE).write_text('{"name": "an application"}')
+    with pytest.raises(InputError, match="not written by `tvimdesign explore`"):
+        serve(study, folder, 0, "", overwrite=True, browse=False, settings=())
+    assert (folder / FILE).read_text() == '{"name": "an application"}'
+
+
+def test_a_study_that_is_saved_replaces_only_what_was_saved_before(tmp_path: Path) -> None:
+    study, folder = small_study(tmp_path), tmp_path / "out"
+
+    async def save() -> list[str]:
+        async with talking(study, folder) as page:
+            said = []
+            for text in (None, None, "mine", "changed by hand"):
+                if text:
+                    (folder / f"{text[:4]}.yaml").write_text(text)
+                await page.send(kind="save", file=f"{(text or 'chan')[:4]}.yaml")
+                answer = await page.until(lambda told: told["kind"] in {"saved", "refused"})
+                said.append(answer["kind"])
+            return said
+
+    saved = awaited(save())
+    assert saved[:2] == ["saved", "saved"]
+    assert "saved" not in saved[2:]
+    assert (folder / "mine.yaml").read_text() == "mine"
+    assert (folder / "chan.yaml").read_text() == "changed by hand"
 
 
 def _input(state: dict[str, Any], name: str) -> str:
