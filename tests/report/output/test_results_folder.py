@@ -73,6 +73,14 @@ def test_a_manifest_lists_what_the_run_wrote_and_nothing_else(tmp_path: Path) ->
     }
 
 
+def test_what_a_run_writes_for_itself_alone_is_no_result_and_goes(tmp_path: Path) -> None:
+    with ResultsFolder(tmp_path) as folder:
+        folder.write("results.csv", "mine")
+        folder.write(".cells-killed/cad/rotor.step", "half made")
+        folder.finish("optimal", {}, {})
+    assert texts(tmp_path) == {"results.csv": "mine"}
+
+
 def test_overwriting_twice_keeps_what_the_user_put_there(tmp_path: Path) -> None:
     finished(tmp_path)
     yours = {"my.yaml": "mode: shear", "notes.txt": "n", "cad/step/mine.step": "s", "plots/.x.part": "p"}

@@ -11,7 +11,7 @@ from tvimdesign.report.run.parts_of_design import PartsAhead
 
 
 def test_parts_and_figures_give_way_to_the_run() -> None:
-    with PartsAhead(), PlotProcess():
+    with PartsAhead(), PlotProcess(gives_way=True):
         assert wait_until(lambda: len(_priorities()) == 2)
         behind = _priorities()
     assert psutil.Process().nice() < behind["cad.build.main"] < behind["plot_process"]
@@ -22,6 +22,13 @@ def _priorities() -> dict[str, int]:
     others = {" ".join(one.cmdline()): one.nice() for one in psutil.Process().children()}
     asked = ("cad.build.main", "plot_process")
     return {name: nice for name in asked for command, nice in others.items() if name in command}
+
+
+def test_figures_that_a_command_waits_for_do_not_give_way() -> None:
+    with PlotProcess():
+        assert wait_until(lambda: bool(_priorities()))
+        behind = _priorities()
+    assert behind == {"plot_process": psutil.Process().nice()}
 
 
 def test_parts_that_are_all_a_command_makes_give_no_way() -> None:

@@ -59,7 +59,9 @@ def test_a_cells_files_come_with_its_answer(sweep: Path, monkeypatch: pytest.Mon
     seen: list[Any] = []
 
     def made(design: Path, out: Path, _: Any) -> CadReport:
-        assert design.parent.parent == sweep.resolve()  # what a worker that is killed leaves is found there
+        assert (
+            design.parent.parent == (sweep / UNFINISHED).resolve()
+        )  # what a worker that is killed leaves is found there
         assert design.parent.name.startswith(".cells-")
         seen.append(read_design(design))
         (out / "step").mkdir(parents=True)
@@ -70,6 +72,7 @@ def test_a_cells_files_come_with_its_answer(sweep: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr(cell_parts, "make_parts_of", made)
     asked = parts_asked(open_cells(sweep), [2], sweep)
     assert isinstance(asked.work, PartsWork)
+    (sweep / UNFINISHED).mkdir()
     answered = asked.work.answer(Cell(asked.keys[0], asked.texts(0)))
     assert (answered.status, answered.reason) == ("made", "")
     assert [name for name, _ in answered.files] == ["cell-2/cad/step/link.step", "cell-2/design.json"]

@@ -208,7 +208,7 @@ class ResultsFolder:
             "files": {
                 name: digest_of(self.path / name)
                 for name, digests in sorted(written.items())
-                if name != MANIFEST and is_as_written(self.path, name, digests - {ANY})
+                if name != MANIFEST and not _is_scratch(name) and is_as_written(self.path, name, digests - {ANY})
             },
         }
         self.write_at_the_end(MANIFEST, manifest_text(content))
@@ -222,6 +222,11 @@ class ResultsFolder:
         publish(self.out, self.path, self._results, self._earlier)
         self.path = self.out
         self._claim.release()
+
+
+def _is_scratch(name: str) -> bool:
+    """Return whether a file was only for the run itself: it, or a folder it is in, has a name with a dot in front."""
+    return any(part.startswith(".") for part in PurePosixPath(name).parts)
 
 
 def prepare(out: Path) -> None:
