@@ -14,7 +14,6 @@ class Behind(IntEnum):
     A_LITTLE = 5
     SOME = 10
     FAR = 14
-    ALL = 19
 
 
 def end_process_tree(process: int) -> None:
@@ -38,10 +37,8 @@ def end_process_tree(process: int) -> None:
 
 def give_way(process: int, behind: Behind = Behind.SOME) -> None:
     """Let a process, and those it starts from now on, compute where others leave a processor free."""
-    # Windows has classes in place of numbers.
-    name = "IDLE_PRIORITY_CLASS" if behind is Behind.ALL else "BELOW_NORMAL_PRIORITY_CLASS"
-    with contextlib.suppress(psutil.Error):
-        psutil.Process(process).nice(int(getattr(psutil, name, behind)))
+    with contextlib.suppress(psutil.Error):  # Windows has classes in place of numbers
+        psutil.Process(process).nice(int(getattr(psutil, "BELOW_NORMAL_PRIORITY_CLASS", behind)))
 
 
 def give_way_further(process: int) -> None:

@@ -42,13 +42,14 @@ class Drawing(NamedTuple):
 class PlotProcess:
     """A process that has matplotlib loaded by the time there is something to draw; stopped if there never is."""
 
-    def __init__(self) -> None:
-        """Start it."""
+    def __init__(self, *, gives_way: bool = False) -> None:
+        """Start it; it gives way where the first screen or parts need the processors."""
         self._child = start_child(
             "tvimdesign.report.figures.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
-        give_way(self._child.pid, Behind.ALL)  # to the solver, to what the first screen waits for, and to parts
+        if gives_way:
+            give_way(self._child.pid, Behind.FAR)
 
     def __enter__(self) -> PlotProcess:
         """Return itself."""

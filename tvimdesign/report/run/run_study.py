@@ -148,7 +148,7 @@ def _parts_ahead(mode: str) -> PartsAhead:
 def _plots_ahead() -> PlotProcess:
     from tvimdesign.report.figures.plot_process import PlotProcess
 
-    return PlotProcess()
+    return PlotProcess(gives_way=True)
 
 
 def _asked_of_design(making: PartsAhead | None, folder: ResultsFolder, screen: RunScreen) -> Designed:
