@@ -35,7 +35,7 @@ def record(path: Path, digest: str) -> None:
     if folder is None:
         return
     name = path.absolute().relative_to(folder).as_posix()
-    if way := link_on_the_way(folder, name):
+    if way := folder if folder.is_symlink() else link_on_the_way(folder, name):
         raise OSError(errno.ELOOP, f"{way} is a link")
     host = re.sub(r"[^\w-]", "_", platform.node())
     handle = os.open(folder / f".written-{host}-{os.getpid()}.jsonl", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)

@@ -32,7 +32,7 @@ def replace_results(out: Path, new: Path, results: Manifest, earlier: Manifest, 
     """
     refuse_links(out, [*results.files, *earlier.files])
     for name in results.files:
-        if (new / name).exists():
+        if (new / name).exists() and not link_on_the_way(new, name):
             digests = {digest for one in (earlier, results) if (digest := one.files.get(name))}
             _move(new / name, out, name, digests, say)
     remove_own(out, {name: {digest} for name, digest in earlier.files.items() if name not in results.files}, say)

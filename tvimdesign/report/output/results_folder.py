@@ -166,7 +166,7 @@ class ResultsFolder:
 
     def remove(self, folder: str) -> None:
         """Remove what this run has written into a folder within its own."""
-        every, within = recorded(self.path), PurePosixPath(folder)
+        every, within = {} if self.path.is_symlink() else recorded(self.path), PurePosixPath(folder)
         remove_own(self.path, {name: every[name] for name in every if within in PurePosixPath(name).parents}, say)
 
     def finish(
