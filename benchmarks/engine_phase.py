@@ -1,0 +1,112 @@
+"""One phase of the working cycle: from its start to the event that ends it."""
+
+from __future__ import annotations
+
+import numpy as np
+from engine_cells import PSI, ROWS
+from engine_heat import FAST
+from engine_network import Array, Network
+from engine_steps import FIRST, GROWTH, LONGEST, SEARCHES, THERE, WATCHED, step, temperatures, watch
+from numba import njit
+
+TIME = WATCHED
+"""Row of the results that holds the time of the event [s]."""
+
+
+@njit(cache=True, fastmath=FAST)
+def phase(
+    y: Array,
+    s: Array,
+    q: Array,
+    dq: Array,
+    m: Array,
+    net: Network,
+    history: bool,
+    tableau: Array,
+    which: int,
+    target: float,
+    sense: float,
+    ends: Array,
+    of_ends: Array,
+    peaks: Array,
+    of_peaks: Array,
+) -> int:
+    """Step from `y` with sensitivities `s` to where what is watched passes a target.
+
+    The last column of `dq` and `s` is zero: it is the direction of a step's length. On return `y` and `s` are at the
+    event. `ends` holds what is watched there, then the time, `peaks` the maxima; `of_ends` and `of_peaks` their
+    derivatives along the directions. Returns the count of steps, or -1 where there is no end.
+    """
+    last, nodes = dq.shape[1] - 1, net.nodes
+    pace, p = q[net.layer + 7], np.zeros((ROWS, net.cells))
+    t, w, direct = np.empty(nodes), np.empty((nodes, nodes)), np.zeros((net.cells, last + 1))
+    o, do = np.zeros(WATCHED), np.zeros((WATCHED, last + 1))
+    if history:
+        p[PSI] = y[nodes:]
+        direct[:] = s[nodes:]
+    temperatures(y[:nodes], y[nodes:], 0.0, net, m, history, p, t)
+    watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
+    peaks[:WATCHED], of_peaks[:WATCHED] = o, do
+    before, sbefore, ahead, lengths = y.copy(), s.copy(), np.zeros(y.size), np.zeros(last + 1)
+    share, passed, gap, steps, rise = FIRST, 0.0, sense * (o[which] - target), 0, 0.0
+    length, last_gap, last_rise = 0.0, gap, 0.0
+    while gap < 0.0:
+        before[:], sbefore[:], last_gap, last_rise = y, s, gap, rise
+        length = share * pace
+        lengths[:] = share * dq[net.layer + 7]
+        lengths[last] = 1.0
+        good = step(y, s, length, lengths, q, dq, m, net, history, tableau, p, t, w, direct, ahead)
+        watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
+        gap, rise, steps = sense * (o[which] - target), sense * do[which, last], steps + 1
+        if not good or steps > LONGEST:
+            return -1
+        if gap < 0.0:
+            passed += share
+            _keep(peaks, of_peaks, o, do)
+            s[:, last] = 0.0
+            ahead *= min(1.0 / share, GROWTH)
+            share = min(1.0, GROWTH * share)
+    lengths[:] = 0.0
+    lengths[last] = 1.0
+    if steps > 0:
+        length = _within(length, last_gap, gap, last_rise, rise)
+        for _ in range(SEARCHES):
+            y[:], s[:] = before, sbefore
+            ahead[:] = 0.0
+            step(y, s, length, lengths, q, dq, m, net, history, tableau, p, t, w, direct, ahead)
+            watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
+            gap = sense * (o[which] - target)
+            if abs(gap) < THERE:
+                break
+            length -= gap / (sense * do[which, last])
+    for j in range(last):
+        longer = -do[which, j] / do[which, last] if steps > 0 else 0.0
+        of_ends[TIME, j] = passed * dq[net.layer + 7, j] + longer
+        s[:, j] += longer * s[:, last]
+        do[:, j] += longer * do[:, last]
+    s[:, last] = 0.0
+    ends[:WATCHED], of_ends[:WATCHED], ends[TIME] = o, do, passed * pace + length
+    _keep(peaks, of_peaks, o, do)
+    return steps
+
+
+@njit(cache=True, fastmath=FAST)
+def _within(length: float, low: float, high: float, rise: float, end: float) -> float:
+    """Return about where a gap passes zero within a step, from its values and slopes at both ends (cubic)."""
+    if rise <= 0.0:
+        return length * low / (low - high)
+    x, a, b = low / (low - high), length * rise, length * end
+    for _ in range(4):
+        one = 1.0 - x
+        value = low * one**2 * (1.0 + 2.0 * x) + high * x**2 * (3.0 - 2.0 * x) + x * one * (a * one - b * x)
+        steep = 6.0 * x * one * (high - low) + a * one * (1.0 - 3.0 * x) + b * x * (3.0 * x - 2.0)
+        x = min(max(x - value / steep, 0.0), 1.0)
+    return length * x
+
+
+@njit(cache=True, fastmath=FAST)
+def _keep(peaks: Array, of_peaks: Array, o: Array, do: Array) -> None:
+    """Take what is higher than before."""
+    for i in range(WATCHED):
+        if o[i] > peaks[i]:
+            peaks[i], of_peaks[i] = o[i], do[i]
