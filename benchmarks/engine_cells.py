@@ -59,7 +59,7 @@ def _growth(kelvin: float, m: Array) -> tuple[float, float]:
 
 
 @njit(cache=True, fastmath=FAST)
-def _extended(fraction: float, n: float) -> tuple[float, float]:
+def extended(fraction: float, n: float) -> tuple[float, float]:
     """Return psi of a solid fraction, and its slope."""
     over, up = ramp(1.0 - fraction - 1e-4, 1e-4)
     molten = 1e-4 + over
@@ -87,7 +87,7 @@ def psi_rate(kelvin: float, psi: float, level: float, m: Array) -> tuple[float, 
     one, up_one = ramp(kelvin - m[4], 0.5)
     two, up_two = ramp(kelvin - m[5], 0.5)
     window = m[5] - m[4]
-    largest, by = _extended(1.0 - (one - two) / window, m[11])
+    largest, by = extended(1.0 - (one - two) / window, m[11])
     by *= -(up_one - up_two) / window
     excess, more = ramp(psi - largest, 1e-3)
     none, less = ramp(-largest, 1e-3)

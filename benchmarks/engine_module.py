@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
 
 import numpy as np
 from engine_network import HEAT_UNIT, Array, Assembler

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from engine_cells import PSI, ROWS
+from engine_cells import PSI, ROWS, extended, ramp
 from engine_heat import FAST
-from engine_network import Array, Network
+from engine_network import HEAT_UNIT, Array, Network
 from engine_steps import FIRST, GROWTH, LONGEST, SEARCHES, THERE, WATCHED, step, temperatures, watch
 from numba import njit
 
@@ -110,3 +110,17 @@ def _keep(peaks: Array, of_peaks: Array, o: Array, do: Array) -> None:
     for i in range(WATCHED):
         if o[i] > peaks[i]:
             peaks[i], of_peaks[i] = o[i], do[i]
+
+
+@njit(cache=True, fastmath=FAST)
+def with_history(y: Array, s: Array, net: Network, m: Array) -> tuple[Array, Array]:
+    """Return a state of the melting curve, and its sensitivities, as a layer with a history goes on from it."""
+    n, nodes = net.cells, net.nodes
+    later, slopes = np.empty(nodes + n), np.empty((nodes + n, s.shape[1]))
+    later[:nodes], slopes[:nodes] = y, s
+    for i in range(n):
+        first, up = ramp(HEAT_UNIT * y[i] - m[2], m[6])
+        last, beyond = ramp(HEAT_UNIT * y[i] - m[3], m[6])
+        later[nodes + i], by = extended(1.0 - (first - last) / (m[3] - m[2]), m[11])
+        slopes[nodes + i] = -HEAT_UNIT * by * (up - beyond) / (m[3] - m[2]) * s[i]
+    return later, slopes
