@@ -32,6 +32,30 @@ def potential(kelvin: float, m: Array) -> tuple[float, float]:
 
 
 @njit(cache=True, fastmath=FAST)
+def mean_to(i: int, wall: float, p: Array, m: Array, history: bool) -> tuple[float, float, float]:
+    """Return the mean conductivity between a cell and a wall, and its slopes by the cell's state and the wall."""
+    if history:
+        return p[2, i], p[3, i], 0.0
+    apart, (there, at_wall) = wall - p[0, i], potential(wall, m)
+    risen, square = there - p[4, i], apart * apart + SAME**2
+    mean = (risen * apart + SAME**2 * p[2, i]) / square
+    by_cell = (SAME**2 * p[3, i] - p[5, i] * apart - (risen - 2.0 * mean * apart) * p[1, i]) / square
+    return mean, by_cell, (at_wall * apart + risen - 2.0 * mean * apart) / square
+
+
+@njit(cache=True, fastmath=FAST)
+def mean_of_pads(hot: float, wall: float, p: Array, m: Array, history: bool) -> tuple[float, float, float, float]:
+    """Return the mean conductivity between the pads and a wall, and its slopes by the first cell, pads and wall."""
+    if history:
+        return p[2, 0], p[3, 0], 0.0, 0.0
+    apart, (there, at_wall), (here, at_hot) = wall - hot, potential(wall, m), potential(hot, m)
+    risen, square = there - here, apart * apart + SAME**2
+    mean = (risen * apart + SAME**2 * p[2, 0]) / square
+    steep = risen - 2.0 * mean * apart
+    return mean, SAME**2 * p[3, 0] / square, -(at_hot * apart + steep) / square, (at_wall * apart + steep) / square
+
+
+@njit(cache=True, fastmath=FAST)
 def to_wall(
     i: int, wall: float, g: float, other: float, p: Array, m: Array, history: bool
 ) -> tuple[float, float, float, float]:
@@ -39,17 +63,9 @@ def to_wall(
 
     Then its slopes by the cell's state and the wall's temperature, and the resistance of the half cell.
     """
-    apart = wall - p[0, i]
-    if history:
-        mean, by_wall, by_cell = p[2, i], 0.0, p[3, i]
-    else:
-        there, at_wall = potential(wall, m)
-        risen, square = there - p[4, i], apart * apart + SAME**2
-        mean = (risen * apart + SAME**2 * p[2, i]) / square
-        by_wall = (at_wall * apart + risen - 2.0 * mean * apart) / square
-        by_cell = (SAME**2 * p[3, i] - p[5, i] * apart - (risen - 2.0 * mean * apart) * p[1, i]) / square
+    mean, by_cell, by_wall = mean_to(i, wall, p, m, history)
     within = 0.5 / (g * mean)
-    flow = -apart / (within + other)
+    flow = (p[0, i] - wall) / (within + other)
     bend = flow / (within + other) * within / mean
     return flow, p[1, i] / (within + other) + bend * by_cell, bend * by_wall - 1.0 / (within + other), within
 
@@ -100,6 +116,23 @@ def flows(t: Array, p: Array, q: Array, m: Array, net: Network, history: bool, f
     heat, _, _, _ = to_wall(n - 1, t[first], g, far, p, m, history)
     f[n - 1] -= heat
     f[first] += heat
+    if net.lip >= 0:
+        _to_lip(t, p, q, m, net, history, f)
+
+
+@njit(cache=True, fastmath=FAST)
+def _to_lip(t: Array, p: Array, q: Array, m: Array, net: Network, history: bool, f: Array) -> None:
+    """Heat that the layer's cells and the pads give to the lip through the layer."""
+    alike, lip, hot, mean = t[net.lip], t[net.lip + 1], net.cells + net.plate + 2, 0.5 * (m[KS] + m[KM])
+    for i in range(net.cells + 1):
+        if i < net.cells:
+            k, _, _ = mean_to(i, alike, p, m, history)
+        else:
+            k, _, _, _ = mean_of_pads(t[hot], alike, p, m, history)
+        node = i if i < net.cells else hot
+        heat = q[net.layer + (8 if i < net.cells else 9)] * k / mean * (t[node] - lip)
+        f[node] -= heat
+        f[net.lip + 1] += heat
 
 
 @njit(cache=True, fastmath=FAST)
@@ -146,6 +179,36 @@ def slopes(
         a[i + 1, i] += here
         a[i, i + 1] -= there
         a[i + 1, i + 1] += there
+    if net.lip >= 0:
+        _slopes_to_lip(t, p, q, m, net, history, a, scale, others)
+
+
+@njit(cache=True, fastmath=FAST)
+def _slopes_to_lip(
+    t: Array, p: Array, q: Array, m: Array, net: Network, history: bool, a: Array, scale: float, others: float
+) -> None:
+    """Add the slopes of the heat that the lip gets through the layer."""
+    alike, lip, hot, mean = t[net.lip], t[net.lip + 1], net.cells + net.plate + 2, 0.5 * (m[KS] + m[KM])
+    for i in range(net.cells):
+        k, by_cell, by_wall = mean_to(i, alike, p, m, history)
+        share = scale * q[net.layer + 8] / mean
+        here = share * (by_cell * (t[i] - lip) + k * p[1, i])
+        a[i, i] -= here
+        a[net.lip + 1, i] += here
+        a[i, net.lip] -= share * by_wall * (t[i] - lip) * others
+        a[net.lip + 1, net.lip] += share * by_wall * (t[i] - lip) * others
+        a[i, net.lip + 1] += share * k * others
+        a[net.lip + 1, net.lip + 1] -= share * k * others
+    k, by_cell, by_hot, by_wall = mean_of_pads(t[hot], alike, p, m, history)
+    share, over = scale * q[net.layer + 9] / mean, t[hot] - lip
+    for node, by in (
+        (0, by_cell * over),
+        (hot, (by_hot * over + k) * others),
+        (net.lip, by_wall * over * others),
+        (net.lip + 1, -k * others),
+    ):
+        a[hot, node] -= share * by
+        a[net.lip + 1, node] += share * by
 
 
 @njit(cache=True, fastmath=FAST)
@@ -183,6 +246,19 @@ def tangents(t: Array, p: Array, q: Array, dq: Array, m: Array, net: Network, hi
             heat = by * dq[net.layer, j]
             d[i, j] -= heat
             d[i + 1, j] += heat
+    if net.lip < 0:
+        return
+    alike, lip, mean = t[net.lip], t[net.lip + 1], 0.5 * (m[KS] + m[KM])
+    for i in range(n + 1):
+        if i < n:
+            k, _, _ = mean_to(i, alike, p, m, history)
+        else:
+            k, _, _, _ = mean_of_pads(t[hot], alike, p, m, history)
+        node, place = (i, net.layer + 8) if i < n else (hot, net.layer + 9)
+        by = k / mean * (t[node] - lip)
+        for j in range(count):
+            d[node, j] -= by * dq[place, j]
+            d[net.lip + 1, j] += by * dq[place, j]
 
 
 @njit(cache=True, fastmath=FAST)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-
 import numpy as np
-from engine_network import HEAT_UNIT, Array, Assembler
+from engine_joint import JointNumbers
+from engine_network import HEAT_UNIT, STEPS, Array, Assembler
 from engine_phase import TIME, phase
-from engine_steps import FAR, HOT, MEAN, NEAR, POWER, THIRD, VOLTAGE, WATCHED
+from engine_steps import FAR, HOT, MEAN, NEAR, POWER, SOFT, THIRD, VOLTAGE, WATCHED
 from quick import Quick
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -14,14 +14,15 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.symbols import symbols
 from tvimdesign.solve.nlp.problem import Free
 
-EVENTS = {"near_face": NEAR, "mean": MEAN, "far_face": FAR}
+EVENTS = {"near_face": NEAR, "mean": MEAN, "far_face": FAR, "softening": SOFT}
 PEAKS = {"peak_power": POWER, "peak_voltage": VOLTAGE, "peak_peltier_temperature": HOT}
+"""Rows of what is watched, by event and by peak."""
 
 
 class Module:
     """The softening of one study by the engine, as a function of the unknowns of its free numbers."""
 
-    def __init__(self, model: DeviceFunctions, free: tuple[Free, ...], wanted: list[str]) -> None:
+    def __init__(self, model: DeviceFunctions, free: tuple[Free, ...], wanted: list[str], steps: float = STEPS) -> None:
         """Write the numbers of the network and their slopes; `wanted` are quantities that the cycle supplies."""
         self.model, self.free, self.wanted = model, free, wanted
         found = model.phases["softening"]
@@ -31,31 +32,38 @@ class Module:
             entries[model.index[one.name]] = one.to_value(self.unknowns[i])
         self.inputs = ca.vertcat(*entries)
         current = symbols(found._inputs)[model.index["current"]]
-        assembler = Assembler(found._stack, model.cells, current)
+        assembler = Assembler(found._stack, model.cells, current, steps)
+        self.event, self.rheology = EVENTS[model.words["response_criterion"]], np.zeros(0)
+        self.target = 0.0 if self.event == SOFT else float(model.start[model.index["target_temperature"]])
+        written, constants = assembler.numbers(), assembler.material()
         self.network = assembler.network()
-        numbers = ca.Function("numbers", [found._inputs], [assembler.numbers(), assembler.material()])
-        q, material = numbers(self.inputs)
+        if self.event == SOFT:
+            joint = JointNumbers(found, assembler)
+            self.network = assembler.network(joint.column_shares, joint.fed_evenly)
+            written = ca.vertcat(written, joint.numbers)
+            (rheology,) = ca.Function("rheology", [found._inputs], [joint.constants]).call([model.start])
+            self.rheology = np.asarray(rheology).ravel()
+        q, material = ca.Function("numbers", [found._inputs], [written, constants]).call([self.inputs])
         self.material = np.asarray(ca.DM(material)).ravel()
         slopes = ca.densify(ca.horzcat(ca.jacobian(q, self.unknowns), ca.SX(q.numel(), 1)))
         self._numbers = Quick(ca.Function("numbers", [self.unknowns], [ca.cse(ca.horzcat(q, slopes).T)]))
         self.count = len(free) + 1
-        self.event = EVENTS[model.words["response_criterion"]]
-        self.target = float(model.start[model.index["target_temperature"]])
         self.evaluations = 0
 
     def run(self, unknowns: Array, tableau: Array = THIRD) -> tuple[Array, Array]:
         """Return what is wanted, and its slopes by the unknowns; NaN where the softening has no end."""
         self.evaluations += 1
-        q, dq = self._split(unknowns)
+        q, dq = self._last = self._split(unknowns)
         net, m = self.network, self.material
         y, s = np.full(net.nodes, m[9]), np.zeros((net.nodes, self.count))
         y[: net.cells] = m[10] / HEAT_UNIT
         ends, peaks = np.zeros(WATCHED + 1), np.zeros(WATCHED + 1)
         of_ends, of_peaks = np.zeros((WATCHED + 1, self.count)), np.zeros((WATCHED + 1, self.count))
         steps = -1
-        if np.all(np.isfinite(q)) and np.all(q[: net.nodes] > 0.0):
+        if np.all(np.isfinite(q)) and np.all(q[: net.nodes] >= 0.0):
             steps = phase(
-                y, s, q, dq, m, net, False, tableau, self.event, self.target, 1.0, ends, of_ends, peaks, of_peaks
+                y, s, q, dq, m, self.rheology, net, False, tableau, self.event, self.target, 1.0, ends, of_ends, peaks,
+                of_peaks,
             )  # fmt: skip
         if steps < 0:
             return np.full(len(self.wanted), np.nan), np.full((len(self.wanted), len(self.free)), np.nan)
@@ -65,8 +73,10 @@ class Module:
         ]
         return np.array([value for value, _ in rows]), np.array([slope[:-1] for _, slope in rows])
 
-    @staticmethod
-    def _peak(name: str, peaks: Array, of_peaks: Array) -> tuple[float, Array]:
+    def _peak(self, name: str, peaks: Array, of_peaks: Array) -> tuple[float, Array]:
+        if name == "peak_current":
+            q, dq = self._last
+            return q[self.network.layer + 6], dq[self.network.layer + 6]
         return peaks[PEAKS[name]], of_peaks[PEAKS[name]]
 
     def _split(self, unknowns: Array) -> tuple[Array, Array]:

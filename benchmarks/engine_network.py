@@ -3,7 +3,8 @@
 A link ends at a place, which is a weighted sum of nodes. Heat that a place receives is spread over the nodes by the
 same weights. So all that conducts linearly, the pads included, becomes one sparse matrix. Radiation, surfaces and the
 layer that changes phase are short lists of their own. Nodes: cells of the layer, cells of the plate, cold side, middle
-of the legs, hot side, bodies beside the plate, bodies around the pads.
+of the legs, hot side, bodies beside the plate, bodies around the pads. A lip at the layer's end is two nodes more,
+without heat capacity: its temperature if the layer conducted alike everywhere, and its temperature.
 """
 
 from __future__ import annotations
@@ -25,8 +26,11 @@ AIR = -1
 """The ambient, as if it were a node."""
 HEAT_UNIT = 1e3
 """Enthalpy of a cell that counts as one, as a kelvin of the other nodes does [J/kg]."""
-STEPS = 1.4
-"""Steps in about the time that the pads need to heat the layer."""
+STEPS, FREEZING = 1.4, 8.0
+"""Steps in about the time that the pads at their power would need to heat the layer; more of a layer that freezes."""
+
+
+NONE = np.zeros(0)
 
 
 class Network(NamedTuple):
@@ -54,7 +58,17 @@ class Network(NamedTuple):
     """Conductance of each radiating pair."""
     layer: int
     """Area over depth of a cell, ways to pads and plate, half a cell of the plate; Seebeck coefficient, resistance and
-    current of the pads; time of a step."""
+    current of the pads; time of a step; conductance from each cell and from the pads to the lip."""
+    lip: int
+    """First node of the lip; below zero without one."""
+    beside: int
+    """Bodies beside the plate, the core last."""
+    impedance: int
+    """Where the numbers of the joint begin: `engine_joint`."""
+    layer_columns: int
+    """Columns of the layer; none where the impedance is not watched."""
+    column_shares: Array
+    fed_evenly: Array
     below: Integers
     """Rows that are not zero below each diagonal entry of the factored matrix, column after column."""
     below_at: Integers
@@ -67,21 +81,24 @@ class Network(NamedTuple):
 class Assembler:
     """Collect what a stack conducts, by nodes."""
 
-    def __init__(self, stack: heat.Stack, cells: int, current: Any) -> None:
+    def __init__(self, stack: heat.Stack, cells: int, current: Any, steps: float = STEPS) -> None:
         """Number the nodes and stamp every element of the stack."""
         if stack.sink is not None or stack.liner is not None or stack.legs_capacity is None:
             raise NotImplementedError("sinks, liners, and pads without heat capacity")
-        self.stack, self.cells, self.current = stack, cells, current
+        self.stack, self.cells, self.current, self.steps = stack, cells, current, steps
         first = cells + stack.plate_cells
         self.cold, self.legs, self.hot, self.beside = first, first + 1, first + 2, first + 3
         self.around = self.beside + len(stack.beside)
         self.size = self.around + len(stack.around)
+        self.lip = -1
+        if stack.lip is not None:
+            self.lip, self.size = self.size, self.size + 2
         self.matrix: dict[tuple[int, int], Any] = {}
         self.constant: list[Any] = [0.0] * self.size
         self.surfaces: list[tuple[int, tuple[Any, ...]]] = []
         self.radiating: list[tuple[int, int, Any]] = []
         self.plate_half = 0.5 * stack.plate_thickness / stack.plate_cells / (stack.plate_conductivity * stack.area)
-        for stamp_part in (self._pads, self._plate, self._links, self._surfaces):
+        for stamp_part in (self._pads, self._plate, self._links, self._surfaces, self._lip):
             stamp_part()
 
     def stamp(self, conductance: Any, seen: Weights, given: Weights) -> None:
@@ -163,6 +180,21 @@ class Assembler:
                     (node, (one.area, one.coefficient, one.emissivity * lumps.STEFAN_BOLTZMANN, behind, series))
                 )
 
+    def _lip(self) -> None:
+        if self.stack.lip is None:
+            return
+        lip, alike, found = self.stack.lip, self.lip, self.lip + 1
+        layer, pads = self.place(("layer", 0)), {self.hot: 1.0}
+        self.stamp(lip.slices, _less(layer, {alike: 1.0}), {alike: 1.0})
+        self.stamp(lip.pads, _less(pads, {alike: 1.0}), {alike: 1.0})
+        for arm in lip.arms:
+            mean: dict[int, Any] = {}
+            for place, weight in arm.ends:
+                for node, share in self.place(place).items():
+                    mean[node] = mean.get(node, 0.0) + weight * share
+            self.stamp(arm.conductance, _less(mean, {alike: arm.share}), {alike: arm.share})
+            self.stamp(arm.conductance, _less(mean, {found: arm.share}), _less({found: arm.share}, mean))
+
     def capacities(self) -> list[Any]:
         """Return the heat capacity of every node [J/K]; of a cell of the layer for `HEAT_UNIT`."""
         stack = self.stack
@@ -171,15 +203,16 @@ class Assembler:
         plate = stack.plate_heat_capacity * stack.area * stack.plate_thickness / stack.plate_cells
         pads = [stack.cold_capacity + side, middle, stack.hot_capacity + side]
         bodies = [*(lump.capacity for lump in stack.beside), *(body.capacity for body in stack.around)]
-        return [mass * HEAT_UNIT] * self.cells + [plate] * stack.plate_cells + pads + bodies
+        massless = [0.0] * (0 if self.lip < 0 else 2)
+        return [mass * HEAT_UNIT] * self.cells + [plate] * stack.plate_cells + pads + bodies + massless
 
     def step_time(self) -> Any:
         """Return about the time of a step [s]: the layer's heat over the pads' power."""
         stack, melting = self.stack, self.stack.melting
         heat_of_layer = melting.latent_heat + melting.specific_heat_melt * (melting.end - stack.ambient)
         power = self.current * stack.peltier.seebeck * 330.0 + 0.5 * self.current**2 * stack.peltier.resistance
-        size = np.sqrt(power**2 + 0.01)
-        return stack.density * stack.area * stack.thickness * heat_of_layer / size / STEPS
+        size, steps = np.sqrt(power**2 + 0.01), self.steps * (1.0 if stack.freezing is None else FREEZING)
+        return stack.density * stack.area * stack.thickness * heat_of_layer / size / steps
 
     def numbers(self) -> Any:
         """Return all numbers of the network below one another (SX), in the order of `Network`."""
@@ -195,25 +228,30 @@ class Assembler:
             *self.capacities(), *self.matrix.values(), *self.constant,
             *(one for _, numbers in self.surfaces for one in numbers),
             *(conductance for *_, conductance in self.radiating), *of_layer, *of_pads, self.step_time(),
+            *((0.0, 0.0) if stack.lip is None else (stack.lip.slices / self.cells, stack.lip.pads)),
         )  # fmt: skip
         return ca.vertcat(*blocks)
 
-    def network(self) -> Network:
-        """Return the constant shape."""
+    def network(self, shares: Array = NONE, fed: Array = NONE) -> Network:
+        """Return the constant shape; with shares of the layer's columns, and how far each is below its mean."""
         rows, columns = np.array(list(self.matrix), dtype=np.int64).T.copy()
         linear = self.size
         constant = linear + len(self.matrix)
         surface = constant + self.size
         pairs = surface + 5 * len(self.surfaces)
+        layer = pairs + len(self.radiating)
         joined = np.array([pair[:2] for pair in self.radiating], dtype=np.int64).reshape(-1, 2)
         exposed = np.array([node for node, _ in self.surfaces], dtype=np.int64)
         return Network(self.size, self.cells, self.stack.plate_cells, rows, columns, exposed, joined, linear, constant,
-                       surface, pairs, pairs + len(self.radiating), *self._pattern())  # fmt: skip
+                       surface, pairs, layer, self.lip, len(self.stack.beside), layer + 10, len(shares), shares, fed,
+                       *self._pattern())  # fmt: skip
 
     def _pattern(self) -> list[Integers]:
         """Return where the factors of the network's matrix are not zero."""
         filled = np.eye(self.size, dtype=bool)
         pairs = [*self.matrix, *((a, b) for a, b, _ in self.radiating), (0, self.hot)]
+        if self.lip >= 0:
+            pairs += [(a, self.lip + i) for a in (*range(self.cells), self.hot, self.lip) for i in (0, 1)]
         for a, b in (*pairs, *((k, k + 1) for k in range(self.cells))):
             filled[a, b] = filled[b, a] = True
         for k in range(self.size):

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from engine_cells import PSI, ROWS, extended, ramp
 from engine_heat import FAST
+from engine_layer import softness
 from engine_network import HEAT_UNIT, Array, Network
-from engine_steps import FIRST, GROWTH, LONGEST, SEARCHES, THERE, WATCHED, step, temperatures, watch
+from engine_steps import FIRST, GROWTH, LONGEST, SEARCHES, SOFT, THERE, WATCHED, step, temperatures, watch
 from numba import njit
 
 TIME = WATCHED
@@ -20,6 +21,7 @@ def phase(
     q: Array,
     dq: Array,
     m: Array,
+    r: Array,
     net: Network,
     history: bool,
     tableau: Array,
@@ -37,7 +39,7 @@ def phase(
     event. `ends` holds what is watched there, then the time, `peaks` the maxima; `of_ends` and `of_peaks` their
     derivatives along the directions. Returns the count of steps, or -1 where there is no end.
     """
-    last, nodes = dq.shape[1] - 1, net.nodes
+    last, nodes, none = dq.shape[1] - 1, net.nodes, np.empty(0)
     pace, p = q[net.layer + 7], np.zeros((ROWS, net.cells))
     t, w, direct = np.empty(nodes), np.empty((nodes, nodes)), np.zeros((net.cells, last + 1))
     o, do = np.zeros(WATCHED), np.zeros((WATCHED, last + 1))
@@ -46,6 +48,8 @@ def phase(
         direct[:] = s[nodes:]
     temperatures(y[:nodes], y[nodes:], 0.0, net, m, history, p, t)
     watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
+    if which == SOFT:
+        o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, none)
     peaks[:WATCHED], of_peaks[:WATCHED] = o, do
     before, sbefore, ahead, lengths = y.copy(), s.copy(), np.zeros(y.size), np.zeros(last + 1)
     share, passed, gap, steps, rise = FIRST, 0.0, sense * (o[which] - target), 0, 0.0
@@ -57,6 +61,8 @@ def phase(
         lengths[last] = 1.0
         good = step(y, s, length, lengths, q, dq, m, net, history, tableau, p, t, w, direct, ahead)
         watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
+        if which == SOFT:
+            o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, none)
         gap, rise, steps = sense * (o[which] - target), sense * do[which, last], steps + 1
         if not good or steps > LONGEST:
             return -1
@@ -69,16 +75,22 @@ def phase(
     lengths[:] = 0.0
     lengths[last] = 1.0
     if steps > 0:
+        low, high = 0.0, length
         length = _within(length, last_gap, gap, last_rise, rise)
         for _ in range(SEARCHES):
             y[:], s[:] = before, sbefore
             ahead[:] = 0.0
             step(y, s, length, lengths, q, dq, m, net, history, tableau, p, t, w, direct, ahead)
             watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
+            if which == SOFT:
+                o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, do[SOFT])
             gap = sense * (o[which] - target)
             if abs(gap) < THERE:
                 break
+            low, high = (length, high) if gap < 0.0 else (low, length)
             length -= gap / (sense * do[which, last])
+            if not low < length < high:
+                length = 0.5 * (low + high)
     for j in range(last):
         longer = -do[which, j] / do[which, last] if steps > 0 else 0.0
         of_ends[TIME, j] = passed * dq[net.layer + 7, j] + longer

@@ -27,10 +27,10 @@ NEWTON, EXACT = 12, 1e-4
 FIRST, GROWTH, LONGEST = 0.03, 2.0, 2000
 SEARCHES, THERE = 20, 1e-8
 """Steps to the event at most, and how near [K] is there."""
-NEAR, MEAN, FAR, HOT, RIM, POWER, VOLTAGE, COLD, FROZEN = range(9)
+NEAR, MEAN, FAR, HOT, RIM, POWER, VOLTAGE, COLD, FROZEN, SOFT = range(10)
 """What is watched: faces and mean of the layer, pads' hot side, plate's face [K], power [W], voltage [V], pads' cold
-side [K], least solid fraction [1]."""
-WATCHED = 9
+side [K], least solid fraction [1], how soft the joint is beyond its threshold, as a logarithm."""
+WATCHED = 10
 
 
 @njit(cache=True, fastmath=FAST)
