@@ -18,9 +18,9 @@ COMMANDS = {
     "run": ["run", _STUDY, "--no-cad"],
     "run_with_parts": ["run", _STUDY],
     "front": ["run", str(SMALL), *_FRONT],
-    "prove": ["run", str(SMALL), *_LISTED, "--prove", "--workers", "2", "--no-cad", "--no-plots"],
+    "prove": ["run", str(SMALL), *_LISTED, "--prove", "--no-cad", "--no-plots"],
     "parts": ["cad", _DESIGN],
-    "cells": ["cad", "../swept/out", "--cells", "1,2", "--workers", "2"],
+    "cells": ["cad", "../swept/out", "--cells", "1,2"],
     "simulate": ["simulate", _DESIGN, "--test", "sine"],
     "tolerate": ["tolerate", _DESIGN, "--samples", "16384"],
     "robot": ["robot", _DESIGN],
@@ -35,7 +35,7 @@ FIRST = {"cells": ("swept", ["sweep", _STUDY, "--set", _TWO, "--workers", "1", "
 """What is done once before a command: the folder beside those of the tries, and a command whose results go there."""
 KEPT = {"cells": "kept"}
 """Folder beside those of the tries in which parts are kept from one to the next: how they are made is `parts`' try."""
-GOES_ON = {"front": "front/progress", "sweep": "shards", "prove": "shards", "cells": "shards"}
+GOES_ON = {"front": "front/progress", "sweep": "shards"}
 """Commands that can be resumed, and the folder of what they go on from."""
 NEEDS_FE = "verify"
 """The command that is ended only where a Python with finite elements is named: `--fe-python`."""

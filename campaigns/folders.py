@@ -158,8 +158,7 @@ def replay(command: str, files: dict[str, bytes], out: Path, flags: list[str], m
         write_kept(out, kept)
         return
     goes_on = GOES_ON.get(command, PROGRESS)
-    kept_folders = sorted({name.partition("/")[0] for name in files if name.startswith("cell-")})
-    with ResultsFolder(out, "--overwrite" in flags, "--resume" in flags, goes_on, kept_folders) as folder:
+    with ResultsFolder(out, "--overwrite" in flags, "--resume" in flags, goes_on) as folder:
         if command == "front":
             folder.write(f"{PROGRESS}/0001.json", "{}")
         for number, (name, data) in enumerate(files.items()):

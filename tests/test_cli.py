@@ -298,7 +298,7 @@ def test_an_interrupt_ends_the_run_with_its_code_and_a_folder_that_can_be_used_a
         text=True,
         start_new_session=True,
     )
-    assert wait_until((out / "manifest.json").exists)
+    assert wait_until((out / "unfinished/.run.json").exists)
     time.sleep(after)
     os.killpg(process.pid, number)
     _, said = communicate(process)

@@ -68,14 +68,6 @@ def test_the_error_names_the_step_and_what_to_do(clock: Clock) -> None:
         limit.check("all was done")
 
 
-def test_what_others_do_meanwhile_is_not_counted(clock: Clock) -> None:
-    whole = Deadline(20.0, clock)
-    part = whole.leaving(4.0)
-    with part.paused():
-        clock.now = 1000.0
-    assert (part.remaining, whole.remaining) == (16.0, 20.0)
-
-
 def test_without_a_limit_no_part_ends() -> None:
     part = NEVER.leaving(4.0)
     assert not part.passed

@@ -18,7 +18,7 @@ WRITTEN = {
     },
     "front": {"front.csv": b"a", "front/01.design.json": b"{}", "results.csv": b"b"},
     "sweep": {"shards/00001.jsonl": b"{}", "cells.csv": b"a", "sweep.json": b"{}"},
-    "cells": {"shards/00001.jsonl": b"{}", "cell-1/cad/a.step": b"a", "parts.csv": b"b"},
+    "cells": {"cell-1/cad/a.step": b"a", "parts.csv": b"b"},
     "explorer": {"explore.json": b"{}"},
 }
 

@@ -6,16 +6,12 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
-from typing import Any
 
 from support import ROOT, environment
 
 from tvimdesign.base.process_tree import end_process_tree
-from tvimdesign.report.output.shared_folder import CellsAsked, joined
-from tvimdesign.sweep.run_sweep import SweepDone, Where, run_cells
 
 
 class LocalCluster:
@@ -75,22 +71,6 @@ class LocalCluster:
         """End all of it."""
         for process in [*self.workers, *filter(None, [self.scheduler])]:
             _kill(process)
-
-
-def answered_on(cluster: LocalCluster, asked: CellsAsked, out: Path, at: dict[int, Callable[[], Any]]) -> SweepDone:
-    """Have cells answered on a cluster; `at` says what is done to it once so many are done."""
-    left = dict(at)
-
-    def heard(text: str) -> None:
-        number = int(text.removeprefix(f"{asked.called} ").split()[0]) - 1
-        for count in [count for count in left if number >= count]:
-            left.pop(count)()
-
-    where = Where(scheduler=cluster.address)
-    with joined(out) as shared:
-        done = run_cells(asked.work, asked.keys, asked.texts, shared, where, heard, asked.called)
-    assert not left
-    return done
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

@@ -222,14 +222,6 @@ def test_a_run_of_the_solver_ends_between_two_iterations() -> None:
     assert len(optimizer._solvers) == 1
 
 
-def test_what_others_solve_meanwhile_does_not_count() -> None:
-    clock = Clock("others")
-    part = clock.deadline.leaving(20.0)
-    with part.paused():
-        clock.say("others")
-    assert (clock.deadline.remaining, part.remaining, part.passed) == (300.0, 280.0, False)
-
-
 def test_the_limit_is_a_time() -> None:
     assert read_study_text(SEARCHED).solver.time_limit == 300.0
     with pytest.raises(StudyError, match=r"solver\.time_limit: '60': say the unit"):

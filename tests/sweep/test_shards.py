@@ -87,18 +87,6 @@ def test_a_disk_that_is_full_keeps_the_cells_before(tmp_path: Path) -> None:
     assert len(Shards(tmp_path, ("a", "b", "c"))) == 2
 
 
-def test_files_of_a_cell_are_there_before_it_and_where_there_is_no_room_the_cell_is_not(tmp_path: Path) -> None:
-    with ShardWriter(tmp_path, COLUMNS) as shard:
-        shard.append([(KEYS[0], answer(1)._replace(files=(("cell-1/step/link.step", b"link"),)), 0.1)])
-        (tmp_path / "cell-2").write_text("a file where a folder is to be")
-        with pytest.raises(OutputError, match=r"cell-2.*: cannot be written: .*; the cells before are kept: make room"):
-            shard.append([(KEYS[1], answer(2)._replace(files=(("cell-2/design.json", b"{}"),)), 0.1)])
-    assert (tmp_path / "cell-1/step/link.step").read_bytes() == b"link"
-    shards = Shards(tmp_path, COLUMNS)
-    assert KEYS[0] in shards
-    assert KEYS[1] not in shards
-
-
 def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
     (tmp_path / "shards").write_text("a file")
     with pytest.raises(OutputError, match=r"shards: cannot be written"):

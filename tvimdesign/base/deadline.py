@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import TypeVar
 
 from tvimdesign.base.errors import TimeOverError
@@ -103,15 +102,6 @@ class Deadline:
         except TimeOverError:
             self.leave_out(step)
             return None
-
-    @contextmanager
-    def paused(self) -> Iterator[None]:
-        """Do not count what is done meanwhile."""
-        began = self._now()
-        try:
-            yield
-        finally:
-            self._whole._end += self._now() - began
 
 
 NEVER = Deadline()

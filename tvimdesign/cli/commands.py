@@ -15,7 +15,6 @@ from tvimdesign.cli.explore_command import explore
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
 from tvimdesign.cli.parts_command import cad
-from tvimdesign.cli.shared_options import Scheduler, Shard
 from tvimdesign.cli.sweep_command import sweep
 from tvimdesign.cli.tolerate_command import tolerate
 from tvimdesign.report.virtual_tests import TESTS
@@ -61,16 +60,9 @@ def run(
     ] = False,
     resume: Annotated[
         bool,
-        typer.Option(
-            "--resume", help="Go on where an earlier run in that folder was stopped: with a front, or with --prove."
-        ),
+        typer.Option("--resume", help="Continue the front of an earlier run in that folder that was stopped."),
     ] = False,
     prove: Annotated[bool, typer.Option("--prove", help="Solve every combination of listed choices as well.")] = False,
-    workers: Annotated[
-        int, typer.Option("--workers", min=0, help="Processes for --prove; this one alone unless given.")
-    ] = 0,
-    shard: Shard = "",
-    scheduler: Scheduler = "",
     full: Annotated[bool, typer.Option("--full", help="Print every table, not only the first screen.")] = False,
     time_limit: Annotated[
         str,
@@ -85,13 +77,12 @@ def run(
 ) -> None:
     """Evaluate or optimise a study and write a folder of results."""
     from tvimdesign.report.run.run_study import run_study
-    from tvimdesign.sweep.run_sweep import Where
 
-    folder, where = out or default_folder(study), Where.of(workers, scheduler, shard)
+    folder = out or default_folder(study)
     after = _verification(folder, fe_python, overwrite=overwrite, told=not json) if verified else None
     run_study(
         study, folder, overwrite=overwrite, cad=cad, plots=plots, sensitivities=sensitivities,
-        prove=prove, resume=resume, full=full, as_json=json, where=where if where.said or workers else None,
+        prove=prove, resume=resume, full=full, as_json=json,
         settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
     )  # fmt: skip
     if after:

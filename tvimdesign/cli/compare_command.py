@@ -1,4 +1,4 @@
-"""The command `compare`: studies against each other, answered here, as the jobs of an array, or on a cluster."""
+"""The command `compare`: studies beside each other."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import typer
 
 from tvimdesign.cli import completions
 from tvimdesign.cli.options import AsJson, Overwrite, Settings
-from tvimdesign.cli.shared_options import Resume, Scheduler, Shard
 
 
 def compare(
@@ -24,17 +23,6 @@ def compare(
         typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
     ] = None,
     points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 6,
-    workers: Annotated[
-        int,
-        typer.Option(
-            "--workers",
-            min=0,
-            help="Processes with --shard or --resume: one a processor unless given; else two.",
-        ),
-    ] = 0,
-    shard: Shard = "",
-    scheduler: Scheduler = "",
-    resume: Resume = False,
     overwrite: Overwrite = False,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
     settings: Settings = None,
@@ -42,11 +30,8 @@ def compare(
 ) -> None:
     """Hold studies with the same requirements against each other: as drawn, and each optimised for itself."""
     from tvimdesign.report.compare.compare_studies import compare_studies
-    from tvimdesign.sweep.run_sweep import Where
 
-    where = Where.of(workers, scheduler, shard)
     compare_studies(
         studies, out or Path("results") / "-vs-".join(study.stem for study in studies), points=points,
         overwrite=overwrite, plots=plots, as_json=json, settings=settings or (),
-        where=where if where.said else Where(workers) if resume else None, resume=resume,
     )  # fmt: skip

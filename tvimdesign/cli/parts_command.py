@@ -7,11 +7,9 @@ from typing import Annotated
 
 import typer
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.cli import completions
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.cli.options import AsJson, Out, Overwrite
-from tvimdesign.cli.shared_options import Resume, Scheduler, Shard, Workers
 
 
 def cad(
@@ -26,10 +24,6 @@ def cad(
     cells: Annotated[
         str, typer.Option("--cells", metavar="CELLS", help="Cells of the sweep, such as 3,7-9, or best.")
     ] = "",
-    workers: Workers = 0,
-    shard: Shard = "",
-    scheduler: Scheduler = "",
-    resume: Resume = False,
     out: Out = None,
     overwrite: Overwrite = False,
     json: AsJson = False,
@@ -37,15 +31,10 @@ def cad(
     """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
     if cells:
         from tvimdesign.report.sweep.cell_parts import make_parts_of_cells
-        from tvimdesign.sweep.run_sweep import Where
 
-        make_parts_of_cells(
-            design, out or design.parent / f"{name_of(design)}-cad", cells, Where.of(workers, scheduler, shard),
-            overwrite=overwrite, resume=resume, as_json=json,
-        )  # fmt: skip
+        folder = out or design.parent / f"{name_of(design)}-cad"
+        make_parts_of_cells(design, folder, cells, overwrite=overwrite, as_json=json)
         return
-    if shard or scheduler or resume or workers:
-        raise InputError("--workers, --shard, --scheduler and --resume are for cells of a sweep: name some by --cells")
     from tvimdesign.report.run.run_study import make_parts
 
     make_parts(design, out or default_folder(design), overwrite=overwrite, as_json=json)

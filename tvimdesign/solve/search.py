@@ -13,7 +13,7 @@ from tvimdesign.base.interrupts import interrupt_came
 from tvimdesign.solve.best_so_far import SearchInterrupted, best_so_far
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
-from tvimdesign.solve.discrete.enumeration import Begin, Block, Enumerate, SolvedBlock, enumerated_here
+from tvimdesign.solve.discrete.enumeration import Begin, Block, SolvedBlock, enumerated_here
 from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
@@ -56,7 +56,6 @@ def optimize(
     reference: dict[str, float] | None = None,
     keep: Keep = lambda *_: None,
     objectives: Sequence[str] = (),
-    enumerate_all: Enumerate = enumerated_here,
     deadline: Deadline | None = None,
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
@@ -64,14 +63,14 @@ def optimize(
     `reference` are the values the minimised outputs are divided by: those of the study's start unless given.
     `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
     that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
-    has the best design so far. Where the study asks that every combination be solved, `enumerate_all` does that.
+    has the best design so far.
     The search ends in time for its design to be verified before the `deadline`: the study's time limit from now on
     unless given. Raises TimeOverError where there is no time to search.
     """
     trees: list[Relaxation] = []
     try:
         whole = deadline or Deadline(study.solver.time_limit)
-        return _optimize(study, progress, reference, keep, objectives, trees, whole, enumerate_all)
+        return _optimize(study, progress, reference, keep, objectives, trees, whole)
     except (KeyboardInterrupt, Exception) as error:
         if isinstance(error, KeyboardInterrupt) or interrupt_came():  # a library raises something else for one
             raise SearchInterrupted(best_so_far(study, trees)) from error
@@ -86,7 +85,6 @@ def _optimize(
     objectives: Sequence[str],
     trees: list[Relaxation],
     whole: Deadline,
-    enumerate_all: Enumerate,
 ) -> Solution:
     """The same up to a deadline; `trees` are filled with the problems of the search."""
     deadline = whole.leaving(_TO_VERIFY * whole.seconds)
@@ -111,14 +109,14 @@ def _optimize(
     found, shown, exact = free, list[tuple[Relaxation, Run]](), building.exact()
     if listed and in_time is None:
         begin = Begin(study, reference, objectives, trees)
-        choosing, found, shown = _choose(search, exact, combinations, begin, enumerate_all)
+        choosing, found, shown = _choose(search, exact, combinations, begin)
         in_time = _in_time(study, found, deadline)
     elif combinations > 1:
         choosing, shown = _chosen(free, combinations, study.solver)
     if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
-        return _optimize(in_time, progress, reference, keep, objectives, trees, whole, enumerate_all)
+        return _optimize(in_time, progress, reference, keep, objectives, trees, whole)
     relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if listed else [])]
     nominal = run
@@ -260,7 +258,7 @@ def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline
 
 
 def _choose(
-    search: BranchAndBound, exact: ExactCombinations, combinations: int, begin: Begin, enumerate_all: Enumerate
+    search: BranchAndBound, exact: ExactCombinations, combinations: int, begin: Begin
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]], list[tuple[Relaxation, Run]]]:
     """The best combinations that branch and bound found, and where that is asked for by solving all: the account, the
     designs, and those of them that are to be reported, which are not simulated yet.
@@ -270,7 +268,7 @@ def _choose(
     found, proof = dict(search.found), SolverEffort()
     pruned, improved = search.pruned, 0.0
     if asked.prove and not stopped:
-        found, proof = _each(search.found, enumerate_all(begin))
+        found, proof = _each(search.found, enumerated_here(begin))
         pruned = 0
         improved = _improvement(search.found, found)
     ranked = sorted(found, key=lambda key: (order(found[key]), key))

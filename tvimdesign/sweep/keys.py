@@ -98,11 +98,6 @@ def key_of(said: Any) -> str:
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:_LENGTH]
 
 
-def said_of(study: Study) -> dict[str, Any]:
-    """What makes one study another: its values, and what the records say that it chooses from."""
-    return {"study": _plain(leaves_of(study)), "records": records_hash(study), "tvimdesign": __version__}
-
-
 def leaves_of(study: Study) -> Leaves:
     """A resolved study as its single values by where they stand."""
     return dict(_walk(study.model_dump(mode="json", exclude=_NOT_OF_THE_DESIGN), ()))

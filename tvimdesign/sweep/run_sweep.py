@@ -82,12 +82,11 @@ def run_sweep(plan: SweepPlan, folder: Path, where: Where, say: Say) -> SweepDon
 
 
 def run_cells(
-    work: Work, keys: Sequence[str], texts: Callable[[int], Texts], folder: Path, where: Where, say: Say,
-    called: str = "cell",
+    work: Work, keys: Sequence[str], texts: Callable[[int], Texts], folder: Path, where: Where, say: Say
 ) -> SweepDone:  # fmt: skip
     """Do every cell of this part that the store in the folder does not have; `texts` says what a cell is set to.
 
-    Cells are `called` so where they are counted. Raises OutputError, TvimError.
+    Raises OutputError, TvimError.
     """
     first, parts = where.part
     known, own = Shards(folder, work.columns), range(first - 1, len(keys), parts)
@@ -95,15 +94,15 @@ def run_cells(
     reused = len(own) - sum(keys[number] in waiting for number in own)
     spent, there = Spent(), known
     if waiting:
-        spent = _answered(work, list(waiting.values()), folder, where, say, called)
+        spent = _answered(work, list(waiting.values()), folder, where, say)
         there = Shards(folder, work.columns)
     missing = sum(key not in there for key in keys)
     return SweepDone(len(keys), reused, len(own) - reused, missing, spent, () if missing else tuple(keys))
 
 
-def _answered(work: Work, cells: list[Cell], folder: Path, where: Where, say: Say, called: str) -> Spent:
+def _answered(work: Work, cells: list[Cell], folder: Path, where: Where, say: Say) -> Spent:
     def heard(spent: Spent) -> None:
-        say(f"{called} {min(spent.cells + 1, len(cells))} of {len(cells)}")
+        say(f"cell {min(spent.cells + 1, len(cells))} of {len(cells)}")
 
     heard(Spent())
     if where.scheduler:

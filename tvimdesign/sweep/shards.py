@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from tvimdesign import __version__
 from tvimdesign.base.errors import OutputError
 from tvimdesign.base.journal import record
-from tvimdesign.base.whole_files import make_folder, write_whole
+from tvimdesign.base.whole_files import make_folder
 from tvimdesign.sweep.work import CellAnswer
 
 SHARDS = "shards"
@@ -32,7 +32,7 @@ class ShardWriter:
 
     def __init__(self, folder: Path, columns: Sequence[str]) -> None:
         """Nothing is written yet."""
-        self._out, self._folder, self._columns = folder, folder / SHARDS, list(columns)
+        self._folder, self._columns = folder / SHARDS, list(columns)
         self._path: Path | None = None
         self._file, self._digest = -1, hashlib.sha256()
 
@@ -47,13 +47,11 @@ class ShardWriter:
             self._file = -1
 
     def append(self, cells: Sequence[tuple[str, CellAnswer, float]]) -> None:
-        """Write cells, each with its key and what it took [s], and flush them to the disk; their files before them.
+        """Write cells, each with its key and what it took [s], and flush them to the disk.
 
         Raises OutputError where there is no room; what was there before stays whole.
         """
         try:
-            for _, answer, _ in cells:
-                self._write_files(answer)
             lines = [_line(*cell) for cell in cells]
             if self._file < 0:
                 self._begin()
@@ -62,15 +60,6 @@ class ShardWriter:
             raise OutputError(
                 f"{self._path or self._folder}: cannot be written: {error.strerror or error}; {_GOES_ON}"
             ) from error
-
-    def _write_files(self, answer: CellAnswer) -> None:
-        for name, data in answer.files:
-            path = self._out / name
-            try:
-                make_folder(path.parent)
-                write_whole(path, data)
-            except OutputError as error:
-                raise OutputError(f"{str(error).partition(';')[0]}; {_GOES_ON}") from error
 
     def _begin(self) -> None:
         make_folder(self._folder)
@@ -154,7 +143,7 @@ class Shards:
 
 
 def _line(key: str, answer: CellAnswer, seconds: float) -> str:
-    status, reason, broken, margin, values, warm, _ = answer
+    status, reason, broken, margin, values, warm = answer
     return json.dumps([key, status, reason, broken, margin, values, int(warm), round(seconds, 4)])
 
 

@@ -35,8 +35,6 @@ class CellAnswer(NamedTuple):
     """SI, in the order of the columns; words of what is chosen; None where there is none."""
     warm: bool = False
     """Whether the search began at another cell's optimum and found this one's."""
-    files: tuple[tuple[str, bytes], ...] = ()
-    """Files of the folder that belong to it: path and content. They are there before the cell is."""
 
 
 class Answers(Protocol):

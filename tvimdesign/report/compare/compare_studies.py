@@ -18,13 +18,11 @@ from tvimdesign.report.compare.comparison_page import comparison_page
 from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import print_comparison, summary_text
 from tvimdesign.report.compare.comparison_table import compare_csv
-from tvimdesign.report.compare.shared_answers import found_of, studies_asked
 from tvimdesign.report.figures.plot_process import PlotProcess
 from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.partly_done import PARTLY_DONE
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.shared_folder import answered_cells, say_part
 from tvimdesign.report.run.check_study import refuse_what_cannot_be
 from tvimdesign.study import read_tree
 from tvimdesign.study.conditions import Entrant, refuse_unequal
@@ -32,18 +30,13 @@ from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.named_file import printable
 from tvimdesign.study.tree import study_file, tree_of_file
-from tvimdesign.sweep.run_sweep import Where
 
 
 def compare_studies(
     paths: Sequence[Path], out: Path, *, points: int, overwrite: bool, plots: bool, as_json: bool,
-    settings: Sequence[str] = (), where: Where | None = None, resume: bool = False,
+    settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
-    """Compare studies and write the folder. Raises InputError for what cannot be compared, TvimError for failures.
-
-    `where` names an array's job or a cluster; studies are answered here unless given. With `resume` those that are
-    there are not answered again.
-    """
+    """Compare studies and write the folder. Raises InputError for what cannot be compared, TvimError for failures."""
     began = time.perf_counter()
     entrants = labelled(_read(paths, settings))
     with ExitStack() as stack:
@@ -54,19 +47,9 @@ def compare_studies(
             nonlocal drawing
             drawing = stack.enter_context(PlotProcess()) if plots else None
 
-        if where or resume:
-            trees = {label: tree_of_file(entrant.path, settings) for label, entrant in entrants.items()}
-            cells, place = studies_asked(list(trees.values()), points), where or Where()
-            shared, done = answered_cells(stack, out, cells, place, progress, overwrite=overwrite, resume=resume)
-            if shared is None:
-                say_part(done, place, out, wide_console(), as_json=as_json)
-                return
-            folder, found = shared, found_of(cells, list(trees), shared.path)
-            begin_drawing()
-        else:
-            folder = stack.enter_context(ResultsFolder(out, overwrite))
-            asked = [Asked(label, entrant.path) for label, entrant in entrants.items()]
-            found = answers(asked, folder.path, points, progress, begin_drawing, settings)
+        folder = stack.enter_context(ResultsFolder(out, overwrite))
+        asked = [Asked(label, entrant.path) for label, entrant in entrants.items()]
+        found = answers(asked, folder.path, points, progress, begin_drawing, settings)
         outcome = Outcome(entrants, found)
         outcome.seconds["all answers"] = time.perf_counter() - began
         asked_for = drawings(outcome)

@@ -7,7 +7,6 @@ import platform
 import subprocess
 import sys
 import uuid
-from collections.abc import Sequence
 from datetime import UTC, datetime
 from functools import cached_property
 from importlib import metadata
@@ -45,19 +44,17 @@ class ResultsFolder:
     """
 
     def __init__(
-        self, out: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS,
-        kept: Sequence[str] = (),
+        self, out: Path, overwrite: bool = False, resume: bool = False, progress: str = PROGRESS
     ) -> None:  # fmt: skip
         """Claim the folder `out`, made where there is none. Raises InputError where it is in use, or not ours.
 
-        With `resume` the run continues from what an unfinished or earlier one left: the files of the folder `progress`,
-        and all within the folders that are `kept`.
+        With `resume` the run continues from the files in the folder `progress` of an unfinished or earlier one.
         """
         if overwrite and resume:
             raise InputError("--overwrite and --resume: choose one")
         self.out, self.path = out, out / UNFINISHED
         """Where the results will be, and where files are written until then."""
-        self._progress, self._kept = PurePosixPath(progress), tuple(map(PurePosixPath, kept))
+        self._progress = PurePosixPath(progress)
         self._run, self._started = uuid.uuid4().hex, datetime.now(UTC)
         self._results: Manifest | None = None
         try:
@@ -85,12 +82,12 @@ class ResultsFolder:
         if not (overwrite or resume) and written:
             raise InputError(
                 f"{self.path}: holds what an unfinished run has written; --overwrite begins again, --resume goes on "
-                "with a front, a sweep or what --prove does, or name another folder with --out"
+                "with a front or a sweep, or name another folder with --out"
             )
         if not (overwrite or resume) and results:
             raise InputError(
                 f"{self.out}: holds results already; say --overwrite to replace them, or --out another folder; "
-                "--resume goes on with a front or a sweep that was stopped, or with what --prove does"
+                "--resume goes on with a front or a sweep that was stopped"
             )
         discard_unfinished(self.path, say)
         if resume:
@@ -98,8 +95,7 @@ class ResultsFolder:
 
     def _is_continued(self, name: str) -> bool:
         """Return whether a run that is resumed continues from a file."""
-        parents = PurePosixPath(name).parents
-        return parents[0] == self._progress or bool(set(self._kept) & set(parents))
+        return PurePosixPath(name).parent == self._progress
 
     def __enter__(self) -> ResultsFolder:
         """Return itself."""

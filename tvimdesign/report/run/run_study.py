@@ -16,7 +16,6 @@ from tvimdesign.base.errors import (
     AboveRatingError,
     BelowYieldError,
     InfeasibleError,
-    InputError,
     TimeOverError,
     TvimError,
 )
@@ -27,7 +26,6 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.study import read_tree
 from tvimdesign.study.design import read_design, write_design
 from tvimdesign.study.tree import tree_of_file
-from tvimdesign.sweep.run_sweep import Where
 
 if TYPE_CHECKING:
     from tvimdesign.report.figures.plot_process import PlotProcess
@@ -36,29 +34,19 @@ if TYPE_CHECKING:
     from tvimdesign.report.run.first_screen.run_screen import RunScreen
     from tvimdesign.report.run.parts_of_design import PartsAhead
     from tvimdesign.solve.result import Designed
-    from tvimdesign.solve.search import Search
-    from tvimdesign.study import Study
     from tvimdesign.study.design import Design
 
 
 def run_study(
     path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
     resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (),
-    where: Where | None = None,
 ) -> None:  # fmt: skip
-    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done.
-
-    `where` says who solves the combinations of what is listed, where all are solved; this process unless given, or the
-    run goes on with another one.
-    """
+    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
-    place = _place_of_proof(where, proves=prove or study.solver.prove, resume=resume)
     without = how_to_install("cad") if cad and study.write.cad else ""
     with ExitStack() as stack:
-        folder = _claimed(stack, out, study, place, overwrite=overwrite, resume=resume, as_json=as_json)
-        if folder is None:
-            return
+        folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
         deadline = Deadline(study.solver.time_limit)
         # Begun before what solves and reports is loaded here: both take their time to load as much.
         making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
@@ -69,6 +57,7 @@ def run_study(
         from tvimdesign.report.run.refusal import leaving_the_reason
         from tvimdesign.report.run.run_page.run_page import write_run_page
         from tvimdesign.report.run.write_answer import finish, write_answer, write_results
+        from tvimdesign.solve.search import optimize
 
         best = stack.enter_context(keeping_best(folder))
         progress = stack.enter_context(progress_output())
@@ -80,7 +69,7 @@ def run_study(
                 prove=prove,
                 sensitivities=sensitivities,
                 folder=folder,
-                search=_search(folder, place, progress, deadline),
+                search=partial(optimize, deadline=deadline),
                 early=best.note,
                 designed=_asked_of_design(making, folder, screen),
                 deadline=deadline,
@@ -108,35 +97,6 @@ def run_study(
         finish(folder, answered)
     _say_last(answered, folder.out, failures, without if found.found else "", as_json=as_json)
     _end_as(answered)
-
-
-def _place_of_proof(where: Where | None, *, proves: bool, resume: bool) -> Where | None:
-    """Who solves combinations as cells that the folder keeps; nobody where this process solves them, or none does."""
-    if where and not proves:
-        raise InputError("--shard, --scheduler and --workers share out what --prove solves: say --prove as well")
-    return where or (Where() if proves and resume else None)
-
-
-def _claimed(
-    stack: ExitStack, out: Path, study: Study, where: Where | None, *, overwrite: bool, resume: bool, as_json: bool
-) -> ResultsFolder | None:
-    """The folder of this run; none where another job writes the answer."""
-    if where is None:
-        return stack.enter_context(ResultsFolder(out, overwrite, resume))
-    from tvimdesign.report.run.answered_study import proving
-    from tvimdesign.report.run.shared_proof import claimed
-
-    return claimed(stack, out, proving(study), where, overwrite=overwrite, resume=resume, as_json=as_json)
-
-
-def _search(folder: ResultsFolder, where: Where | None, progress: Progress, deadline: Deadline) -> Search:
-    if where is None:
-        from tvimdesign.solve.search import optimize
-
-        return partial(optimize, deadline=deadline)
-    from tvimdesign.report.run.shared_proof import proved_in
-
-    return proved_in(folder.path, where, progress, deadline)
 
 
 def _parts_ahead(mode: str) -> PartsAhead:

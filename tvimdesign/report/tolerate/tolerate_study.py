@@ -19,10 +19,8 @@ from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.shared_folder import say_part
 from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.tolerate.shared_draws import drawn_elsewhere
 from tvimdesign.report.tolerate.tolerance_page import tolerance_page
 from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
 from tvimdesign.report.tolerate.tolerance_screen import print_tolerances, print_unknown
@@ -38,10 +36,9 @@ from tvimdesign.report.tolerate.words import sentences
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer
-from tvimdesign.solve.uncertainty.tolerance import Drawn, Preload, Spread, Tolerancing
+from tvimdesign.solve.uncertainty.tolerance import Preload, Spread, Tolerancing
 from tvimdesign.study import Study, read_study, standard_tolerances
 from tvimdesign.study.design import Design, read_design, write_design
-from tvimdesign.sweep.run_sweep import Where
 
 FEWEST, MOST = 1 << 8, 1 << 22
 """Modules that may be drawn."""
@@ -59,14 +56,10 @@ class TolerancedModule:
 
 
 def tolerate_study(
-    path: Path, out: Path, samples: int, workers: int, *, overwrite: bool, as_json: bool, where: Where | None = None,
-    resume: bool = False,
+    path: Path, out: Path, samples: int, workers: int, *, overwrite: bool, as_json: bool
 ) -> None:  # fmt: skip
     """Analyse a study's or a design's tolerances and write a folder. Raises InputError, InfeasibleError,
     and TvimError once all but the figure is done.
-
-    `where` names an array's job or a cluster; modules are drawn in this process unless given. With `resume` blocks of
-    modules that are there are not drawn again.
     """
     if not FEWEST <= samples <= MOST:
         raise InputError(f"--samples {samples}: must be {FEWEST} to {MOST}")
@@ -75,25 +68,13 @@ def tolerate_study(
     failures: list[TvimError] = []
     with ExitStack() as stack:
         study = _study(source)
-        shared = bool(where) or resume
-        own = None if shared else stack.enter_context(ResultsFolder(out, overwrite))
+        folder = stack.enter_context(ResultsFolder(out, overwrite))
         progress = stack.enter_context(progress_output())
-        drawing = stack.enter_context(PlotProcess()) if study.write.plots and not shared else None
+        drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
         subject = _subject(source, study, progress)
         modules = [subject.resolved, *([subject.nominal] if subject.nominal else [])]
         analyses = [Tolerancing(module, progress, threads) for module in modules]
-        drawn: list[Drawn | None] = [None] * len(analyses)
-        if own is None:
-            place = where or Where(workers)
-            own, done, drawn[:] = drawn_elsewhere(
-                stack, out, analyses, count, place, progress, overwrite=overwrite, resume=resume
-            )
-            if own is None:
-                say_part(done, place, out, wide_console(), as_json=as_json)
-                return
-            drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
-        folder = own
-        found, preload = _analysed(analyses[0], count, drawn[0])
+        found, preload = _analysed(analyses[0], count)
         table, study = subject.resolved.table, subject.resolved.study
         data = reported(found, preload, table, study, count)
         progress("moving what nobody has measured")
@@ -102,7 +83,7 @@ def tolerate_study(
         data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
         data["sentences"] = [*sentences(found, preload, table), *unknown_sentences(unknown, found)]
         if subject.nominal is not None:
-            before, _ = _analysed(analyses[1], count, drawn[1])
+            before, _ = _analysed(analyses[1], count)
             data["cost_of_robustness"] = _price(before, found, table, study)
         _write(folder, source, subject, data, found, table)
         if drawing:
@@ -174,9 +155,9 @@ def _optimum(study: Study, progress: Progress) -> Design:
     return found.design
 
 
-def _analysed(analysis: Tolerancing, samples: int, drawn: Drawn | None) -> tuple[Spread, Preload | None]:
+def _analysed(analysis: Tolerancing, samples: int) -> tuple[Spread, Preload | None]:
     seed = analysis.resolved.study.solver.seed
-    return analysis.analyse(samples, seed, drawn), analysis.preload(samples, seed, drawn)
+    return analysis.analyse(samples, seed), analysis.preload(samples, seed)
 
 
 def _price(before: Spread, after: Spread, table: Table, study: Study) -> list[dict[str, Any]]:

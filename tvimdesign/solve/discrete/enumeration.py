@@ -8,7 +8,7 @@ No block depends on another, nor on who solves it.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from tvimdesign.solve.discrete.discrete_choices import Box
@@ -44,10 +44,6 @@ class Begin(NamedTuple):
     reference: dict[str, float] | None
     objectives: Sequence[str]
     trees: Sequence[Relaxation]
-
-
-Enumerate = Callable[[Begin], Iterable[tuple[Block, SolvedBlock]]]
-"""Who solves every combination of a search."""
 
 
 def blocks_of(trees: Sequence[Relaxation]) -> list[Block]:

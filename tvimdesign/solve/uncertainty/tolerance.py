@@ -187,8 +187,8 @@ class Tolerancing:
     def _limits_on_preload(self) -> list[Constraint]:
         return [limit for limit in self.limits if self._on_preload(limit)]
 
-    def drawn_here(self, samples: int, seed: int) -> Drawn:
-        """Draws modules in this process."""
+    def _draws(self, samples: int, seed: int) -> Drawn:
+        """Return what draws modules."""
         compiled = {self.outputs: self.many}
 
         def drawn(draw: Draw) -> Array:
@@ -199,8 +199,8 @@ class Tolerancing:
 
         return drawn
 
-    def analyse(self, samples: int, seed: int, drawn: Drawn | None = None) -> Spread:
-        """Worst case, root-sum-square and Monte Carlo, side by side; `drawn` draws the modules, else this process."""
+    def analyse(self, samples: int, seed: int) -> Spread:
+        """Return worst case, root-sum-square and Monte Carlo, side by side."""
         contributors = self.contributors
         function = columns_of(self.resolved, self.names, self.many, self.whole, self.workers)
         place = [self.names.index(contributor.name) for contributor in contributors]
@@ -209,7 +209,7 @@ class Tolerancing:
         self.progress("looking at the corners of the tolerances")
         worst = spread.worst_case(function, contributors, derivatives)
         self.progress(f"drawing {samples} modules")
-        found = spread.moments_of((drawn or self.drawn_here(samples, seed))(self.whole))
+        found = spread.moments_of(self._draws(samples, seed)(self.whole))
         self.progress("sharing the variance out")
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
         kept, together = self._kept(found)
@@ -231,13 +231,13 @@ class Tolerancing:
             found.append(Kept(limit, spread.share_kept(keeps), able))
         return tuple(found), spread.share_kept(every)
 
-    def preload(self, samples: int, seed: int, drawn: Drawn | None = None) -> Preload | None:
+    def preload(self, samples: int, seed: int) -> Preload | None:
         """The free angle as bought and adjusted; None where the study gives it no tolerance, or nothing hangs on it."""
         draws = self.on_preload
         if draws is None:
             return None
         self.progress("adjusting the preload")
-        values_of, limits, outputs = drawn or self.drawn_here(samples, seed), self._limits_on_preload, draws[0].outputs
+        values_of, limits, outputs = self._draws(samples, seed), self._limits_on_preload, draws[0].outputs
         sizes, yields = [], []
         for draw in draws:
             values = values_of(draw)
