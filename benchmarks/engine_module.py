@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from engine_joint import JointNumbers
-from engine_network import HEAT_UNIT, STEPS, Array, Assembler
+from engine_network import HEAT_UNIT, SOFTENING, STEPS, Array, Assembler
 from engine_phase import TIME, phase
 from engine_steps import FAR, HOT, MEAN, NEAR, POWER, SOFT, THIRD, VOLTAGE, WATCHED
 from quick import Quick
@@ -32,8 +32,9 @@ class Module:
             entries[model.index[one.name]] = one.to_value(self.unknowns[i])
         self.inputs = ca.vertcat(*entries)
         current = symbols(found._inputs)[model.index["current"]]
-        assembler = Assembler(found._stack, model.cells, current, steps)
         self.event, self.rheology = EVENTS[model.words["response_criterion"]], np.zeros(0)
+        finer = SOFTENING if self.event == SOFT else 1.0
+        assembler = Assembler(found._stack, model.cells, current, finer * steps)
         self.target = 0.0 if self.event == SOFT else float(model.start[model.index["target_temperature"]])
         written, constants = assembler.numbers(), assembler.material()
         self.network = assembler.network()

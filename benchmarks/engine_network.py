@@ -26,8 +26,9 @@ AIR = -1
 """The ambient, as if it were a node."""
 HEAT_UNIT = 1e3
 """Enthalpy of a cell that counts as one, as a kelvin of the other nodes does [J/kg]."""
-STEPS, FREEZING = 1.4, 8.0
-"""Steps in about the time that the pads at their power would need to heat the layer; more of a layer that freezes."""
+STEPS, SOFTENING, FREEZING = 1.0, 2.5, 8.0
+"""Steps in about the time that the pads at their power would need to heat the layer; how many times more to an event of
+the impedance, and of a layer that freezes."""
 
 
 NONE = np.zeros(0)
@@ -76,6 +77,9 @@ class Network(NamedTuple):
     right: Integers
     """Columns that are not zero to the right of each diagonal entry, row after row."""
     right_at: Integers
+    left: Integers
+    """Columns that are not zero to the left of each diagonal entry, row after row."""
+    left_at: Integers
 
 
 class Assembler:
@@ -257,7 +261,7 @@ class Assembler:
         for k in range(self.size):
             filled[k + 1 :, k + 1 :] |= np.outer(filled[k + 1 :, k], filled[k, k + 1 :])
         found: list[Integers] = []
-        for half in (np.tril(filled, -1).T, np.triu(filled, 1)):
+        for half in (np.tril(filled, -1).T, np.triu(filled, 1), np.tril(filled, -1)):
             found += [np.nonzero(half)[1], np.concatenate([[0], np.cumsum(half.sum(axis=1))])]
         return found
 

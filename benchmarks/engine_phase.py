@@ -75,7 +75,7 @@ def phase(
     lengths[:] = 0.0
     lengths[last] = 1.0
     if steps > 0:
-        low, high = 0.0, length
+        low, high, nearer = 0.0, length, 0.0
         length = _within(length, last_gap, gap, last_rise, rise)
         for _ in range(SEARCHES):
             y[:], s[:] = before, sbefore
@@ -85,12 +85,16 @@ def phase(
             if which == SOFT:
                 o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, do[SOFT])
             gap = sense * (o[which] - target)
+            nearer = -gap / (sense * do[which, last])
             if abs(gap) < THERE:
                 break
             low, high = (length, high) if gap < 0.0 else (low, length)
-            length -= gap / (sense * do[which, last])
+            length += nearer
             if not low < length < high:
                 length = 0.5 * (low + high)
+        length += nearer
+        y += nearer * s[:, last]
+        o += nearer * do[:, last]
     for j in range(last):
         longer = -do[which, j] / do[which, last] if steps > 0 else 0.0
         of_ends[TIME, j] = passed * dq[net.layer + 7, j] + longer

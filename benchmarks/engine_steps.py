@@ -22,11 +22,11 @@ THIRD = np.array(
     [[_G, 0.0, 0.0], [0.5 * (1.0 - _G), _G, 0.0], [4.0 * _G - 1.5 * _G**2 - 0.25, 1.5 * _G**2 - 5.0 * _G + 1.25, _G]]
 )
 """Alexander's methods of second and third order; both are stiffly accurate."""
-NEWTON, EXACT = 12, 1e-4
+NEWTON, EXACT = 12, 1e-3
 """Newton's steps at most; the change [K] below which one is the last: what is left is about its square."""
-FIRST, GROWTH, LONGEST = 0.03, 2.0, 2000
-SEARCHES, THERE = 20, 1e-8
-"""Steps to the event at most, and how near [K] is there."""
+FIRST, GROWTH, LONGEST = 0.2, 2.5, 2000
+SEARCHES, THERE = 20, 1e-4
+"""Steps to the event at most, and from how near [K] its slope leads there."""
 NEAR, MEAN, FAR, HOT, RIM, POWER, VOLTAGE, COLD, FROZEN, SOFT = range(10)
 """What is watched: faces and mean of the layer, pads' hot side, plate's face [K], power [W], voltage [V], pads' cold
 side [K], least solid fraction [1], how soft the joint is beyond its threshold, as a logarithm."""
@@ -51,11 +51,11 @@ def factor(w: Array, net: Network) -> None:
 def solve(w: Array, b: Array, net: Network) -> None:
     """Solve for the columns of `b` in place, by the factors."""
     count = b.shape[1]
-    for k in range(net.nodes):
-        for r in range(net.below_at[k], net.below_at[k + 1]):
-            share = w[net.below[r], k]
+    for i in range(net.nodes):
+        for c in range(net.left_at[i], net.left_at[i + 1]):
+            share = w[i, net.left[c]]
             for j in range(count):
-                b[net.below[r], j] -= share * b[k, j]
+                b[i, j] -= share * b[net.left[c], j]
     for k in range(net.nodes - 1, -1, -1):
         for c in range(net.right_at[k], net.right_at[k + 1]):
             share = w[k, net.right[c]]
@@ -68,9 +68,11 @@ def solve(w: Array, b: Array, net: Network) -> None:
 @njit(cache=True, fastmath=FAST)
 def solve_one(w: Array, b: Array, net: Network) -> None:
     """Solve for one vector in place, by the factors."""
-    for k in range(net.nodes):
-        for r in range(net.below_at[k], net.below_at[k + 1]):
-            b[net.below[r]] -= w[net.below[r], k] * b[k]
+    for i in range(net.nodes):
+        whole = b[i]
+        for c in range(net.left_at[i], net.left_at[i + 1]):
+            whole -= w[i, net.left[c]] * b[net.left[c]]
+        b[i] = whole
     for k in range(net.nodes - 1, -1, -1):
         whole = b[k]
         for c in range(net.right_at[k], net.right_at[k + 1]):
@@ -135,10 +137,11 @@ def stage(
         y[nodes:] = p[PSI]
     d, count = np.empty((nodes, dq.shape[1])), dq.shape[1]
     tangents(t, p, q, dq, m, net, history, d)
-    flows(t, p, q, m, net, history, f)
     for i in range(nodes):
+        moved = y[i] - base[i]
+        rate = q[i] * moved / h
         for j in range(count):
-            d[i, j] = q[i] * sb[i, j] - dq[i, j] * (y[i] - base[i]) + h * d[i, j] + lengths[j] * f[i]
+            d[i, j] = q[i] * sb[i, j] - dq[i, j] * moved + h * d[i, j] + lengths[j] * rate
     if history:
         _of_history(sb, h, lengths, q, m, net, p, t, direct, d)
     solve(w, d, net)
