@@ -246,8 +246,14 @@ def tangents(t: Array, p: Array, q: Array, dq: Array, m: Array, net: Network, hi
             heat = by * dq[net.layer, j]
             d[i, j] -= heat
             d[i + 1, j] += heat
-    if net.lip < 0:
-        return
+    if net.lip >= 0:
+        _tangents_to_lip(t, p, dq, m, net, history, d)
+
+
+@njit(cache=True, fastmath=FAST)
+def _tangents_to_lip(t: Array, p: Array, dq: Array, m: Array, net: Network, history: bool, d: Array) -> None:
+    """Add the tangents of the heat that the lip gets through the layer."""
+    n, hot, count = net.cells, net.cells + net.plate + 2, dq.shape[1]
     alike, lip, mean = t[net.lip], t[net.lip + 1], 0.5 * (m[KS] + m[KM])
     for i in range(n + 1):
         if i < n:

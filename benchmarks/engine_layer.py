@@ -14,6 +14,9 @@ from engine_cells import BY_PSI_T, ZERO, ramp
 from engine_heat import FAST, KM, KS, potential
 from engine_network import Array, Network
 from numba import njit
+from numpy.typing import NDArray
+
+Complex = NDArray[np.complex128]
 
 MODES = 16
 """Where the modes' logarithms begin in the constants: times and shares of the solid, times and moduli of the melt."""
@@ -73,119 +76,151 @@ def softened(kelvin: float, r: Array) -> tuple[complex, complex]:
 
 
 @njit(cache=True, fastmath=FAST)
-def softness(
-    t: Array, p: Array, s: Array, q: Array, dq: Array, m: Array, r: Array, net: Network, direct: Array, d: Array
-) -> float:
-    """Return how far the joint is below its threshold, as a logarithm; its derivatives along the directions in `d`.
+def columns_of(
+    t: Array, drops: Array, q: Array, m: Array, r: Array, net: Network, slices: Complex, columns: Complex, by: Array
+) -> complex:
+    """Return the complex modulus of a layer on the melting curve [Pa]: columns side by side, slices in series.
 
-    A layer on the melting curve. Without columns of `d` the derivatives are left out.
+    Fills in what each slice gives more with its temperature, the columns' moduli, and what a slice's temperature moves
+    by with that of its cell, the end's, its share of the way between the two, and the plate's drop over the pads'.
     """
-    n, columns, count, nodes = net.cells, net.layer_columns, d.size, net.nodes
-    at = net.impedance
-    in_plate = at + 3 * nodes
-    share_at, warmer = in_plate + columns, in_plate + columns + n
-    below = warmer + columns * n
-    last = below + columns * n
-    pads, plate, through = 0.0, 0.0, 0.0
-    for i in range(nodes):
-        pads += q[at + i] * t[i]
-        plate += q[at + nodes + i] * t[i]
-        through += q[at + 2 * nodes + i] * t[i]
-    wall = t[net.lip + 1] if net.lip >= 0 else t[n + net.plate + 2]
+    n, place = net.cells, net.impedance + 3 * net.nodes
+    wall, middle = t[end_of(net)], 0.5 * (m[KS] + m[KM])
     at_wall, k_wall = potential(wall, m)
-    middle = 0.5 * (m[KS] + m[KM])
-    theta, conducts = np.empty(n), np.empty(n)
-    for j in range(n):
-        theta[j], conducts[j] = potential(t[j], m)
-    of_slices, of_columns = np.empty((columns, n), np.complex128), np.empty(columns, np.complex128)
-    weights, whole = np.zeros((columns, n, 4)), 0.0j
-    shares, fed = net.column_shares, net.fed_evenly
-    for i in range(columns):
-        given = 0.0j
+    whole = 0.0j
+    for i in range(net.layer_columns):
+        give = 0.0j
+        near, far = drops[0] * net.fed_evenly[i], drops[1] * q[place + i]
         for j in range(n):
-            w, share = q[warmer + i * n + j], q[share_at + j]
-            even = wall + w * (t[j] - wall)
-            at_even, k_even = potential(even, m)
-            kelvin = even - (at_even - at_wall - w * (theta[j] - at_wall)) / middle
-            near, far = pads * fed[i], plate * q[in_plate + i]
-            g, steep = modulus(kelvin - through * q[below + i * n + j] - near - (far - near) * share, m, r)
-            given += 1.0 / g
-            of_slices[i, j] = steep / (g * g)
-            weights[i, j, 0] = w - w * (k_even - conducts[j]) / middle
-            weights[i, j, 1] = (1.0 - w) * (1.0 - (k_even - k_wall) / middle)
-            weights[i, j, 2] = t[j] - wall - (k_even * (t[j] - wall) - theta[j] + at_wall) / middle
-            weights[i, j, 3] = far - near
-        of_columns[i] = n / given
-        whole += shares[i] * of_columns[i]
-    moment, springs, threshold, parts = q[last], q[last + 1], q[last + 2], last + 3
-    layer, cold, hot, beside = whole * moment, n + net.plate, n + net.plate + 2, n + net.plate + 3
-    core = beside + net.beside - 1
-    moduli, by = np.ones(PARTS, np.complex128), np.zeros(PARTS, np.complex128)
+            here = place + net.layer_columns + n + i * n + j
+            w, below, share = q[here], q[here + net.layer_columns * n], q[place + net.layer_columns + j]
+            (theta, k_cell), over = potential(t[j], m), t[j] - wall
+            at_even, k_even = potential(wall + w * over, m)
+            kelvin = wall + w * over - (at_even - at_wall - w * (theta - at_wall)) / middle
+            g, steep = modulus(kelvin - drops[2] * below - near - (far - near) * share, m, r)
+            give += 1.0 / g
+            slices[i, j] = steep / (g * g)
+            by[i, j, 0] = w - w * (k_even - k_cell) / middle
+            by[i, j, 1] = (1.0 - w) * (1.0 - (k_even - k_wall) / middle)
+            by[i, j, 2] = over - (k_even * over - theta + at_wall) / middle
+            by[i, j, 3] = far - near
+        columns[i] = n / give
+        whole += net.column_shares[i] * columns[i]
+    return whole
+
+
+@njit(cache=True, fastmath=FAST)
+def end_of(net: Network) -> int:
+    """Return the node at the layer's end: the lip, or the pads where nothing of it counts."""
+    return net.lip + 1 if net.lip >= 0 else net.cells + net.plate + 2
+
+
+@njit(cache=True, fastmath=FAST)
+def structure(t: Array, q: Array, r: Array, net: Network, at: int, moduli: Complex, heated: Array) -> complex:
+    """Return the complex compliance of the structure [rad/(N*m)] and its parts' moduli, compliances from `at` on.
+
+    Fills in by how much each node's temperature adds to the compliance: real and imaginary part, a row each.
+    """
+    n, cold, hot, beside = net.cells, net.cells + net.plate, net.cells + net.plate + 2, net.cells + net.plate + 3
+    core, by = beside + net.beside - 1, np.zeros(PARTS, np.complex128)
     moduli[0], by[0] = softened(t[core], r)
     moduli[1], by[1] = softened(t[core] + (t[beside] - t[core]) / 3.0, r)
-    moduli[2] = 0.0
+    moduli[2], moduli[5], moduli[6] = 0.0, complex(1.0, r[13] + r[15]), 1.0
     of_plate = np.empty(net.plate, np.complex128)
     for k in range(net.plate):
         one, of_plate[k] = softened(t[n + k], r)
         moduli[2] += one / net.plate
     moduli[3], by[3] = softened(0.5 * (t[hot] + t[cold]), r)
     moduli[4], by[4] = softened(t[cold], r)
-    moduli[5] = complex(1.0, r[13] + r[15])
     give = 0.0j
     for k in range(PARTS):
-        give += q[parts + k] / moduli[k]
-    branch = 1.0 / (1.0 / layer + give)
-    joint = springs + branch
-    size = abs(joint)
-    if count == 0:
-        return math.log(threshold) - math.log(size)
-    of_branch = joint.conjugate() / size * branch * branch
-    of_layer = of_branch / (layer * layer)
-    for j in range(count):
-        moved = (joint.conjugate() / size).real * dq[last + 1, j] + (of_layer * whole).real * dq[last, j]
-        for k in range(PARTS):
-            moved -= (of_branch / moduli[k]).real * dq[parts + k, j]
-        d[j] = moved
-    heated = np.zeros(nodes)
-    for k in (0, 1, 3, 4):
-        along = (of_branch * by[k] / moduli[k] ** 2).real * q[parts + k]
-        if k == 1:
-            heated[core] += 2.0 / 3.0 * along
-            heated[beside] += along / 3.0
-        elif k == 3:
-            heated[hot] += 0.5 * along
-            heated[cold] += 0.5 * along
-        else:
-            heated[core if k == 0 else cold] += along
+        give += q[at + k] / moduli[k]
+        by[k] *= -q[at + k] / moduli[k] ** 2
+    for node, one in (
+        (core, by[0] + by[1] * (2.0 / 3.0)),
+        (beside, by[1] * (1.0 / 3.0)),
+        (hot, by[3] * 0.5),
+        (cold, by[3] * 0.5 + by[4]),
+    ):
+        heated[0, node] += one.real
+        heated[1, node] += one.imag
     for k in range(net.plate):
-        heated[n + k] += (of_branch * of_plate[k] / moduli[2] ** 2).real * q[parts + 2] / net.plate
+        one = -q[at + 2] / net.plate * of_plate[k] / moduli[2] ** 2
+        heated[0, n + k] += one.real
+        heated[1, n + k] += one.imag
+    return give
+
+
+@njit(cache=True, fastmath=FAST)
+def softness(
+    t: Array, p: Array, s: Array, q: Array, dq: Array, m: Array, r: Array, net: Network, direct: Array, d: Array
+) -> float:
+    """Return how far the joint is below its threshold, as a logarithm; its derivatives along the directions in `d`.
+
+    Without columns of `d` the derivatives are left out.
+    """
+    n, columns, nodes = net.cells, net.layer_columns, net.nodes
+    last = net.impedance + 3 * nodes + columns + n + 2 * columns * n
+    drops = np.zeros(3)
+    for k in range(3):
+        for i in range(nodes):
+            drops[k] += q[net.impedance + k * nodes + i] * t[i]
+    slices, of_columns = np.empty((columns, n), np.complex128), np.empty(columns, np.complex128)
+    by, moduli, heated = np.empty((columns, n, 4)), np.empty(PARTS, np.complex128), np.zeros((2, nodes))
+    whole = columns_of(t, drops, q, m, r, net, slices, of_columns, by)
+    give = structure(t, q, r, net, last + 3, moduli, heated)
+    layer = whole * q[last]
+    branch = 1.0 / (1.0 / layer + give)
+    joint = q[last + 1] + branch
+    size = abs(joint)
+    if d.size == 0:
+        return math.log(q[last + 2]) - math.log(size)
+    # What the size moves by with compliances of the branch, and with the layer's modulus.
+    of_give = -joint.conjugate() / size * branch * branch
+    of_whole = -of_give / (layer * whole)
+    for j in range(d.size):
+        d[j] = (joint.conjugate() / size).real * dq[last + 1, j] + (of_whole * whole / q[last]).real * dq[last, j]
+        for k in range(PARTS):
+            d[j] += (of_give / moduli[k]).real * dq[last + 3 + k, j]
+    along = heated[0] * of_give.real - heated[1] * of_give.imag
     for i in range(columns):
-        of_column = of_layer * moment * shares[i] * of_columns[i] ** 2 / n
+        of_slice = of_whole * net.column_shares[i] * of_columns[i] ** 2 / n
         for j in range(n):
-            along, share = (of_column * of_slices[i, j]).real, q[share_at + j]
-            heated[j] += along * weights[i, j, 0]
-            heated[net.lip + 1 if net.lip >= 0 else hot] += along * weights[i, j, 1]
-            of_pads, of_plate_drop = -along * (1.0 - share) * fed[i], -along * share * q[in_plate + i]
-            of_through = -along * q[below + i * n + j]
-            for k in range(count):
-                d[k] += along * (weights[i, j, 2] * dq[warmer + i * n + j, k] - through * dq[below + i * n + j, k])
-                d[k] -= along * (weights[i, j, 3] * dq[share_at + j, k] + share * plate * dq[in_plate + i, k])
-            weights[i, j, 0], weights[i, j, 1], weights[i, j, 2] = of_pads, of_plate_drop, of_through
-    of_drops = np.zeros(3)
-    for i in range(columns):
-        for j in range(n):
-            for k in range(3):
-                of_drops[k] += weights[i, j, k]
+            slices[i, j] = slices[i, j] * of_slice
+    _of_slices(drops, q, dq, net, slices, by, t, along, d)
     for i in range(nodes):
-        for part in range(3):
-            heated[i] += of_drops[part] * q[at + part * nodes + i]
-            for j in range(count):
-                d[j] += of_drops[part] * t[i] * dq[at + part * nodes + i, j]
         slope = p[1, i] if i < n else 1.0
-        for j in range(count):
-            d[j] += heated[i] * slope * s[i, j]
+        for j in range(d.size):
+            d[j] += along[i] * slope * s[i, j]
             if i < n and direct.size > 0:
-                d[j] += heated[i] * p[BY_PSI_T, i] * direct[i, j]
-    for j in range(count):
-        d[j] = dq[last + 2, j] / threshold - d[j] / size
-    return math.log(threshold) - math.log(size)
+                d[j] += along[i] * p[BY_PSI_T, i] * direct[i, j]
+    for j in range(d.size):
+        d[j] = dq[last + 2, j] / q[last + 2] - d[j] / size
+    return math.log(q[last + 2]) - math.log(size)
+
+
+@njit(cache=True, fastmath=FAST)
+def _of_slices(
+    drops: Array, q: Array, dq: Array, net: Network, slices: Complex, by: Array, t: Array, along: Array, d: Array
+) -> None:
+    """Add what slices of the layer move by: to `along` by the nodes' temperatures, to `d` by the numbers."""
+    n, columns, nodes, of_drops = net.cells, net.layer_columns, net.nodes, np.zeros(3)
+    place = net.impedance + 3 * nodes
+    for i in range(columns):
+        for j in range(n):
+            here, share = place + columns + n + i * n + j, place + columns + j
+            below, one = here + columns * n, slices[i, j].real
+            along[j] += one * by[i, j, 0]
+            along[end_of(net)] += one * by[i, j, 1]
+            of_drops[0] -= one * (1.0 - q[share]) * net.fed_evenly[i]
+            of_drops[1] -= one * q[share] * q[place + i]
+            of_drops[2] -= one * q[below]
+            for k in range(d.size):
+                d[k] += one * (by[i, j, 2] * dq[here, k] - drops[2] * dq[below, k] - by[i, j, 3] * dq[share, k])
+                d[k] -= one * q[share] * drops[1] * dq[place + i, k]
+    for k in range(3):
+        for i in range(nodes):
+            at = net.impedance + k * nodes + i
+            along[i] += of_drops[k] * q[at]
+            for j in range(d.size):
+                d[j] += of_drops[k] * t[i] * dq[at, j]

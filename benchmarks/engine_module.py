@@ -66,6 +66,7 @@ class Module:
                 y, s, q, dq, m, self.rheology, net, False, tableau, self.event, self.target, 1.0, ends, of_ends, peaks,
                 of_peaks,
             )  # fmt: skip
+        self.state = y, s
         if steps < 0:
             return np.full(len(self.wanted), np.nan), np.full((len(self.wanted), len(self.free)), np.nan)
         rows = [

@@ -39,17 +39,14 @@ def phase(
     event. `ends` holds what is watched there, then the time, `peaks` the maxima; `of_ends` and `of_peaks` their
     derivatives along the directions. Returns the count of steps, or -1 where there is no end.
     """
-    last, nodes, none = dq.shape[1] - 1, net.nodes, np.empty(0)
-    pace, p = q[net.layer + 7], np.zeros((ROWS, net.cells))
-    t, w, direct = np.empty(nodes), np.empty((nodes, nodes)), np.zeros((net.cells, last + 1))
-    o, do = np.zeros(WATCHED), np.zeros((WATCHED, last + 1))
+    last, nodes = dq.shape[1] - 1, net.nodes
+    pace, p, t, w = q[net.layer + 7], np.zeros((ROWS, net.cells)), np.empty(nodes), np.empty((nodes, nodes))
+    direct, o, do = np.zeros((net.cells, last + 1)), np.zeros(WATCHED), np.zeros((WATCHED, last + 1))
     if history:
         p[PSI] = y[nodes:]
         direct[:] = s[nodes:]
     temperatures(y[:nodes], y[nodes:], 0.0, net, m, history, p, t)
-    watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
-    if which == SOFT:
-        o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, none)
+    _look(y, s, q, dq, m, r, net, history, which, p, t, direct, o, do, False)
     peaks[:WATCHED], of_peaks[:WATCHED] = o, do
     before, sbefore, ahead, lengths = y.copy(), s.copy(), np.zeros(y.size), np.zeros(last + 1)
     share, passed, gap, steps, rise = FIRST, 0.0, sense * (o[which] - target), 0, 0.0
@@ -60,9 +57,7 @@ def phase(
         lengths[:] = share * dq[net.layer + 7]
         lengths[last] = 1.0
         good = step(y, s, length, lengths, q, dq, m, net, history, tableau, p, t, w, direct, ahead)
-        watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
-        if which == SOFT:
-            o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, none)
+        _look(y, s, q, dq, m, r, net, history, which, p, t, direct, o, do, False)
         gap, rise, steps = sense * (o[which] - target), sense * do[which, last], steps + 1
         if not good or steps > LONGEST:
             return -1
@@ -72,38 +67,71 @@ def phase(
             s[:, last] = 0.0
             ahead *= min(1.0 / share, GROWTH)
             share = min(1.0, GROWTH * share)
-    lengths[:] = 0.0
-    lengths[last] = 1.0
     if steps > 0:
-        low, high, nearer = 0.0, length, 0.0
+        low, high = 0.0, length
         length = _within(length, last_gap, gap, last_rise, rise)
+        lengths[:last] = 0.0
         for _ in range(SEARCHES):
             y[:], s[:] = before, sbefore
             ahead[:] = 0.0
             step(y, s, length, lengths, q, dq, m, net, history, tableau, p, t, w, direct, ahead)
-            watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
-            if which == SOFT:
-                o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, do[SOFT])
+            _look(y, s, q, dq, m, r, net, history, which, p, t, direct, o, do, True)
             gap = sense * (o[which] - target)
-            nearer = -gap / (sense * do[which, last])
             if abs(gap) < THERE:
                 break
             low, high = (length, high) if gap < 0.0 else (low, length)
-            length += nearer
+            length -= gap / (sense * do[which, last])
             if not low < length < high:
                 length = 0.5 * (low + high)
-        length += nearer
-        y += nearer * s[:, last]
-        o += nearer * do[:, last]
-    for j in range(last):
-        longer = -do[which, j] / do[which, last] if steps > 0 else 0.0
-        of_ends[TIME, j] = passed * dq[net.layer + 7, j] + longer
-        s[:, j] += longer * s[:, last]
-        do[:, j] += longer * do[:, last]
-    s[:, last] = 0.0
+        length += _on_target(y, s, o, do, which, target, passed * dq[net.layer + 7], of_ends[TIME])
     ends[:WATCHED], of_ends[:WATCHED], ends[TIME] = o, do, passed * pace + length
     _keep(peaks, of_peaks, o, do)
     return steps
+
+
+@njit(cache=True, fastmath=FAST)
+def _look(
+    y: Array,
+    s: Array,
+    q: Array,
+    dq: Array,
+    m: Array,
+    r: Array,
+    net: Network,
+    history: bool,
+    which: int,
+    p: Array,
+    t: Array,
+    direct: Array,
+    o: Array,
+    do: Array,
+    sloped: bool,
+) -> None:
+    """Watch an instant; the impedance only where it is the event, its derivatives only where wanted."""
+    watch(y, s, q, dq, m, net, history, p, t, direct, o, do)
+    if which == SOFT:
+        o[SOFT] = softness(t, p, s, q, dq, m, r, net, direct, do[SOFT] if sloped else do[SOFT, :0])
+
+
+@njit(cache=True, fastmath=FAST)
+def _on_target(
+    y: Array, s: Array, o: Array, do: Array, which: int, target: float, of_passed: Array, of_time: Array
+) -> float:
+    """Move along the last direction, time, to the target, and turn derivatives at one time into those at the event.
+
+    Returns what is added to the time, and fills in its derivatives.
+    """
+    last = of_time.size - 1
+    nearer = (target - o[which]) / do[which, last]
+    y += nearer * s[:, last]
+    o += nearer * do[:, last]
+    for j in range(last):
+        longer = -do[which, j] / do[which, last]
+        of_time[j] = of_passed[j] + longer
+        s[:, j] += longer * s[:, last]
+        do[:, j] += longer * do[:, last]
+    s[:, last] = 0.0
+    return nearer
 
 
 @njit(cache=True, fastmath=FAST)
