@@ -127,13 +127,14 @@ class Search:
         ]
         f, g, (same_f, gradient), (same_g, jacobian) = (call(x) for call in self._calls)
         settings = {**_USUAL, **_ANYWHERE, **_QUASI_NEWTON, "tol": tolerance}
-        options = {
+        options: Any = {
             "grad_f": ca.Function("grad_f", [x, p], [same_f, gradient], ["x", "p"], ["f", "grad_f_x"]),
             "jac_g": ca.Function("jac_g", [x, p], [same_g, jacobian], ["x", "p"], ["g", "jac_g_x"]),
             "no_nlp_grad": True, "calc_lam_p": False, "print_time": False, "show_eval_warnings": False,
             "ipopt": settings,
         }  # fmt: skip
-        return ca.nlpsol("engine", "ipopt", {"x": x, "p": p, "f": f, "g": g}, options)
+        problem: Any = {"x": x, "p": p, "f": f, "g": g}
+        return ca.nlpsol("engine", "ipopt", problem, options)
 
     def solve(self) -> Solved:
         """Solve by IPOPT from the study's start."""
@@ -146,8 +147,9 @@ class Search:
     def solve_by_slsqp(self) -> Solved:
         """Solve by scipy's SLSQP from the study's start."""
         before, of = self._begin(), self.point.at
-        limits = {"type": "ineq", "fun": lambda x: -of(x).rows[1:], "jac": lambda x: -of(x).slopes[1:]}
-        found = minimize(
+        slsqp: Any = minimize  # its types know no constraints' Jacobians
+        limits: Any = {"type": "ineq", "fun": lambda x: -of(x).rows[1:], "jac": lambda x: -of(x).slopes[1:]}
+        found = slsqp(
             lambda x: of(x).rows[0], self.start, jac=lambda x: of(x).slopes[0], method="SLSQP",
             bounds=Bounds(self.lower, self.upper), constraints=limits, options={"maxiter": 200, "ftol": 1e-9},
         )  # fmt: skip

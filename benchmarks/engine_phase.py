@@ -122,7 +122,7 @@ def _on_target(
     Returns what is added to the time, and fills in its derivatives.
     """
     last = of_time.size - 1
-    nearer = (target - o[which]) / do[which, last]
+    nearer: float = (target - o[which]) / do[which, last]
     y += nearer * s[:, last]
     o += nearer * do[:, last]
     for j in range(last):
