@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
+.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-engine bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -67,6 +67,10 @@ bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hy
 
 bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated and optimised, on paper_shear; then 1,000 random drags
 	$(BENCH) benchmarks/explore_drags.py --leak 1000
+
+bench-engine: $(VENV)/.bench  ## the spike of a fixed program for the cycle: held against CVODES, then two optima beside today's (a minute)
+	$(BENCH) benchmarks/engine_check.py
+	$(BENCH) benchmarks/engine_optimum.py
 
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
 	$(BENCH) benchmarks/random_designs.py
