@@ -69,6 +69,7 @@ bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated 
 	$(BENCH) benchmarks/explore_drags.py --leak 1000
 
 bench-engine: $(VENV)/.bench  ## the spike of a fixed program for the cycle: held against CVODES, then two optima beside today's (a minute)
+	$(BENCH) benchmarks/engine_coverage.py
 	$(BENCH) benchmarks/engine_check.py
 	$(BENCH) benchmarks/engine_optimum.py
 
