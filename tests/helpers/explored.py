@@ -30,7 +30,7 @@ accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temp
 solver: {cells: 8, starts: 1}
 """
 TOKEN = "a-token-for-tests"
-LONGEST = 600.0
+LONGEST = 180.0
 """Seconds that a test waits for a message on a busy machine."""
 
 

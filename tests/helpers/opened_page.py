@@ -9,7 +9,7 @@ from typing import Any
 
 from playwright.sync_api import Browser, Page
 
-PATIENCE = 600_000
+PATIENCE = 120_000
 """Milliseconds that a page may take on a busy machine."""
 
 
