@@ -61,7 +61,7 @@ class Point:
         self._last = b""
 
 
-class Rows(ca.Callback):  # type: ignore[misc, unused-ignore]
+class Rows(ca.Callback):  # type: ignore[misc, unused-ignore]  # CasADi has no types
     """Some rows at a point, to CasADi: their values and, where wanted, their slopes."""
 
     def __init__(self, point: Point, rows: slice, count: int, *, sloped: bool) -> None:

@@ -40,7 +40,7 @@ class Deadline:
         self._end = now() + seconds
         self._whole, self._kept_back = self, 0.0
         self.met = False
-        """Whether anything was left undone because of it."""
+        """True once a step was left undone because of it."""
         self.left_out: list[str] = []
         """The steps that were skipped or not finished, in words."""
 
@@ -79,7 +79,7 @@ class Deadline:
 
     @property
     def passed(self) -> bool:
-        """Whether the time is over; who asks leaves something undone then."""
+        """True once the time is over; a caller that asks leaves something undone then."""
         self.met = self.met or self.remaining == 0.0
         return self.met
 

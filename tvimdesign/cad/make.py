@@ -27,7 +27,7 @@ LIMIT = 3600.0
 PART_LIMIT = 600.0
 """Seconds of processor time for one part with its files, or one set of checks; the longest takes about two."""
 HALF_MADE = ".parts.{}."
-"""What the name of the folder begins with in which a process makes parts where none are kept between runs."""
+"""Prefix of the folder in which a process makes parts, where none are kept between runs."""
 JOB = "tvimdesign.cad.build.main"
 WAITING = "--wait"
 """First argument of a child that is told on standard input what to make: a line of JSON with design, folder and

@@ -218,7 +218,7 @@ def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:
 
 
 def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run, share: float) -> YieldReached:
-    """What modules drawn at random keep of the best run. Raises TimeOverError."""
+    """Draw modules of the best run at random and return their yield. Raises TimeOverError."""
     from tvimdesign.solve.uncertainty.yield_account import account_of_yield  # it loads the compiler
 
     optimizer.progress("drawing modules for the yield of the design")

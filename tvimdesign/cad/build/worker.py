@@ -247,7 +247,7 @@ class WorkerPool:
 
 
 def _exceeds_limit(one: _Running) -> bool:
-    """Whether a piece of work exceeds its limit; notes which."""
+    """Return True if a piece of work exceeds its limit, and note which."""
     try:
         one.watch.check()
     except ProcessorTimeError as error:

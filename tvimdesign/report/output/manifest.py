@@ -20,7 +20,7 @@ _SEAL = "seal"
 
 @dataclass(frozen=True)
 class Manifest:
-    """What a manifest says; nothing where there is none."""
+    """Content of a manifest; empty if there is none."""
 
     files: Mapping[str, str] = field(default_factory=dict)
     """Digest of each file."""

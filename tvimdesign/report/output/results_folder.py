@@ -131,7 +131,7 @@ class ResultsFolder:
 
     @property
     def has_earlier(self) -> bool:
-        """Whether earlier results stand, which stay if the run fails."""
+        """True if earlier results stand, which stay if the run fails."""
         return bool(self._earlier.files)
 
     def where_if_stopped(self, name: str) -> Path:

@@ -49,7 +49,7 @@ class AnsweredStudy:
 
     @property
     def left_out(self) -> str:
-        """What the time limit left out, and how to get it; empty where it left out nothing."""
+        """Name the steps that the time limit left out, and how to get them; empty if there are none."""
         if not self.deadline.left_out:
             return ""
         limit, steps = duration(self.deadline.seconds), "; ".join(self.deadline.left_out)

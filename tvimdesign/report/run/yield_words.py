@@ -64,7 +64,7 @@ def below_yield(answer: StudyResult) -> str:
 
 
 def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float | None) -> str:
-    """What to say of a design whose margins the time limit ended."""
+    """Report a design whose margins the time limit cut short."""
     limited = "" if limit is None else f" of {duration(limit)}"
     ended = f"the time limit{limited} ended the search before it had all margins against spread"
     said = "how many modules satisfy every limit is not known"

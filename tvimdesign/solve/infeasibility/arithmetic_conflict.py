@@ -39,7 +39,7 @@ def refuse_infeasible(study: Study, deadline: Deadline | None = None) -> None:
 
 
 def _conflict(study: Study, deadline: Deadline | None) -> str:
-    """What conflicts, with what to do; empty where a start keeps all limits, or the time is over."""
+    """Report the limits that conflict, with the next step; empty if a start satisfies all, or the time is over."""
     update = {
         "minimize": {},
         "solver": study.solver.model_copy(update={"starts": max(_STARTS, study.solver.starts)}),

@@ -239,7 +239,7 @@ class Solution:
     out_of_time: float | None = None
     """The time limit [s] that ended the search before its end; None where it came to that."""
     left_out: tuple[str, ...] = ()
-    """What the time limit left undone of what follows the search, in words."""
+    """List the steps after the search that the time limit left out."""
     conflict_set: ConflictSet | None = None
     """Where there is no design: which limits cannot hold together, and what the design that breaks least breaks."""
 

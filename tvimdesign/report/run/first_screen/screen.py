@@ -41,7 +41,7 @@ class Told:
     """What `warnings_of` says."""
     front: Any = None
     left_out: str = ""
-    """What the time limit left out, and how to get it."""
+    """Steps that the time limit left out, and how to get them."""
 
 
 def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> list[str]:

@@ -28,7 +28,7 @@ from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
 STEP = "yield and intervals"
-"""What the process computes, in words."""
+"""Name of what the process computes."""
 PROCESSOR_LIMIT = 600.0
 """Seconds of processor time; it takes about two."""
 
@@ -95,7 +95,7 @@ class UncertaintyProcess:
         )
 
     def _heard(self, deadline: Deadline) -> str:
-        """What the process prints. Raises ProcessorTimeError, TimeOverError."""
+        """Return the output of the process. Raises ProcessorTimeError, TimeOverError."""
         watch = ProcessorLimit(self._child.pid, PROCESSOR_LIMIT)
         while True:
             deadline.check(STEP)

@@ -28,7 +28,7 @@ def header(answer: StudyResult, seconds: float | None, width: int) -> list[str]:
 
 
 def left_out_lines(left_out: str, width: int) -> list[str]:
-    """What the time limit left out, where it left out anything."""
+    """List the steps that the time limit left out."""
     return block("Left out", left_out, width) if left_out else []
 
 
