@@ -90,3 +90,11 @@ def is_as_written(folder: Path, name: str, digests: Collection[str]) -> bool:
     except FileNotFoundError:
         return False
     return ANY in digests or digest_of(path) in digests
+
+
+def free_name(path: Path) -> Path:
+    """Return the first of name-1, name-2, ... that there is nothing at."""
+    number = 1
+    while os.path.lexists(free := path.with_name(f"{path.stem}-{number}{path.suffix}")):
+        number += 1
+    return free

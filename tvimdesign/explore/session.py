@@ -20,7 +20,7 @@ from tvimdesign.explore.drafts.drafter import Drafter, DraftJob
 from tvimdesign.explore.parts import PartsMaker
 from tvimdesign.explore.states import messages
 from tvimdesign.explore.states.controls import controls_shown
-from tvimdesign.explore.states.history import FILE, Kept, open_kept, write_kept
+from tvimdesign.explore.states.history import Kept, open_kept, write_kept, written_digest
 from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.saved_study import saved_text
 from tvimdesign.explore.states.source import Source, open_source
@@ -48,8 +48,9 @@ class Session:
         self.folder, self._send = folder, send
         self.kept: Kept = open_kept(folder, self.source.text, self.source.first, overwrite=overwrite)
         make_folder(folder)
-        if not (folder / FILE).exists():
-            write_kept(folder, self.kept)
+        self._written = written_digest(folder)
+        if not self._written:
+            self._written = write_kept(folder, self.kept, "")
         self._since: State = self.kept.state
         self._number = 0
         self._timer: asyncio.TimerHandle | None = None
@@ -157,7 +158,7 @@ class Session:
             raise InputError(f"save: {path} is there already, and is not what was saved from here; choose another name")
         write_whole(path, saved_text(self.source.tree, self.kept.state, self.folder).encode())
         self.kept.saved[file] = digest_of(path)
-        write_kept(self.folder, self.kept)
+        self._written = write_kept(self.folder, self.kept, self._written)
         return {"kind": "saved", "file": file, "path": str(path)}
 
     # --- what becomes of it ---
@@ -169,7 +170,7 @@ class Session:
     def _settle(self) -> None:
         """A state to come back to: kept in the file, and told to every page."""
         self._since = self.kept.state
-        write_kept(self.folder, self.kept)
+        self._written = write_kept(self.folder, self.kept, self._written)
         self._send(self.state_shown())
 
     def state_shown(self) -> Told:

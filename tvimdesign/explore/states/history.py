@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.journal import digest_of, free_name, is_as_written
 from tvimdesign.base.whole_files import write_whole
 from tvimdesign.explore.states.state import Pinned, State
 
@@ -99,6 +101,18 @@ def open_kept(folder: Path, study: bytes, first: State, *, overwrite: bool = Fal
     return kept
 
 
-def write_kept(folder: Path, kept: Kept) -> None:
-    """Write all of it, whole. Raises OutputError."""
-    write_whole(folder / FILE, kept.model_dump_json(indent=1).encode() + b"\n")
+def written_digest(folder: Path) -> str:
+    """Return the digest of the file in a folder; empty where there is none."""
+    return digest_of(folder / FILE) if (folder / FILE).is_file() else ""
+
+
+def write_kept(folder: Path, kept: Kept, before: str) -> str:
+    """Write the history, whole, and return its digest. Raises OutputError.
+
+    A file that has not the digest `before` was changed by hand meanwhile: it is renamed, not replaced.
+    """
+    path = folder / FILE
+    if os.path.lexists(path) and not is_as_written(folder, FILE, {before}):
+        path.rename(free_name(path))
+    write_whole(path, kept.model_dump_json(indent=1).encode() + b"\n")
+    return digest_of(path)

@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.journal import JOURNALS, RUN, is_as_written, link_on_the_way, record, recorded
+from tvimdesign.base.journal import JOURNALS, RUN, free_name, is_as_written, link_on_the_way, record, recorded
 from tvimdesign.base.whole_files import make_folder
 from tvimdesign.report.output.manifest import MANIFEST, Manifest
 
@@ -44,7 +44,7 @@ def _move(source: Path, out: Path, name: str, digests: Collection[str], say: Say
     target = out / name
     make_folder(target.parent)
     if os.path.lexists(target) and not is_as_written(out, name, digests):
-        aside = _free_name(target)
+        aside = free_name(target)
         target.rename(aside)
         say(f"{target}: was changed since it was written, so it is kept as {aside.name}")
     source.replace(target)
@@ -87,7 +87,7 @@ def move_aside(folder: Path, own: Collection[str], say: Say) -> None:
         if link_on_the_way(folder, name):
             continue  # what a link leads to is not here
         if aside is None:
-            aside = _free_name(folder)
+            aside = free_name(folder)
         make_folder((aside / name).parent)
         path.rename(aside / name)
     for path in sorted((one for one in folder.rglob("*") if one.is_dir() and not one.is_symlink()), reverse=True):
@@ -109,11 +109,3 @@ def seed(out: Path, folder: Path, files: Mapping[str, str], say: Say) -> None:
             os.link(out / name, folder / name)
         except OSError:  # a file system without links
             shutil.copyfile(out / name, folder / name)
-
-
-def _free_name(path: Path) -> Path:
-    """Return the first of name-1, name-2, ... that there is nothing at."""
-    number = 1
-    while os.path.lexists(free := path.with_name(f"{path.stem}-{number}{path.suffix}")):
-        number += 1
-    return free
