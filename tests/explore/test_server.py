@@ -20,7 +20,7 @@ from explored import SMALL, TOKEN, awaited, served, small_study, talking
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.serve import serve
 from tvimdesign.explore.server import HOST, Server
-from tvimdesign.explore.states.history import FILE
+from tvimdesign.explore.states.history import FILE, open_kept, write_kept
 from tvimdesign.explore.states.messages import read_message
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.study import Range, read_study
@@ -214,6 +214,19 @@ def test_overwriting_loses_no_history_where_the_explorer_is_refused(tmp_path: Pa
     with pytest.raises(InputError, match="not written by `tvimdesign explore`"):
         serve(study, folder, 0, "", overwrite=True, browse=False, settings=())
     assert (folder / FILE).read_text() == '{"name": "an application"}'
+
+
+def test_a_history_that_somebody_changed_meanwhile_is_kept_beside(tmp_path: Path) -> None:
+    opened = open_source(small_study(tmp_path))
+    out = tmp_path / "out"
+    out.mkdir()
+    kept = open_kept(out, opened.text, opened.first)
+    before = write_kept(out, kept, "")
+    assert write_kept(out, kept, before) == before
+    (out / FILE).write_text("changed by hand")
+    write_kept(out, kept, before)
+    assert (out / "explore-1.json").read_text() == "changed by hand"
+    assert json.loads((out / FILE).read_text())["study"] == kept.study
 
 
 def test_a_study_that_is_saved_replaces_only_what_was_saved_before(tmp_path: Path) -> None:
