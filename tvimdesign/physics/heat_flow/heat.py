@@ -145,7 +145,8 @@ def profile(state: Any, stack: Stack) -> Profile:
     )
     if stack.lip is None:
         return now
-    return now._replace(lip=warm_lip(stack.lip, cells, now.at, lambda wall: _over_mean(stack, now, wall)))
+    conducting = lambda wall: _over_mean(stack, now, wall)  # noqa: E731
+    return now._replace(lip=warm_lip(stack.lip, cells, now.at, conducting, stack.lip_temperatures))
 
 
 def _spreader(parts: _Parts, stack: Stack, ends: tuple[Any, Any], way: Any) -> Any:

@@ -39,19 +39,31 @@ class WarmLip(NamedTuple):
     """Heat [W] that each polymer cell gives it."""
     from_places: dict[Place, Any]
     """Heat [W] that other places give it."""
+    residuals: tuple[Any, Any] = (0.0, 0.0)
+    """How far [K] temperatures that are given are from those that follow."""
 
 
-def warm_lip(lip: Lip, cells: Any, at: Callable[[Place], Any], conducting: Callable[[Any], tuple[Any, Any]]) -> WarmLip:
+def warm_lip(
+    lip: Lip,
+    cells: Any,
+    at: Callable[[Place], Any],
+    conducting: Callable[[Any], tuple[Any, Any]],
+    given: tuple[Any, Any] | None = None,
+) -> WarmLip:
     """A lip beside polymer `cells` [K], other places being `at` theirs.
 
     `conducting` says how well the polymer conducts between each cell and a temperature, and between the pads and it,
     over the mean of both phases. It is asked at the temperature that the lip has where all conducts as that mean.
+    That temperature and the lip's own may be `given` [K], to be solved for with the rest of a network.
     """
-    alike = _temperature(lip, cells, at, 1.0 + 0.0 * cells, 1.0)
+    follows = _temperature(lip, cells, at, 1.0 + 0.0 * cells, 1.0)
+    alike = follows if given is None else given[0]
     of_cells, of_pads = conducting(alike)
     found = _temperature(lip, cells, at, of_cells, of_pads)
-    from_places = star.taken((_pads(lip, of_pads), *lip.arms), found, at)
-    return WarmLip(found, lip.slices / len(cells) * of_cells * (cells - found), from_places)
+    residuals = (0.0, 0.0) if given is None else (follows - alike, found - given[1])
+    warm = found if given is None else given[1]
+    from_places = star.taken((_pads(lip, of_pads), *lip.arms), warm, at)
+    return WarmLip(warm, lip.slices / len(cells) * of_cells * (cells - warm), from_places, residuals)
 
 
 def _pads(lip: Lip, of_pads: Any) -> Arm:

@@ -65,6 +65,8 @@ class Stack(NamedTuple):
     """A sheet between polymer and plate; `plate_contact` is then that of polymer and sheet."""
     lip: Lip | None = None
     """A lip of the plate at the layer's edge."""
+    lip_temperatures: tuple[Any, Any] | None = None
+    """Of the lip [K], where they are unknowns beside the state; see `warm_lip`."""
     to_spreader: Any = 0.0
     """From the pads' hot side to a spreader on it [K/W], which is a part of the way to the polymer."""
 

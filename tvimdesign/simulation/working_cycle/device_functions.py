@@ -65,7 +65,7 @@ class DeviceFunctions:
     def phases(self) -> dict[str, PhaseFunctions]:
         """Every phase of the working cycle by name, in the order they are gone through."""
         inputs, known = self._symbols[0], self._settled
-        return {phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells) for phase in self.table.phases}
+        return {phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells, self.names) for phase in self.table.phases}
 
     @cached_property
     def either_way(self) -> PhaseFunctions:
@@ -74,7 +74,7 @@ class DeviceFunctions:
         It melts `melting_time` behind the equilibrium curve, which the first phase follows.
         """
         phase = replace(self.table.phases[0], history=True)
-        return PhaseFunctions(self.table, phase, self._symbols[0], self._settled, self.cells)
+        return PhaseFunctions(self.table, phase, self._symbols[0], self._settled, self.cells, self.names)
 
     @cached_property
     def output_names(self) -> list[str]:

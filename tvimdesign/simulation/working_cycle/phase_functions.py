@@ -25,10 +25,13 @@ SHOWN = {"joint_stiffness": "stiffness_now", "joint_damping": "damping_now", "el
 class PhaseFunctions:
     """One phase of a device with its records chosen. Functions are built when first asked for and kept."""
 
-    def __init__(self, table: Table, phase: Phase, inputs: Any, known: dict[str, Any], cells: int) -> None:
+    def __init__(
+        self, table: Table, phase: Phase, inputs: Any, known: dict[str, Any], cells: int, input_names: Sequence[str]
+    ) -> None:
         """`known` holds every given quantity, numbers as entries of the symbol `inputs`; `cells` divides the
         polymer."""
         self.table = table
+        self.input_names = input_names
         self.phase = phase
         self.events = tuple(row for row in table.supplied if isinstance(row, Event) and row.phase == phase.name)
         self.paths = tuple(row for row in table.supplied if isinstance(row, Path) and row.phase == phase.name)

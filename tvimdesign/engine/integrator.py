@@ -1,0 +1,232 @@
+"""Step an equation of motion in time, with the sensitivities of its state along directions.
+
+`mass * dy/dt = f(y, u, k)`: `u` is one number that may change in time, `k` are constants, and a row without mass is an
+algebraic equation. Singly diagonally implicit Runge-Kutta steps of third order with a full Newton; sensitivities go
+along by the factors that each stage's Newton ended with, so they are those of the discrete solution.
+Source: Alexander, SIAM J. Numer. Anal. 14 (1977), 1006.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+
+from tvimdesign.engine.interpreter import Array, Code, push, run
+from tvimdesign.engine.sparse_lu import Integers, Pattern, factor, pattern_of, solve, solve_many
+from tvimdesign.engine.tape import Tape
+
+GAMMA = 0.4358665215084590
+STAGES = 3
+TABLEAU = np.array([
+    [GAMMA, 0.0, 0.0],
+    [0.5 * (1.0 - GAMMA), GAMMA, 0.0],
+    [4.0 * GAMMA - 1.5 * GAMMA**2 - 0.25, 1.5 * GAMMA**2 - 5.0 * GAMMA + 1.25, GAMMA],
+])  # fmt: skip
+TIMES = TABLEAU.sum(axis=1)
+"""When each stage is, as shares of the step; the last is its end."""
+_FIRST = (0.5 - TIMES[1]) / (TIMES[0] - TIMES[1])
+ERROR = TABLEAU[2] - np.array([_FIRST, 1.0 - _FIRST, 0.0])
+"""Weights of the stages in the difference from a solution of second order."""
+SAFETY, SHORTEST, LONGEST = 0.9, 0.2, 2.5
+"""Of the length that the error allows next, the part that is taken; how far lengths change from one step to another."""
+MOST_ITERATIONS, EXACT = 15, 1e-6
+"""Newton's steps of a stage; the change of the scaled state below which one is the last: its square is left."""
+
+
+class System(NamedTuple):
+    """An equation of motion, as the compiled program takes it."""
+
+    mass: Array
+    rates: Code
+    """f alone."""
+    rate_places: Integers
+    slopes: Code
+    """f and its Jacobian by y."""
+    slope_rates: Integers
+    slope_places: Integers
+    pattern: Pattern
+    entries: Integers
+    """Entry of the factored matrix of each of the Jacobian's."""
+    diagonal: Integers
+
+
+class Motion:
+    """An equation of motion, recorded from expressions (SX)."""
+
+    def __init__(self, y: Any, u: Any, k: Any, rates: Any, jacobian: Any, mass: Array) -> None:
+        """Record the rates and their Jacobian by `y`."""
+        self.rates = Tape.of([y, u, k], [rates])
+        self.slopes = Tape.of([y, u, k], [rates, jacobian])
+        rows, columns = (np.array(part, dtype=np.int64) for part in jacobian.sparsity().get_triplet())
+        pattern, entries, diagonal = pattern_of(y.numel(), rows, columns)
+        self.size = y.numel()
+        self.system = System(
+            mass, self.rates.code, self.rates.results[0], self.slopes.code, self.slopes.results[0],
+            self.slopes.results[1], pattern, entries, diagonal,
+        )  # fmt: skip
+
+    def registers(self, k: Array, dk: Array) -> tuple[Array, Array, Array]:
+        """Return registers for the rates, their tangents, and the slopes, with the constants in place."""
+        w, v = self.rates.registers.copy(), self.slopes.registers.copy()
+        d = np.zeros((w.size, dk.shape[1]))
+        first = self.size + 1
+        w[first : first + k.size] = v[first : first + k.size] = k
+        d[first : first + k.size] = dk
+        return w, d, v
+
+
+@njit(cache=True, error_model="numpy")
+def newton_matrix(m: System, v: Array, y: Array, u: float, share: float, h: float, entries: Array) -> None:
+    """Evaluate f and its Jacobian, and factor `share mass - h J`."""
+    for i in range(y.size):
+        v[i] = y[i]
+    v[y.size] = u
+    run(m.slopes, v)
+    entries[:] = 0.0
+    for i in range(y.size):
+        entries[m.diagonal[i]] = share * m.mass[i]
+    for i in range(m.slope_places.size):
+        entries[m.entries[i]] -= h * v[m.slope_places[i]]
+    factor(m.pattern, entries)
+
+
+@njit(cache=True, error_model="numpy")
+def stage(m: System, v: Array, y: Array, base: Array, u: float, h: float, entries: Array, right: Array) -> bool:
+    """Solve `mass (y - base) = h f(y)` from y."""
+    for _ in range(MOST_ITERATIONS):
+        newton_matrix(m, v, y, u, 1.0, h, entries)
+        for p in range(y.size):
+            i = m.pattern.order[p]
+            right[p] = m.mass[i] * (base[i] - y[i]) + h * v[m.slope_rates[i]]
+        solve(m.pattern, entries, right)
+        change = 0.0
+        for p in range(y.size):
+            y[m.pattern.order[p]] += right[p]
+            change = max(change, abs(right[p]))
+        if not change > EXACT:
+            return change == change
+    return False
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def stage_tangents(
+    m: System, w: Array, d: Array, y: Array, u: float, du: Array, h: float, dh: Array, entries: Array, sb: Array,
+    b: Array, s: Array,
+) -> None:  # fmt: skip
+    """Fill the sensitivities `s` of a stage that is solved, from those of its base `sb`."""
+    size, lanes = y.size, s.shape[1]
+    for i in range(size):
+        w[i] = y[i]
+    w[size] = u
+    d[size] = du
+    push(m.rates, w, d)
+    for p in range(size):
+        i = m.pattern.order[p]
+        to, by, before, rate = b[p], d[m.rate_places[i]], sb[i], w[m.rate_places[i]]
+        mass = m.mass[i]
+        for j in range(lanes):
+            to[j] = mass * before[j] + h * by[j] + dh[j] * rate
+    solve_many(m.pattern, entries, b)
+    for p in range(size):
+        s[m.pattern.order[p]] = b[p]
+
+
+@njit(cache=True, error_model="numpy")
+def step(
+    m: System, w: Array, d: Array, v: Array, y: Array, s: Array, u: Array, du: Array, h: float, dh: Array, ahead: Array,
+) -> bool:  # fmt: skip
+    """Take one step in place. `u` has a number for each stage, `du` its tangents; `dh` are those of the length.
+
+    `ahead` is what the state is expected to move by in the first stage, on return what it moved by in the last.
+    Without columns of `s`, sensitivities are left out.
+    """
+    size, lanes = y.size, s.shape[1]
+    entries, right, b = np.empty(m.pattern.size), np.empty(size), np.empty((size, lanes))
+    begin, sbegin, base, sb = y.copy(), s.copy(), np.empty(size), np.empty((size, lanes))
+    moved, smoved = np.empty((STAGES, size)), np.empty((STAGES, size, lanes))
+    good = True
+    for i in range(STAGES):
+        base[:] = begin
+        sb[:] = sbegin
+        for j in range(i):
+            share = TABLEAU[i, j] / GAMMA
+            base += share * moved[j]
+            sb += share * smoved[j]
+        y[:] = base + (moved[i - 1] if i > 0 else ahead)
+        good = stage(m, v, y, base, u[i], GAMMA * h, entries, right) and good
+        if lanes > 0:
+            stage_tangents(m, w, d, y, u[i], du[i], GAMMA * h, GAMMA * dh, entries, sb, b, s)
+        moved[i] = y - base
+        smoved[i] = s - sb
+    ahead[:] = moved[STAGES - 1]
+    return good
+
+
+@njit(cache=True, error_model="numpy")
+def step_error(m: System, v: Array, y: Array, u: Array, h: float, ahead: Array) -> float:
+    """Take one step in place without sensitivities; return its error in the scaled state, NaN where it failed."""
+    size = y.size
+    entries, right = np.empty(m.pattern.size), np.empty(size)
+    begin, base, moved = y.copy(), np.empty(size), np.empty((STAGES, size))
+    for i in range(STAGES):
+        base[:] = begin
+        for j in range(i):
+            base += TABLEAU[i, j] / GAMMA * moved[j]
+        y[:] = base + (moved[i - 1] if i > 0 else ahead)
+        if not stage(m, v, y, base, u[i], GAMMA * h, entries, right):
+            return np.nan
+        moved[i] = y - base
+    ahead[:] = moved[STAGES - 1]
+    for p in range(size):
+        i = m.pattern.order[p]
+        right[p] = 0.0
+        for j in range(STAGES):
+            right[p] += m.mass[i] * ERROR[j] / GAMMA * moved[j, i]
+    solve(m.pattern, entries, right)
+    return np.max(np.abs(right))
+
+
+@njit(cache=True, error_model="numpy")
+def adapted(m: System, v: Array, y: Array, u: Array, h: float, tolerance: float, ahead: Array) -> tuple[float, float]:
+    """Take one step in place, as long as the error allows; return its length and that of the next, zero where it fails.
+
+    `ahead` is scaled for the next step.
+    """
+    begin, guess = y.copy(), ahead.copy()
+    for _ in range(30):
+        error = step_error(m, v, y, u, h, ahead)
+        if error <= tolerance:
+            factor = min(max(SAFETY * (tolerance / max(error, 1e-12)) ** (1.0 / 3.0), SHORTEST), LONGEST)
+            ahead *= factor
+            return h, h * factor
+        y[:] = begin
+        shorter = 0.25 if not error < np.inf else max(SAFETY * (tolerance / error) ** (1.0 / 3.0), SHORTEST)
+        ahead[:] = guess * shorter
+        guess[:] = ahead
+        h *= shorter
+    return 0.0, 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def advance(
+    m: System, w: Array, d: Array, v: Array, states: Array, tangents: Array, first: int, lengths: Array,
+    of_lengths: Array, u: Array, du: Array, ahead: Array,
+) -> int:  # fmt: skip
+    """Step from `states[first]` with the given lengths, and fill the states and tangents after it.
+
+    `u[k]` and `du[k]` are those of the stages of step k. Returns the number of the last state, which is less where a
+    step failed.
+    """
+    last = lengths.size
+    for k in range(first, last):
+        states[k + 1], tangents[k + 1] = states[k], tangents[k]
+        if k > 0:
+            scaled = ahead * (lengths[k] / lengths[k - 1])
+        else:
+            scaled = ahead.copy()
+        if not step(m, w, d, v, states[k + 1], tangents[k + 1], u[k], du[k], lengths[k], of_lengths[k], scaled):
+            return k
+        ahead[:] = scaled
+    return last

@@ -1,0 +1,145 @@
+"""A CasADi function of scalars as data for the interpreter."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from tvimdesign.engine import interpreter
+from tvimdesign.engine.interpreter import Array, Code, push, run
+
+Integers = NDArray[np.int64]
+_NAMES = [name for name in vars(interpreter) if name.isupper() and hasattr(ca, f"OP_{name}")]
+_KNOWN = frozenset(getattr(interpreter, name) for name in _NAMES)
+if any(getattr(ca, f"OP_{name}") != getattr(interpreter, name) for name in _NAMES):
+    raise ImportError(f"CasADi {ca.__version__} numbers its operations otherwise than tvimdesign.engine.interpreter")
+
+
+@dataclass(frozen=True, eq=False)
+class Tape:
+    """The operations of a function. Registers hold its arguments, one below the other, then constants, then results."""
+
+    code: Code
+    registers: Array
+    """Registers with the constants in place; the compiled program works in a copy."""
+    arguments: Integers
+    """Register at which each argument starts, and where the last ends."""
+    results: tuple[Integers, ...]
+    """Register of each nonzero of each result."""
+    _rooms: dict[int, Array] = field(default_factory=dict, repr=False)
+    """Registers of tangents, by the count of directions."""
+
+    @classmethod
+    def of(cls, arguments: Sequence[Any], results: Sequence[Any]) -> Tape:
+        """Record expressions (SX) of symbols; what is written twice is computed once."""
+        shared = ca.cse([ca.SX(one) for one in results])
+        return cls.of_function(ca.Function("tape", list(arguments), shared, {"live_variables": False}))
+
+    @classmethod
+    def of_function(cls, function: Any) -> Tape:
+        """Record a function of SX. Raises ValueError for an operation that the interpreter does not know."""
+        starts = np.concatenate([[0], np.cumsum([function.nnz_in(i) for i in range(function.n_in())])]).astype(np.int64)
+        results = tuple(np.zeros(function.nnz_out(i), np.int64) for i in range(function.n_out()))
+        place: dict[int, int] = {}
+        """Where the value of CasADi's work register is: an argument or constant (>= 0), or an operation (< 0)."""
+        constants: dict[float, int] = {}
+        operations: list[tuple[int, int, int, int]] = []
+        """Level, operation, operands, in CasADi's order."""
+        level: list[int] = []
+        written: list[tuple[int, int, int]] = []
+        for k in range(function.n_instructions()):
+            op, given, to = function.instruction_id(k), function.instruction_input(k), function.instruction_output(k)
+            if op == ca.OP_INPUT:
+                place[to[0]] = int(starts[given[0]]) + given[1]
+            elif op == ca.OP_CONST:
+                place[to[0]] = int(starts[-1]) + constants.setdefault(function.instruction_constant(k), len(constants))
+            elif op == ca.OP_OUTPUT:
+                written.append((to[0], to[1], place[given[0]]))
+            elif op in _KNOWN:
+                one, other = place[given[0]], place[given[-1]]
+                here = 1 + max(level[-1 - one] if one < 0 else 0, level[-1 - other] if other < 0 else 0)
+                level.append(here)
+                operations.append((here, op, one, other))
+                place[to[0]] = -len(operations)
+            else:
+                raise ValueError(f"CasADi's operation {op} is not known to tvimdesign.engine.interpreter")
+        base = int(starts[-1]) + len(constants)
+        table = np.array(operations, dtype=np.int64).reshape(-1, 4)
+        order = np.lexsort((table[:, 1], table[:, 0]))
+        changes = np.flatnonzero(np.any(np.diff(table[order, :2], axis=0) != 0, axis=1)) + 1
+        starting = np.concatenate([[0], changes, [len(table)]]) if len(table) else np.zeros(1, np.int64)
+        register, size = _allocated(table, order, starting, [at for *_, at in written], base)
+
+        def resolved(places: Integers) -> Integers:
+            return np.where(places < 0, register[np.maximum(-1 - places, 0)], places)
+
+        kinds = np.append(table[order[starting[:-1]], 1], 0)
+        code = Code(
+            *(resolved(table[order, i]).astype(np.uint32) for i in (2, 3)), register[order].astype(np.uint32),
+            np.column_stack([kinds, starting]).astype(np.int64),
+        )  # fmt: skip
+        registers = np.zeros(size)
+        registers[int(starts[-1]) : base] = list(constants)
+        for result, entry, at in written:
+            results[result][entry] = at if at >= 0 else register[-1 - at]
+        return cls(code, registers, starts, results)
+
+    @cached_property
+    def _work(self) -> Array:
+        return self.registers.copy()
+
+    def _room(self, lanes: int) -> Array:
+        if lanes not in self._rooms:
+            self._rooms[lanes] = np.zeros((self.registers.size, lanes))
+        return self._rooms[lanes]
+
+    def values(self, *arguments: Array) -> list[Array]:
+        """Return the nonzeros of each result."""
+        w = self._work
+        w[: self.arguments[-1]] = np.concatenate(arguments)
+        run(self.code, w)
+        return [w[places] for places in self.results]
+
+    def tangents(self, arguments: Sequence[Array], moved: Sequence[Array]) -> list[tuple[Array, Array]]:
+        """Return the nonzeros of each result, and their tangents along what the arguments move by, a column each."""
+        w, count = self._work, self.arguments[-1]
+        d = self._room(moved[0].shape[1])
+        w[:count], d[:count] = np.concatenate(arguments), np.concatenate(moved)
+        push(self.code, w, d)
+        return [(w[places], d[places]) for places in self.results]
+
+
+def _allocated(
+    table: Integers, order: Integers, starting: Integers, wanted: Sequence[int], base: int
+) -> tuple[Integers, int]:
+    """Return the register of each operation, and how many registers there are.
+
+    A register is used again once the last group is done that reads it, so that they stay in the processor's cache.
+    """
+    group = np.empty(len(table), np.int64)
+    for g in range(len(starting) - 1):
+        group[order[starting[g] : starting[g + 1]]] = g
+    last = group.copy()
+    for side in (2, 3):
+        reads = table[:, side] < 0
+        np.maximum.at(last, -1 - table[reads, side], group[reads])
+    ends: list[list[int]] = [[] for _ in starting]
+    lasting = {-1 - at for at in wanted if at < 0}
+    for k in order:
+        if k not in lasting:
+            ends[last[k]].append(int(k))
+    register, free, size = np.empty(len(table), np.int64), list[int](), base
+    for g in range(len(starting) - 1):
+        for k in order[starting[g] : starting[g + 1]]:
+            if free:
+                register[k] = free.pop()
+            else:
+                register[k], size = size, size + 1
+        free += [int(register[k]) for k in reversed(ends[g])]
+    return register, size
