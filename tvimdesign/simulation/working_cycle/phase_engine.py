@@ -31,8 +31,8 @@ MOST_STEPS, EXTRA, GROWTH = 2000, 40, 1.3
 """Steps of a phase at most; beyond those of the first run, and by how much each of these grows."""
 STANDING = -1e-12
 """Share of the mass in the matrix of a state that stays, so that integrals, which do not, leave it regular."""
-PRECISE = 1e-7
-"""Largest part of a step by which the last one misses an event; what is left is made up by slopes."""
+NEAR, MOST_TRIALS = 1e-4, 12
+"""Part of a step by which the last one may miss an event: what is left, its square, is made up by slopes."""
 
 
 @dataclass
@@ -63,6 +63,13 @@ class Found:
     values: dict[str, float] = field(default_factory=dict)
     slopes: dict[str, Array] = field(default_factory=dict)
     end: Ended | None = None
+
+    def without_length(self) -> Found:
+        """Leave out the last direction."""
+        end = self.end
+        if end is not None:
+            end = Ended(end.time, end.of_time[:-1], end.state, np.ascontiguousarray(end.of_state[:, :-1]), end.step)
+        return Found(self.values, {name: slopes[:-1] for name, slopes in self.slopes.items()}, end)
 
     def add(self, name: str, value: float, slopes: Array) -> None:
         """Add one."""
@@ -142,10 +149,12 @@ class PhaseEngine:
         Steps are those of a `grid`, or as long as the error allows. Returns the grid, too.
         """
         motion, given = self._recorded
+        along = np.column_stack([along, np.zeros(len(along))])  # the length of a phase's last step
         (k, dk), (pace, dpace), (y, s) = given.tangents([inputs], [along])
         if before is not None:
             size = self._start.arguments[1]
-            ((y, s),) = self._start.tangents((before.state[:size], inputs), (before.of_state[:size], along))
+            of_state = np.column_stack([before.of_state[:size], np.zeros(size)])
+            ((y, s),) = self._start.tangents((before.state[:size], inputs), (of_state, along))
         pad = self.lip + len(self.integrals)
         y, s = np.append(y, np.zeros(pad)), np.concatenate([s, np.zeros((pad, along.shape[1]))])
         current = self.phase.phase.sign * float(inputs[self._current_place])
@@ -165,7 +174,7 @@ class PhaseEngine:
         if found.end is not None:
             run.add_paths(found, wanted)
             run.add_steadies(found, wanted)
-        return found, grid
+        return found.without_length(), grid
 
 
 class _Run:
@@ -245,31 +254,56 @@ class _Run:
         return self.registers[0][first : int(self.motion.rates.arguments[-1])]
 
     def _crossing(self, name: str, low: int, high: int) -> Ended:
-        """The instant at which an event is due, between the ends of two steps."""
+        """The instant at which an event is due, between the ends of two steps.
+
+        The last step ends there: its length is sought by Newton's method, whose slope is one more direction. So the
+        derivatives are those of the steps as they are taken.
+        """
         begin, end, whole = self.states[low], self.states[high], float(self.lengths[low])
         here, there = self._rates(begin) * whole, self._rates(end) * whole
         length = whole * _root(lambda share: self._gap(name, _hermite(share, begin, end, here, there)))
-        w, d, v = self.registers
-        nothing = np.zeros(self.lanes)
-        for _ in range(8):
-            y, s = begin.copy(), self.tangents[low].copy()
-            ahead = _hermite(length / whole, begin, end, here, there) - begin
-            step(self.motion.system, w, d, v, y, s, self._u, self._du, length, nothing, ahead * 0.4)
-            rates = self._rates(y)
-            gap, slopes = self._with_time(name, y, s, rates)
-            short = -gap / slopes[-1]
-            if abs(short) <= PRECISE * whole:
+        least, most, short = 0.0, 1.05 * whole, whole
+        for _ in range(MOST_TRIALS):
+            guess = 0.4 * (_hermite(length / whole, begin, end, here, there) - begin)
+            y, s = self._last_step(low, length, guess, self._of_length)
+            gap, slopes = self._pushed(name, y, s, self._nowhere)
+            least, most = (length, most) if gap < 0.0 else (least, length)
+            short = -gap / slopes[0]
+            if abs(short) <= NEAR * whole:
                 break
-            length = min(max(length + short, 0.02 * length), whole * 1.05)
-        longer = -slopes[:-1] / slopes[-1]
-        y, s = y + short * rates, s + rates[:, None] * longer
-        return Ended(self.times[low] + length + short, self.of_times[low] + longer, y, s, low)
+            length = length + short if least < length + short < most else 0.5 * (least + most)
+        y, s = self._last_step(low, length, y - begin - 0.6 * (y - begin), self.registers)
+        gap, slopes = self._pushed(name, y, s, self.along)
+        short, longer = -gap / slopes[-1], -slopes / slopes[-1]
+        longer[-1] = 0.0
+        y, by_length = y + short * s[:, -1], s[:, -1:].copy()
+        s[:, -1] = 0.0
+        return Ended(self.times[low] + length + short, self.of_times[low] + longer, y, s + by_length * longer, low)
 
-    def _with_time(self, name: str, y: Array, s: Array, rates: Array) -> tuple[float, Array]:
-        """A quantity and its slopes along the directions, and along time as the last of them."""
-        of_state = np.column_stack([s, rates])
-        along = np.column_stack([self.along, np.zeros(len(self.along))])
-        return self.of._pushed(name, (y, of_state, self.current, np.append(self.of_current, 0.0)), self.inputs, along)
+    @cached_property
+    def _of_length(self) -> tuple[Array, Array, Array]:
+        """Registers for the length of the last step as the one direction."""
+        return self.motion.registers(self._constants, np.zeros((len(self._constants), 1)))
+
+    @cached_property
+    def _nowhere(self) -> Array:
+        return np.zeros((len(self.inputs), 1))
+
+    def _last_step(
+        self, low: int, length: float, guess: Array, registers: tuple[Array, Array, Array]
+    ) -> tuple[Array, Array]:
+        """The state after a last step, and its tangents; the last direction is its length."""
+        lanes = registers[1].shape[1]
+        y, s = self.states[low].copy(), self.tangents[low][:, -lanes:].copy()
+        longer = np.zeros(lanes)
+        longer[-1] = 1.0
+        step(self.motion.system, *registers, y, s, self._u, self._du[:, -lanes:].copy(), length, longer, guess)
+        return y, s
+
+    def _pushed(self, name: str, y: Array, s: Array, along: Array) -> tuple[float, Array]:
+        """A quantity and its slopes along the directions."""
+        lanes = along.shape[1]
+        return self.of._pushed(name, (y, s, self.current, self.of_current[-lanes:]), self.inputs, along)
 
     def add_paths(self, found: Found, wanted: Collection[str] | None) -> None:
         """Add what the phase adds up to, is at its end, or reaches."""
