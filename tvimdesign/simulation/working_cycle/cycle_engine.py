@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from functools import cached_property
 from typing import NamedTuple
 
@@ -10,7 +10,8 @@ import numpy as np
 
 from tvimdesign.engine.tape import Array
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_engine import Ended, Grid, PhaseEngine
+from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
+from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid, Instant
 
 
 class Supplied(NamedTuple):
@@ -19,6 +20,8 @@ class Supplied(NamedTuple):
 
     values: Array
     slopes: Array
+    short: dict[str, tuple[float, Array]]
+    """What the event at the end of each driven phase still waits for, by phase, and its slopes."""
 
 
 class CycleEngine:
@@ -27,46 +30,51 @@ class CycleEngine:
     def __init__(self, model: DeviceFunctions) -> None:
         """Nothing is recorded yet."""
         self.model = model
+        self._place = {name: i for i, name in enumerate(model.switch_names)}
 
     @cached_property
     def _phases(self) -> dict[str, PhaseEngine]:
         return {name: PhaseEngine(phase) for name, phase in self.model.phases.items()}
 
     def run(
-        self, inputs: Array, along: Array, wanted: Collection[str] | None = None, grids: dict[str, Grid] | None = None
+        self,
+        inputs: Array,
+        along: Array,
+        wanted: Collection[str] | None = None,
+        grids: dict[str, Grid] | None = None,
+        drives: Mapping[str, Drive] | None = None,
     ) -> Supplied:
         """Step the phases that are needed for what is wanted, everything unless given.
 
         `grids` are the steps by phase; a phase that has none adds its own. With the same grids, values are smooth in
-        the inputs.
+        the inputs. `drives` are currents by phase where they follow a profile. Raises SimulationError.
         """
-        grids = {} if grids is None else grids
-        place = {name: i for i, name in enumerate(self.model.switch_names)}
-        values = np.full(len(place), np.inf)
-        slopes = np.zeros((len(place), along.shape[1]))
-        ended: dict[str, Ended] = {}
+        grids, drives = {} if grids is None else grids, drives or {}
+        values = np.full(len(self._place), np.inf)
+        slopes = np.zeros((len(self._place), along.shape[1]))
+        ended: dict[str, Instant] = {}
+        short: dict[str, tuple[float, Array]] = {}
         horizon = float(inputs[self.model.index["horizon"]])
         for name, engine in self._phases.items():
-            phase = engine.phase
-            rows = {row.name for row in (*phase.events, *phase.paths, *phase.steadies)}
-            if wanted is not None and not (rows & set(wanted)) and not self._leads(name, wanted):
+            after = engine.phase.phase.after
+            if not self._needed(name, wanted) or (after and after not in ended):
                 continue
-            before = ended.get(phase.phase.after) if phase.phase.after else None
-            if phase.phase.after and before is None:
-                continue
-            found, grids[name] = engine.run(inputs, along, before, wanted, horizon, grids.get(name))
+            before = ended[after] if after else None
+            found, grid = engine.run(inputs, along, before, wanted, horizon, grids.get(name), drives.get(name))
+            if name not in drives:
+                grids[name] = grid
             for row, value in found.values.items():
-                values[place[row]], slopes[place[row]] = value, found.slopes[row]
+                values[self._place[row]], slopes[self._place[row]] = value, found.slopes[row]
             if found.end is not None:
                 ended[name] = found.end
-        return Supplied(values, slopes)
+                short[name] = (found.short, found.of_short)
+        return Supplied(values, slopes, {name: short[name] for name in drives if name in short})
 
-    def _leads(self, name: str, wanted: Collection[str]) -> bool:
-        """Whether a phase that something wanted belongs to starts where this one ends."""
-        for other, engine in self._phases.items():
-            phase = engine.phase
-            if phase.phase.after == name:
-                rows = {row.name for row in (*phase.events, *phase.paths, *phase.steadies)}
-                if rows & set(wanted) or self._leads(other, wanted):
-                    return True
-        return False
+    def _needed(self, name: str, wanted: Collection[str] | None) -> bool:
+        """Whether something wanted belongs to a phase, or to one that starts where it ends."""
+        if wanted is None:
+            return True
+        phase = self.model.phases[name]
+        mine = any(row.name in wanted for row in (*phase.events, *phase.paths, *phase.steadies))
+        after = (other for other, one in self.model.phases.items() if one.phase.after == name)
+        return mine or any(self._needed(other, wanted) for other in after)
