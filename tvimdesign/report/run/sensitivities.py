@@ -11,7 +11,7 @@ from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.report.output.axis_labels import name_in_words
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.solve.result import StudyResult
-from tvimdesign.solve.sensitivity.output_sensitivity import FINER, OutputSensitivities, entries, output_sensitivities
+from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities, entries, output_sensitivities
 
 _SHOWN = 5e-3
 """Elasticity below which a row or a column of the heat map has nothing to say."""
@@ -27,9 +27,8 @@ def sensitivities(answer: StudyResult, deadline: Deadline) -> tuple[OutputSensit
     wanted = [
         name for name in resolved.table.names(resolved.points) if resolved.table.output(name).headline or name in asked
     ]
-    options = answer.design.study["solver"]
-    elements, cells = FINER * options["elements"], options["cells"]
-    return output_sensitivities(resolved, elements, cells, wanted, deadline=deadline), resolved
+    deadline.check("the outputs were differentiated")
+    return output_sensitivities(resolved, answer.design.study["solver"]["cells"], wanted), resolved
 
 
 def sensitivities_csv(found: OutputSensitivities, resolved: ResolvedModule) -> str:

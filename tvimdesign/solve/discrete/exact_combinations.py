@@ -11,7 +11,6 @@ from tvimdesign.solve.discrete.discrete_choices import Box, Sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Array, Run, Trace
-from tvimdesign.solve.optimizer.coarse_first import coarse_search_from, search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 
@@ -47,7 +46,7 @@ class ExactCombinations:
         if not exact.optimizer.deadline.passed:
             runs.append(exact.optimizer.solve(ends, warm=carried, begin=begin))
         if runs and not runs[0].start.converged:
-            runs.append(search_from(exact.optimizer, begin, ends))
+            runs.append(exact.optimizer.solve(ends, begin=begin))
         found = min([*runs, carried], key=lambda one: not one.start.converged)
         choices = exact.choices(box[: len(exact.sizes.names)])
         found = replace(found, within=ends, start=replace(found.start, choices=choices, relaxed=False))
@@ -64,7 +63,7 @@ class ExactCombinations:
             return None
         found = exact.optimizer.solve(warm=run)
         if not found.start.converged:
-            found = coarse_search_from(exact.optimizer, run.inputs, {})
+            found = exact.optimizer.solve(begin=run.inputs)
         return found if found.start.converged else None
 
 
@@ -84,7 +83,7 @@ def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:
     start = replace(run.start, begin=exact.vector.free_values(begin), end=exact.vector.free_values(begin))
     return replace(
         run, start=start, inputs=begin, unknowns=trace.unknowns, multipliers=trace.multipliers,
-        bound_multipliers=trace.bound_multipliers, parameter_multipliers=np.zeros(len(exact.model.start)),
+        bound_multipliers=trace.bound_multipliers,
     )  # fmt: skip
 
 

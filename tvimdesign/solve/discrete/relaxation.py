@@ -17,13 +17,6 @@ from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.box_search import BoxSearch
-from tvimdesign.solve.optimizer.coarse_first import (
-    all_refined,
-    coarse_of,
-    coarse_search_from,
-    first_optimum,
-    search_from,
-)
 from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -76,38 +69,30 @@ class Relaxation:
 
     def starts(self, most: int | None = None) -> list[Run]:
         """A run from every start, or so many at `most`, with every size free; and what different optima they are."""
-        coarse = coarse_of(self.optimizer)
-        near, here = self._from_starts([coarse, self.optimizer] if coarse else [self.optimizer], most)
-        runs = NeighboringOptima(self.optimizer).improve(here)
-        if coarse and near:
-            runs = all_refined(self.optimizer, coarse, NeighboringOptima(coarse).improve(near)) + runs
+        runs = NeighboringOptima(self.optimizer).improve(self._from_starts(most))
         self._take(runs)
         return runs
 
-    def _from_starts(self, grids: Sequence[Optimizer], most: int | None) -> tuple[list[Run], list[Run]]:
-        """A run from every start, or so many at `most`: those that come to an optimum of the first of several problems,
-        and those of the last, which is solved where the first has none.
-        """
-        found: tuple[list[Run], list[Run]] = ([], [])
+    def _from_starts(self, most: int | None) -> list[Run]:
+        """A run from every start, or so many at `most`."""
+        runs: list[Run] = []
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)
         for number, begin in enumerate(islice(self.optimizer.multistart.points(), most)):
-            runs = [*found[0], *found[1]]
             if runs and self.optimizer.deadline.passed:
                 break
             best = min((one.start.objective for one in runs if one.start.converged), default=None)
             so_far = "" if best is None else f", objective {best:.5g} so far"
             self.optimizer.progress(f"start {number + 1} of {count}{so_far}")
-            beyond = self.constant_current_optimum.beyond(begin)
-            run, grid = first_optimum(grids, partial(self._from_one_of_each, begin=beyond))
+            run = self._from_one_of_each(self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
                 run = second_try.from_conflict_search(run)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
-            found[grid is self.optimizer].append(run)
+            runs.append(run)
             if not self.sizes.names:
                 run.start = replace(run.start, choices=dict(self.records))
                 self.note(run)
-        return found
+        return runs
 
     def from_all_over(self) -> list[Run]:
         """Searches in boxes from designs all over the ranges that keep the arithmetic limits, then from the start."""
@@ -144,7 +129,7 @@ class Relaxation:
         for free in self.optimizer.free:
             if free.name in best.start.end:
                 begin[index[free.name]] = min(max(best.start.end[free.name], free.lower), free.upper)
-        run = self._from_one_of_each(self.optimizer, self._mixed(begin, {}))
+        run = self._from_one_of_each(self._mixed(begin, {}))
         if run.start.converged:
             self._take([run])
         return [run]
@@ -160,11 +145,12 @@ class Relaxation:
         self.ends = [] if self.optima else runs
         self._sort_records()
 
-    def _from_one_of_each(self, optimizer: Optimizer, begin: Array) -> Run:
+    def _from_one_of_each(self, begin: Array) -> Run:
         """The best design from a start, with the records that it has most of first, and then with all of them.
 
         A mixture that IPOPT begins in the middle of takes several times as long, and ends in worse optima.
         """
+        optimizer = self.optimizer
         if not self.sizes.mixtures:
             return optimizer.solve(begin=begin)
         index = optimizer.model.index
@@ -221,7 +207,7 @@ class Relaxation:
         from every free optimum all came to points where nothing brings the limits nearer. A warm run that is over
         before it came to such a point leaves a box of several combinations to be divided; of a single one the search
         that begins afresh where it began tells more. A box that will be divided unless a design is found in it is
-        searched from one more place, coarsely: its halves are asked the same.
+        searched from one more place: its halves are asked the same.
         """
         ends = self.sizes.ends(box)
         begins = self._begins(ends, near)
@@ -239,7 +225,7 @@ class Relaxation:
             return None, True
         for begin in self._modules(begins[:-1] if self.found_in_boxes else begins):
             divided = not is_one(box) and not {NO_DESIGN, NO_MODULE}.issuperset(statuses)
-            run = self._searched(ends, begin, certain=not divided)
+            run = self._searched(ends, begin)
             if run.start.converged:
                 return run, True
             statuses.append(run.start.status)
@@ -352,15 +338,9 @@ class Relaxation:
         self.work.count(run.start, warm=True)
         return run
 
-    def _searched(self, ends: Mapping[str, Ends], begin: Array, *, certain: bool) -> Run:
-        """A search within some ends that begins afresh; by the coarse problem alone where that says enough."""
-        if self.found_in_boxes:
-            return self._in_boxes(ends, begin)
-        if certain:
-            return self._solved(ends, begin=begin)
-        run = coarse_search_from(self.optimizer, begin, ends)
-        self.work.count(run.start, warm=False)
-        return run
+    def _searched(self, ends: Mapping[str, Ends], begin: Array) -> Run:
+        """A search within some ends that begins afresh."""
+        return self._in_boxes(ends, begin) if self.found_in_boxes else self._solved(ends, begin=begin)
 
     def _in_boxes(
         self, ends: Mapping[str, Ends], begin: Array, leads_away: Callable[[Run], bool] = lambda _: False
@@ -377,10 +357,7 @@ class Relaxation:
         begin: Array | None = None,
         unknowns: Array | None = None,
     ) -> Run:
-        if warm is None and unknowns is None and begin is not None:
-            run = search_from(self.optimizer, begin, ends)
-        else:
-            run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
+        run = self.optimizer.solve(ends, warm=warm, begin=begin, unknowns=unknowns)
         self.work.count(run.start, warm=warm is not None)
         return run
 

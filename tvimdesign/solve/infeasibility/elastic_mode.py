@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.solve.nlp.ipopt import NLP, Solver, solver_of
+from tvimdesign.solve.nlp.ipopt import Solver, solver_of
 from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem import Parameters, Point, Problem
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -66,18 +66,6 @@ class ElasticMode:
         self.limits = [replace(problem.limits[keys.index(key)], output=key[0]) for key in places]
         """One limit for each slack: those that one requirement puts on several outputs share one, by its name."""
         self.count, self.equations = len(self.limits), problem.equation_count
-        whole = problem.function
-        slacks, weights = ca.MX.sym("slacks", self.count), ca.MX.sym("weights", self.count)
-        first, last = self.equations, self.equations + len(problem.limits)
-        rows, each = whole["g"], [int(place) for place in self._slack_of]
-        self._written = ca.Function(
-            "elastic",
-            [ca.vertcat(whole["x"], slacks), ca.vertcat(whole["p"], weights)],
-            [ca.dot(weights, slacks) + TRACE * whole["f"],
-             ca.vertcat(rows[:first], rows[first:last] - slacks[each], rows[last:])],
-            *NLP,
-        )  # fmt: skip
-        self._rows = ca.Function("rows", [whole["x"], whole["p"]], [rows])
 
     def settle(
         self, weights: Array, begin: Array, unknowns: Array | None = None, within: Collection[int] = ()
@@ -86,44 +74,62 @@ class ElasticMode:
         optimizer, problem = self.optimizer, self.optimizer.problem
         clock = time.perf_counter()
         x = optimizer.guess(begin) if unknowns is None else unknowns
-        p = optimizer.parameters(Objective(optimizer.study.minimize))
+        parameters = optimizer.parameters(Objective(optimizer.study.minimize))
+        problem.place_grids(x, parameters)
         counts = np.isin(np.arange(self.count), list(within)) if within else np.ones(self.count, dtype=bool)
         each = self._slack_of
         residuals = np.zeros(self.count)
-        broken = np.asarray(self._rows(x, p)).ravel()[self.equations : self.equations + len(each)]
+        broken = problem.at(x, parameters).rows[self.equations : self.equations + len(each)]
         np.maximum.at(residuals, each, np.nan_to_num(broken))
         slacks = np.where(counts, residuals + _ROOM, 0.0)
         lower, upper = optimizer.vector.bounds({})
-        objectives, rest = len(problem.objectives), problem.slope_count + problem.peak_count
-        no_equations = np.zeros(self.equations)
+        objectives, no_equations = len(problem.objectives), np.zeros(self.equations)
         answer = self._solver(
-            optimizer.deadline,
-            x0=np.concatenate([x, slacks]), p=np.concatenate([p, weights]),
+            _Elastic(problem, parameters, each, weights), optimizer.deadline,
+            x0=np.concatenate([x, slacks]),
             lbx=np.concatenate([lower, np.zeros(self.count)]),
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
-            lbg=np.concatenate([no_equations, np.full(len(each) + objectives + rest, -np.inf)]),
+            lbg=np.concatenate([no_equations, np.full(len(each) + objectives + problem.slope_count, -np.inf)]),
             ubg=np.concatenate([
-                no_equations, np.where(counts[each], 0.0, np.inf), np.full(objectives, np.inf), np.zeros(rest),
+                no_equations, np.where(counts[each], 0.0, np.inf), np.full(objectives, np.inf),
+                np.zeros(problem.slope_count),
             ]),
         )  # fmt: skip
-        return self._settled(answer, begin, time.perf_counter() - clock)
+        return self._settled(answer, begin, parameters, time.perf_counter() - clock)
 
     @cached_property
     def _solver(self) -> Solver:
-        asked = self.optimizer.study.solver
-        return solver_of(self._written, asked, of_parameters=False)
+        problem = self.optimizer.problem
+        return solver_of(problem.unknown_count + self.count, problem.row_count, self.optimizer.study.solver)
 
-    def _settled(self, answer: dict[str, Any], begin: Array, seconds: float) -> Settled:
-        size = self.optimizer.problem.unknown_count
-        found = np.asarray(answer["x"]).ravel()
+    def _settled(self, answer: dict[str, Any], begin: Array, parameters: Parameters, seconds: float) -> Settled:
+        problem = self.optimizer.problem
+        size, found = problem.unknown_count, np.asarray(answer["x"]).ravel()
         first, last = self.equations, self.equations + len(self._slack_of)
         pressing = np.zeros(self.count)
         np.add.at(pressing, self._slack_of, np.asarray(answer["lam_g"]).ravel()[first:last])
         ends = np.asarray(answer["lam_x"]).ravel()[: len(self.optimizer.free)]
-        rows = self.optimizer.problem.function["g"].numel()
-        bare = {
-            "x": found[:size], "f": answer["f"], "lam_g": np.zeros(rows), "lam_x": np.zeros(size),
-            "lam_p": np.zeros(self.optimizer.problem.function["p"].numel()),
-        }  # fmt: skip
-        run = self.optimizer.record(bare, self._solver.stats(), begin, seconds)
+        bare = {"x": found[:size], "f": answer["f"], "lam_g": np.zeros(problem.row_count), "lam_x": np.zeros(size)}
+        run = self.optimizer.record(bare, self._solver.stats(), begin, seconds, parameters)
         return Settled(run, np.maximum(found[size:], 0.0), pressing, ends)
+
+
+class _Elastic:
+    """A problem with slacks as a programme: the unknowns, then the slacks."""
+
+    def __init__(self, problem: Problem, parameters: Parameters, slack_of: Array, weights: Array) -> None:
+        self._problem, self._parameters, self._slack_of, self._weights = problem, parameters, slack_of, weights
+        self.unknown_count, self.row_count = problem.unknown_count + len(weights), problem.row_count
+
+    def at(self, x: Array) -> Point:
+        size, first = self._problem.unknown_count, self._problem.equation_count
+        point, slacks = self._problem.at(x[:size], self._parameters), x[size:]
+        rows, by_slacks = point.rows.copy(), np.zeros((self.row_count, len(slacks)))
+        limits = np.arange(first, first + len(self._slack_of))
+        rows[limits] -= slacks[self._slack_of]
+        by_slacks[limits, self._slack_of] = -1.0
+        return point._replace(
+            objective=float(self._weights @ slacks) + TRACE * point.objective,
+            gradient=np.concatenate([TRACE * point.gradient, self._weights]),
+            rows=rows, jacobian=np.hstack([point.jacobian, by_slacks]),
+        )  # fmt: skip

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, is_constant
 from tvimdesign.solve.nlp.labels import row_names, unknown_names
 from tvimdesign.solve.nlp.objective import Objective
@@ -85,19 +84,17 @@ class Inspection:
         self.optimizer, self.problem = optimizer, problem
         self.begin = next(optimizer.multistart.points())
         self._x = optimizer.guess(self.begin)
-        self._p = optimizer.parameters(Objective(optimizer.study.minimize))
-        whole = problem.function
-        rows = ca.vertcat(whole["g"], whole["f"])
-        self._values = ca.Function("rows", [whole["x"], whole["p"]], [rows])
-        exact = ca.Function("exact", [whole["x"], whole["p"]], [ca.jacobian(rows, whole["x"])])
-        self._jacobian = exact(self._x, self._p)
+        self._parameters = optimizer.parameters(Objective(optimizer.study.minimize))
+        problem.place_grids(self._x, self._parameters)
+        here = problem.at(self._x, self._parameters)
+        self._jacobian = np.vstack([here.jacobian, here.gradient])
         self._columns = unknown_names(problem)
         self._rows = [*row_names(problem), "goal"]
 
     def scaling(self) -> tuple[ValueRange, ValueRange]:
         """Rows, then columns; those without any entry are left to `structure`."""
-        triplets = self._jacobian.sparsity().get_triplet()
-        entries = np.abs(np.array(self._jacobian.nonzeros()))
+        triplets = np.nonzero(self._jacobian)
+        entries = np.abs(self._jacobian[triplets])
         return self._spread(triplets[0], entries, self._rows), self._spread(triplets[1], entries, self._columns)
 
     @staticmethod
@@ -113,7 +110,7 @@ class Inspection:
         decided, along, equations = self._along()
         first = self.problem.equation_count
         seen = [*range(first, first + len(self.problem.limits)), len(self._rows) - 1]
-        matrix = (self._jacobian[seen, :] @ ca.DM(along)).full() * self._widths(decided)
+        matrix = self._jacobian[seen] @ along * self._widths(decided)
         sizes = np.linalg.norm(matrix, axis=1)
         matrix = matrix[sizes > 0.0] / sizes[sizes > 0.0, None]
         directions = np.linalg.svd(matrix)
@@ -132,8 +129,6 @@ class Inspection:
 
     def _along(self) -> tuple[list[int], Array, float]:
         """The free numbers' places, derivatives of all unknowns by them, the condition number of the equations."""
-        from scipy.sparse.linalg import LinearOperator, onenormest, splu
-
         problem = self.problem
         decided = [*range(len(problem.free))]
         stay = {i for _, place in self.optimizer.vector.places_of_currents() for i in range(place.start, place.stop)}
@@ -142,35 +137,10 @@ class Inspection:
         along[decided, range(len(decided))] = 1.0
         if not follow:
             return decided, along, 1.0
-        rows = [*range(problem.equation_count), *self._tied_peaks()]
-        square = self._jacobian[rows, follow].sparse()  # scipy's
-        scale = 1.0 / abs(square).max(axis=1).toarray().ravel()
-        square = square.multiply(scale[:, None]).tocsc()
-        factors: Any = splu(square)
-        along[follow] = -factors.solve(scale[:, None] * self._jacobian[rows, decided].full())
-
-        def back(right: Array) -> Array:
-            return np.asarray(factors.solve(right))
-
-        def back_transposed(right: Array) -> Array:
-            return np.asarray(factors.solve(right, trans="T"))
-
-        inverse: Any = LinearOperator(
-            square.shape, matvec=back, rmatvec=back_transposed, matmat=back, rmatmat=back_transposed, dtype=float
-        )
-        return decided, along, float(abs(square).sum(axis=0).max() * onenormest(inverse))
-
-    def _tied_peaks(self) -> list[int]:
-        """For each peak the row of the greatest sample, which it follows."""
-        problem = self.problem
-        values = np.asarray(self._values(self._x, self._p)).ravel()
-        first = len(self._rows) - 1 - problem.peak_count
-        columns = self._jacobian[first:-1, problem.unknown_count - len(problem.peaks) :].full()
-        found = []
-        for column in columns.T:
-            samples = first + np.flatnonzero(column)
-            found.append(int(samples[np.argmax(values[samples])]))
-        return found
+        by = self._jacobian[: len(problem.free_currents)]
+        square = by[:, follow] / np.max(np.abs(by[:, follow]), axis=1, keepdims=True)
+        along[follow] = -np.linalg.solve(by[:, follow], by[:, decided])
+        return decided, along, float(np.linalg.cond(square, 1))
 
     def derivatives(self) -> DerivativeCheck:
         """Along every free number, and along random directions of the other unknowns."""
@@ -180,11 +150,11 @@ class Inspection:
         if count > free:
             others = random.choice([-1.0, 1.0], (_RANDOM, count))
             others[:, :free] = 0.0
-            directions += [("states and times together", direction) for direction in others]
-        sizes = np.sqrt((self._jacobian**2 @ np.ones(count)).full().ravel())
+            directions += [("currents and times together", direction) for direction in others]
+        sizes = np.linalg.norm(self._jacobian, axis=1)
         found = []
         for name, direction in directions:
-            exact = (self._jacobian @ direction).full().ravel()
+            exact = self._jacobian @ direction
             error = np.abs(self._difference(direction) - exact) / np.maximum(sizes, _FLAT)
             worst = int(np.argmax(error))
             found.append((self._rows[worst], name, float(error[worst])))
@@ -193,14 +163,18 @@ class Inspection:
     def _difference(self, direction: Array) -> Array:
         """(f(-2h) - 8 f(-h) + 8 f(h) - f(2h))/12h."""
         weights = ((-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0))
-        total: Any = sum(w * self._values(self._x + k * STEP * direction, self._p) for k, w in weights)
-        return np.asarray(total).ravel() / (12.0 * STEP)
+        total: Any = sum(w * self._values(self._x + k * STEP * direction) for k, w in weights)
+        return np.asarray(total) / (12.0 * STEP)
+
+    def _values(self, x: Array) -> Array:
+        point = self.problem.at(x, self._parameters)
+        return np.append(point.rows, point.objective)
 
     def structure(self) -> Structure:
         """What neither limits nor objective depend on, and what nothing changes."""
         optimizer = self.optimizer
         table, free = optimizer.table, [one.name for one in optimizer.free]
-        used = {int(column) for column in self._jacobian.sparsity().get_triplet()[1]}
+        used = set(np.flatnonzero(np.any(self._jacobian != 0.0, axis=0)).tolist())
         current_profiles = [current.row for current in optimizer.currents]
         own = [limit for limit in constraints_of(optimizer.study, table) if limit.origin == "require"]
         fixed = [limit for limit in own if is_constant(limit, table, [*free, *current_profiles])]

@@ -51,7 +51,7 @@ def _extreme(study: Study, row: str, sign: float, deadline: Deadline | None) -> 
     run = optimizer.solve()
     if not run.start.converged:
         return None
-    return optimizer.model.values(run.inputs, optimizer.multistart.cycle.values)[row]
+    return optimizer.model.values(run.inputs, optimizer.multistart.cycle)[row]
 
 
 def _given(study: Study, table: Table, name: str) -> float:

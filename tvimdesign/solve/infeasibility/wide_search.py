@@ -49,7 +49,7 @@ def _broken(optimizer: Optimizer, inputs: Array) -> float:
     if cycle is None:
         return np.inf
     limits = optimizer.problem.limits
-    values = optimizer.model.some_values(list(dict.fromkeys(limit.output for limit in limits)), inputs, cycle.values)
+    values = optimizer.model.some_values(list(dict.fromkeys(limit.output for limit in limits)), inputs, cycle)
     worst = max((float(limit.residual(values[limit.output])) for limit in limits), default=0.0)
     return worst if np.isfinite(worst) else np.inf
 

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any, Literal, TypeAlias
+from collections.abc import Mapping
+from typing import Any, Literal, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.solve.nlp.derivatives import Known, derivatives_of
 from tvimdesign.study import SolverOptions
 
+Array = NDArray[np.float64]
 _USUAL = {
     "print_level": 0,
     "sb": "yes",
     "linear_solver": "mumps",
-    # With MUMPS's usual 1e-6 the pivots of a freezing layer are too small: it miscounts negative eigenvalues, and IPOPT
-    # answers with tiny steps.
-    "mumps_pivtol": 1e-2,
-    # METIS. Where blocks have rows an iteration takes 0.42 to 0.49 of what it takes by minimum degree, with
-    # a free current 0.74, of a layer in shear 0.87 to 1 (seven studies).
-    "mumps_pivot_order": 5,
+    # Second derivatives of the cycle are not to be had for less than as many evaluations as there are unknowns.
+    "hessian_approximation": "limited-memory",
+    "limited_memory_max_history": 12,
     "mu_init": 1e-3,
     # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
     "honor_original_bounds": "yes",
@@ -31,15 +31,6 @@ _WARM = {
     "warm_start_bound_push": 1e-6,
     "warm_start_mult_bound_push": 1e-6,
     "warm_start_slack_bound_push": 1e-6,
-}
-_REFINED = {
-    # Close by, with next to nothing to learn of what presses: 8 to 13 iterations in four studies, and 13 to 16 where
-    # IPOPT begins as it does anywhere.
-    "mu_init": 1e-6,
-    "bound_push": 1e-3,
-    "bound_frac": 1e-3,
-    "slack_bound_push": 1e-3,
-    "slack_bound_frac": 1e-3,
 }
 _ANYWHERE = {
     # Most boxes of a search over lists hold no design. Where the multipliers of broken limits pass 1e5, IPOPT leaves
@@ -56,40 +47,90 @@ _FEASIBLE = {
     "acceptable_compl_inf_tol": 1e6,
     "acceptable_constr_viol_tol": 1e-8,
 }
-Beginning: TypeAlias = Literal["cold", "feasible", "near", "refined", "warm", "sharp"]
+Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
 """Where a run begins: anywhere; anywhere, to end where all limits are kept; near another optimum, none of whose
-multipliers hold; at an optimum of the same problem with fewer elements; at an optimum, with them; at the optimum
+multipliers hold; at an optimum, with them; at the optimum
 itself, which is sought more exactly."""
 _SETTINGS: dict[Beginning, dict[str, Any]] = {
-    "cold": _ANYWHERE, "feasible": _FEASIBLE, "refined": _REFINED, "warm": _WARM, "sharp": _WARM,
+    "cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM,
 }  # fmt: skip
 _SHARP = 1e-11
 """Tolerance at which a limit that hardly presses is told from one that does not."""
-_MOST_ITERATIONS = {"near": 60, "refined": 60, "warm": 30, "sharp": 30}
+_MOST_ITERATIONS = {"near": 100, "warm": 60, "sharp": 60}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""
-NLP = (["x", "p"], ["f", "g"])
-"""The names nlpsol knows the parts of a problem by."""
-_DERIVATIVES = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}
-"""Derivatives a solver has built, by the option under which another one takes them."""
 
 
 TIME_OVER = "Maximum_WallTime_Exceeded"
 """Status of a run that a deadline ended, whatever its clock."""
 
 
+class Programme(Protocol):
+    """A nonlinear programme that a solver can be given."""
+
+    @property
+    def unknown_count(self) -> int:
+        """Count of unknowns."""
+
+    @property
+    def row_count(self) -> int:
+        """Count of constraints."""
+
+    def at(self, x: Array) -> Evaluated:
+        """Evaluate the programme at a point."""
+
+
+class Evaluated(Protocol):
+    """A programme at a point."""
+
+    @property
+    def objective(self) -> float:
+        """What is made small."""
+
+    @property
+    def gradient(self) -> Array:
+        """Of the objective."""
+
+    @property
+    def rows(self) -> Array:
+        """The constraints."""
+
+    @property
+    def jacobian(self) -> Array:
+        """Of the constraints."""
+
+
 class Solver:
-    """IPOPT for one problem, ended between two iterations when the deadline of the run has passed."""
+    """IPOPT for one programme, ended between two iterations when the deadline of the run has passed."""
 
-    def __init__(self, name: str, problem: Any, settings: Mapping[str, Any], sizes: tuple[int, int, int]) -> None:
-        """Build it from what nlpsol takes; `sizes` are the counts of unknowns, rows and parameters."""
-        self._stop = _Stop(sizes)
-        self._nlp = ca.nlpsol(name, "ipopt", problem, {**settings, "iteration_callback": self._stop})
+    def __init__(self, name: str, unknowns: int, rows: int, settings: Mapping[str, Any]) -> None:
+        """Build it for so many unknowns and rows; the programme itself is given with each run."""
+        self._stop = _Stop((unknowns, rows, 0))
+        self._held = _Held()
+        x, p = ca.MX.sym("x", unknowns), ca.MX.sym("p", 0)
+        of = self._calls = [
+            _Part(self._held, unknowns, size, sloped=sloped, part=part)
+            for sloped in (False, True)
+            for part, size in (("objective", 1), ("rows", rows))
+        ]
+        f, g, (same_f, gradient), (same_g, jacobian) = (call(x) for call in of)
+        derivatives = {
+            "grad_f": ca.Function("grad_f", [x, p], [same_f, gradient], ["x", "p"], ["f", "grad_f_x"]),
+            "jac_g": ca.Function("jac_g", [x, p], [same_g, jacobian], ["x", "p"], ["g", "jac_g_x"]),
+            "no_nlp_grad": True, "calc_lam_p": False,
+        }  # fmt: skip
+        options: Any = {**settings, **derivatives, "iteration_callback": self._stop}
+        problem: Any = {"x": x, "p": p, "f": f, "g": g}
+        self._nlp = ca.nlpsol(name, "ipopt", problem, options)
 
-    def __call__(self, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
+    def __call__(self, programme: Programme, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
         """Run it with nlpsol's arguments, until the deadline at most."""
         self._stop.deadline, self._stop.stopped = deadline, False
+        self._held.programme = programme
         answer: dict[str, Any] = self._nlp(**arguments)
+        if self._held.error is not None:
+            error, self._held.error = self._held.error, None
+            raise error
         return answer
 
     def stats(self) -> dict[str, Any]:
@@ -97,13 +138,43 @@ class Solver:
         found: dict[str, Any] = self._nlp.stats()
         return {**found, "return_status": TIME_OVER, "success": False} if self._stop.stopped else found
 
-    def get_function(self, name: str) -> Any:
-        """Return one of the functions that nlpsol built."""
-        return self._nlp.get_function(name)
 
-    def size1_in(self, name: str) -> int:
-        """Return the rows of one of nlpsol's arguments."""
-        return int(self._nlp.size1_in(name))
+class _Held:
+    """The programme of the run."""
+
+    programme: Programme
+    error: BaseException | None = None
+
+
+class _Part(ca.Callback):
+    """Objective or constraints at a point, to CasADi; with their derivatives where `sloped`."""
+
+    def __init__(self, held: _Held, unknowns: int, size: int, *, sloped: bool, part: str) -> None:
+        super().__init__()
+        self._held, self._unknowns, self._size, self._sloped, self._part = held, unknowns, size, sloped, part
+        self.construct(f"{part}{int(sloped)}", {})
+
+    def get_n_in(self) -> int:
+        return 1
+
+    def get_n_out(self) -> int:
+        return 2 if self._sloped else 1
+
+    def get_sparsity_in(self, _: int) -> Any:
+        return ca.Sparsity.dense(self._unknowns)
+
+    def get_sparsity_out(self, place: int) -> Any:
+        return ca.Sparsity.dense(self._size, self._unknowns if place else 1)
+
+    def eval(self, arguments: Any) -> list[Any]:
+        try:
+            found = self._held.programme.at(np.asarray(arguments[0]).ravel())
+        except BaseException as error:  # CasADi would swallow it
+            self._held.error = error
+            raise
+        values, slopes = (found.objective, found.gradient) if self._part == "objective" else (found.rows, found.jacobian)
+        whole = [ca.DM(values)]
+        return [*whole, ca.DM(np.atleast_2d(slopes))] if self._sloped else whole
 
 
 class _Stop(ca.Callback):
@@ -134,19 +205,9 @@ class _Stop(ca.Callback):
 
 
 def solver_of(
-    function: Any,
-    asked: SolverOptions,
-    known: Iterable[Solver] = (),
-    beginning: Beginning = "cold",
-    *,
-    points: Known | None = None,
-    of_parameters: bool = True,
+    unknowns: int, rows: int, asked: SolverOptions, beginning: Beginning = "cold"
 ) -> Solver:
-    """IPOPT for a problem, a function of `NLP`'s names; solvers of the same problem that are `known` lend their
-    derivatives, which are most of the work of building one, and those of a problem with the same functions what is
-    known of their derivatives at `points`. The multipliers `of_parameters` can be left out: where a
-    run ends at no geometry CasADi cannot compute them, and warns.
-    """
+    """IPOPT for programmes of so many unknowns and rows, set for where a run begins."""
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
         **_USUAL,
@@ -154,8 +215,5 @@ def solver_of(
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
         "tol": min(asked.tolerance, _SHARP) if beginning == "sharp" else asked.tolerance,
     }
-    lent = {option: other.get_function(name) for other in known for option, name in _DERIVATIVES.items()}
-    own = {} if lent else derivatives_of(function, points)
-    settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False, **lent, **own}
-    settings |= {} if of_parameters else {"calc_lam_p": False}
-    return Solver("design", function, settings, (function.size1_in(0), function.size1_out(1), function.size1_in(1)))
+    settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False}
+    return Solver("design", unknowns, rows, settings)

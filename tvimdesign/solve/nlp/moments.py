@@ -61,3 +61,12 @@ def _deviation(model: DeviceFunctions, tolerance: Tolerance, value: Any, inputs:
     if tolerance.adjustable:
         size = ca.fmin(size, tolerance.adjusted_to or 0.0)
     return deviation_of(size, tolerance.distribution, tolerance.sigma)
+
+
+def moments_at(
+    model: DeviceFunctions, tolerances: Mapping[str, Tolerance], outputs: Sequence[str], sizes: Sequence[float],
+    inputs: Any,
+) -> tuple[Any, Any]:  # fmt: skip
+    """Return the shifts of the means and the standard deviations of outputs at a design's inputs."""
+    shift, deviation = moments(model, tolerances, outputs, sizes)(inputs)
+    return np.asarray(shift).ravel(), np.asarray(deviation).ravel()

@@ -1,37 +1,38 @@
-"""The optimisation problem of a study, built once: CasADi unknowns, objective and named constraints for IPOPT.
+"""The optimisation problem of a study in the space of its free numbers: objective and named constraints for IPOPT.
 
-Every number that is not an unknown is a parameter, so starts, weights, catalogue sizes and bounds change nothing that
-was built. Unknowns that are positive throughout are logarithms of their ratio to the study's start.
+The table's quantities and the working cycle are evaluated with exact derivatives at any point of that space; nothing
+of what happens in time is an unknown. Unknowns that are positive throughout are logarithms of their ratio to the
+study's start. Where a current follows a profile, the time that its pieces take is an unknown, too, and the event at its
+end an equation.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.deadline import NEVER, Deadline
-from tvimdesign.base.errors import InputError
+from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.device import Event, Path, Steady
+from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
-from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.current_profile import ramp_time
+from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
-from tvimdesign.solve.nlp.transcription import ORDER, Block, at_each, phase_block
 
 Array = NDArray[np.float64]
 
-
-FREEZING = 3.0
-"""Elements of a freezing layer, whose edge runs through the cells, over those of a melting one."""
+STEPS, FREEZING_STEPS, LEAST_STEPS = 40, 60, 3
+"""Steps of a phase whose current follows a profile, of one in which the layer freezes, and of a piece at least."""
+UNIT = 1.0
+"""Unit of the time that a profile takes [s]; its unknown is the logarithm."""
 
 
 @dataclass(frozen=True)
@@ -66,33 +67,47 @@ class FreeCurrent:
     pieces: int
     lower: float
     upper: float
-    ramp_elements: int
-    """Count of elements for its rise from zero to the first node."""
+    slew: float
+    """How fast it may change [A/s]."""
 
     @property
     def nodes(self) -> int:
-        """Count of its unknowns, currents over `upper`."""
+        """Count of its currents, over `upper`; one more unknown is the time of its pieces."""
         return self.pieces + 1
 
 
 @dataclass(frozen=True)
-class Balance:
-    """A steady state that is unknown: everything stays, with the event that ends the phase at zero."""
+class Parameters:
+    """The numbers of one run that are no unknowns."""
 
-    phase: str
-    unknowns: Any
-    """MX, the state and the current [A]."""
-    equations: Any
+    inputs: Array
+    weights: Array
+    """Of what is minimised."""
+    factors: Array
+    """Of each bound (a row) on each traded output (a column)."""
+
+
+class Point(NamedTuple):
+    """The problem at one point; derivatives by the unknowns."""
+
+    objective: float
+    gradient: Array
+    rows: Array
+    jacobian: Array
+    values: dict[str, float]
+    """The wanted outputs."""
+    gradients: dict[str, Array]
+    times: dict[str, float]
+    """Time [s] of each event the problem needs; of a driven phase that of its pieces."""
 
 
 class Problem:
-    """A nonlinear programme, `function` = {x, p, f, g} as CasADi's nlpsol takes it.
+    """A nonlinear programme in x, as a solver takes it.
 
-    x: the free numbers; for each block its states, column by column, and its log time; the free currents at their
-    nodes; the balances' states and currents; the peaks.
-    p: every input of the device, then the weights of what is minimised, then the factors of the sums, column by column.
-    g: equations, zero, the sums of mixtures' shares last; the limits' residuals, in their order, kept where <= 0; sums
-    of what is traded, below what the caller says; the currents' slopes; samples less peaks, all <= 0.
+    x: the free numbers; for each free current its nodes and the logarithm of the time its pieces take.
+    Rows: equations, zero: what ends each driven phase, and the sums of mixtures' shares less one; the limits'
+    residuals, in their order, satisfied where <= 0; sums of what is traded, below what the caller says; the currents'
+    slopes.
     """
 
     def __init__(
@@ -101,86 +116,169 @@ class Problem:
         free: Sequence[Free],
         limits: Sequence[Constraint],
         minimize: Sequence[str],
-        elements: int,
         currents: Sequence[FreeCurrent] = (),
         objectives: Sequence[str] = (),
-        back_offs: Callable[[Any], dict[str, Any]] | None = None,
         mixtures: Sequence[Mixture] = (),
-        order: int = ORDER,
     ) -> None:
-        """Write objective and constraints on so many `elements` of time of an `order`.
+        """Nothing is recorded yet.
 
-        `minimize` names the outputs whose weighted sum is least. Those that are `traded` get a row each that bounds a
-        sum of them, with factors that are parameters. `reserves` gives, for the device's inputs, what is added to the
-        residuals of some limits, by name. The shares of records in a mixture are free numbers that add up to one.
+        `minimize` names the outputs whose weighted sum is least. Those among the `objectives` get a row each that
+        bounds a sum of them. The shares of records in a mixture are free numbers that add up to one.
         """
         self.model = model
         self.free = tuple(free)
         self.limits = tuple(limits)
         self.objectives = tuple(objectives)
         self.minimize = tuple(dict.fromkeys([*minimize, *objectives]))
-        self._elements, self.order = elements, order
         self.free_currents = tuple(currents)
-        self._reserves = back_offs
         self.mixtures = tuple(mixtures)
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
-        self._build()
+        self.engine = CycleEngine(model)
+        self.grids: dict[str, Grid] = {}
+        """The steps of each phase; see `place_grids`."""
+        self.unknown_count = len(self.free) + sum(one.nodes + 1 for one in self.free_currents)
+        self.equation_count = len(self.free_currents) + len(self.mixtures)
+        self.slope_count = sum(2 * one.pieces for one in self.free_currents)
+        self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.slope_count
+        self._last: tuple[bytes, int, Point] | None = None
+        self._version = 0
 
-    def _build(self) -> None:
-        unknowns = ca.MX.sym("free", len(self.free))
-        inputs = ca.MX.sym("inputs", len(self.model.names))
-        weights = ca.MX.sym("weights", len(self.minimize))
-        factors = ca.MX.sym("factors", len(self.objectives), len(self.objectives))
-        device_inputs = self._device_inputs = self.with_unknowns(inputs, unknowns)
-        self._nodes = {c.phase: ca.MX.sym(f"current_{c.phase}", c.nodes) for c in self.free_currents}
-        self.blocks = self._write_blocks(device_inputs)
-        self.balances = self._write_balances(device_inputs)
-        cycle, self.peaks, peak_rows = self._switch_values()
-        self.cycle = cycle
-        wanted = self.wanted
-        values = self.model.outputs(wanted)(device_inputs, cycle) if wanted else ca.MX(0, 1)
-        parts = (weights[i] * values[wanted.index(name)] for i, name in enumerate(self.minimize))
-        objective = sum(parts, ca.MX(0.0))
-        back_offs = self._reserves(device_inputs) if self._reserves else {}
-        rows = [
-            limit.residual(values[wanted.index(limit.output)]) + back_offs.get(limit.name, 0.0) for limit in self.limits
-        ]
-        objectives = ca.vertcat(*(values[wanted.index(name)] for name in self.objectives))
-        sums = ca.mtimes(factors, objectives) if self.objectives else ca.MX(0, 1)
-        equations = ca.vertcat(
-            *(block.equations for block in self.blocks), *(b.equations for b in self.balances),
-            self.shares_less_one(device_inputs),
-        )  # fmt: skip
-        slopes = self._slopes(device_inputs)
-        everything = ca.vertcat(
-            unknowns, *(block.unknowns for block in self.blocks), *self._nodes.values(),
-            *(balance.unknowns for balance in self.balances), *self.peaks.values(),
-        )  # fmt: skip
-        self.equation_count = equations.numel()
-        self.slope_count = slopes.numel()
-        self.peak_count = peak_rows.numel()
-        self.function: dict[str, Any] = {
-            "x": everything,
-            "p": ca.vertcat(inputs, weights, ca.vec(factors)),
-            "f": objective,
-            "g": ca.vertcat(equations, *rows, sums, slopes, peak_rows),
-        }
-        self.unknown_count = everything.numel()
+    # --- evaluation ---
 
-    def with_unknowns(self, inputs: Any, unknowns: Any) -> Any:
-        """Inputs with the free numbers in their places."""
-        entries = ca.vertsplit(inputs)
+    @cached_property
+    def _outputs(self) -> Tape:
+        """Record the wanted outputs: of inputs and of what the cycle supplies."""
+        inputs, cycle = ca.SX.sym("inputs", len(self.model.names)), ca.SX.sym("cycle", len(self.model.switch_names))
+        values = self.model.outputs(self.wanted).call([inputs, cycle], True, False)[0]
+        return Tape.of([inputs, cycle], [ca.densify(values)])
+
+    def place_grids(self, x: Array, parameters: Parameters) -> None:
+        """Choose the steps of each phase by their errors at a point; they stay until they are placed again."""
+        self.grids, self._last = {}, None
+        self._version += 1
+        inputs, _ = self.inputs_at(x, parameters.inputs)
+        try:
+            self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed, self.grids, self._drives(x, 0))
+        except SimulationError:
+            self.grids = {}
+
+    def forget(self) -> None:
+        """Forget the last point."""
+        self._last = None
+
+    def at(self, x: Array, parameters: Parameters) -> Point:
+        """Evaluate the problem at a point; NaN where the cycle has no end. The last point is remembered."""
+        key = x.tobytes() + b"".join(part.tobytes() for part in vars(parameters).values())
+        if self._last is None or self._last[:2] != (key, self._version):
+            self._last = (key, self._version, self._evaluated(x, parameters))
+        return self._last[2]
+
+    def _evaluated(self, x: Array, parameters: Parameters) -> Point:
+        inputs, along = self.inputs_at(x, parameters.inputs)
+        cycle, of_cycle, short = self._supplied(x, inputs, along)
+        numbers = np.where(np.isfinite(cycle), cycle, np.nan)
+        if self.wanted:
+            ((values, slopes),) = self._outputs.tangents([inputs, numbers], [along, of_cycle])
+        else:
+            values, slopes = np.zeros(0), np.zeros((0, len(x)))
+        place = {name: i for i, name in enumerate(self.wanted)}
+        chosen = [place[name] for name in self.minimize]
+        traded = [place[name] for name in self.objectives]
+        rows, jacobian = [], []
+        for one in self.free_currents:
+            value, slope = short.get(one.phase, (np.nan, np.full(len(x), np.nan)))
+            rows.append(value)
+            jacobian.append(slope)
+        for mixture in self.mixtures:
+            shares = [self.model.index[name] for name in mixture.shares]
+            rows.append(float(np.sum(inputs[shares])) - 1.0)
+            jacobian.append(np.sum(along[shares], axis=0))
+        for limit in self.limits:
+            i = place[limit.output]
+            rows.append(limit.residual(values[i]))
+            jacobian.append((1.0 if limit.sense == "<=" else -1.0) / limit.scale * slopes[i])
+        if traded:
+            rows += list(parameters.factors @ values[traded])
+            jacobian += list(parameters.factors @ slopes[traded])
+        steep, of_steep = self._slopes(x, inputs, along)
+        weights = parameters.weights
+        events = dict(zip(self.model.switch_names, cycle, strict=True))
+        times = {name: float(events[name]) for name in self.events}
+        times |= {self.model.phases[one.phase].phase.ends: self.pieces_time(x, i) for i, one in enumerate(self.free_currents)}
+        return Point(
+            float(weights @ values[chosen]), weights @ slopes[chosen], np.concatenate([np.array(rows), steep]),
+            np.concatenate([np.array(jacobian).reshape(-1, len(x)), of_steep]),
+            dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
+        )  # fmt: skip
+
+    def _supplied(self, x: Array, inputs: Array, along: Array) -> Supplied:
+        if not self.events and not self._needed & set(self.model.switch_names):
+            count = len(self.model.switch_names)
+            return Supplied(np.full(count, np.inf), np.zeros((count, along.shape[1])), {})
+        try:
+            return self.engine.run(inputs, along, self._needed, self.grids, self._drives(x, len(x)))
+        except SimulationError:
+            count = len(self.model.switch_names)
+            return Supplied(np.full(count, np.nan), np.zeros((count, along.shape[1])), {})
+
+    def inputs_at(self, x: Array, inputs: Array) -> tuple[Array, Array]:
+        """Return inputs with the free numbers in their places, and their derivatives by the unknowns."""
+        found, along = inputs.copy(), np.zeros((len(inputs), len(x)))
         for i, free in enumerate(self.free):
-            entries[self.model.index[free.name]] = free.to_value(unknowns[i])
-        return ca.vertcat(*entries)
+            place = self.model.index[free.name]
+            found[place] = free.to_value(x[i])
+            along[place, i] = found[place] if free.logarithmic else free.reference
+        for i, current in enumerate(self.free_currents):
+            row, nodes = self.model.index[current.row], self.nodes_place(i)
+            weights = np.full(current.nodes, 1.0 / current.pieces)
+            weights[[0, -1]] *= 0.5  # the mean over the pieces, which sets the unit of the steps alone
+            found[row] = current.upper * float(weights @ x[nodes])
+            along[row, nodes] = current.upper * weights
+        return found, along
 
-    def shares_less_one(self, inputs: Any) -> Any:
-        """What the shares of each mixture add up to beyond one."""
-        places = ([self.model.index[name] for name in mixture.shares] for mixture in self.mixtures)
-        return ca.vertcat(*(ca.sum1(ca.vertcat(*(inputs[place] for place in one))) - 1.0 for one in places))
+    def nodes_place(self, i: int) -> slice:
+        """Where the nodes of a free current stand among the unknowns; the logarithm of its time comes after them."""
+        first = len(self.free) + sum(one.nodes + 1 for one in self.free_currents[:i])
+        return slice(first, first + self.free_currents[i].nodes)
 
-    # --- what is simulated elsewhere, as equations ---
+    def pieces_time(self, x: Array, i: int) -> float:
+        """Time [s] that the pieces of a free current take, after its ramp."""
+        return float(UNIT * np.exp(x[self.nodes_place(i).stop]))
+
+    def _drives(self, x: Array, lanes: int) -> dict[str, Drive]:
+        """The free currents by phase, with their derivatives by the unknowns, or by none."""
+        found = {}
+        for i, current in enumerate(self.free_currents):
+            phase, nodes = self.model.phases[current.phase].phase, self.nodes_place(i)
+            one = np.eye(lanes) if lanes else np.zeros((len(x), 0))
+            values, of_values = current.upper * x[nodes], current.upper * one[nodes]
+            time = self.pieces_time(x, i)
+            shares = np.linspace(0.0, 1.0, current.nodes)
+            ramp = ramp_time(values[0], current.slew) if np.isfinite(current.slew) else 0.0
+            moments, of_moments = ramp + shares * time, shares[:, None] * time * one[nodes.stop]
+            if ramp > 0.0:
+                of_moments = of_moments + of_values[0] / current.slew
+                moments, of_moments = np.append(0.0, moments), np.vstack([np.zeros((1, lanes)), of_moments])
+                values, of_values = np.append(0.0, values), np.vstack([np.zeros((1, lanes)), of_values])
+            steps = max(-(-(FREEZING_STEPS if phase.history else STEPS) // current.pieces), LEAST_STEPS)
+            found[current.phase] = Drive(moments, of_moments, phase.sign * values, phase.sign * of_values, steps)
+        return found
+
+    def _slopes(self, x: Array, inputs: Array, along: Array) -> tuple[Array, Array]:
+        """How much steeper than allowed the free currents are, either way, as a share of what is allowed."""
+        rows, jacobian = [], []
+        for i, current in enumerate(self.free_currents):
+            nodes, over = self.nodes_place(i), current.upper * current.pieces / (self.pieces_time(x, i) * current.slew)
+            steep = np.diff(x[nodes]) * over
+            by = np.zeros((current.pieces, len(x)))
+            for k in range(current.pieces):
+                by[k, nodes.start + k], by[k, nodes.start + k + 1], by[k, nodes.stop] = -over, over, -steep[k]
+            rows += [steep - 1.0, -steep - 1.0]
+            jacobian += [by, -by]
+        return (np.concatenate(rows), np.concatenate(jacobian)) if rows else (np.zeros(0), np.zeros((0, len(x))))
+
+    # --- what the problem needs of the cycle ---
 
     @cached_property
     def events(self) -> list[str]:
@@ -200,17 +298,15 @@ class Problem:
             found = mine + found
         return found
 
-    def simulated(
-        self,
-        simulator: Simulator,
-        inputs: Array,
-        current_profiles: Mapping[str, CurrentProfile] | None = None,
-        deadline: Deadline = NEVER,
-    ) -> Cycle:
-        """The working cycle at some inputs, as far as the problem needs it. Raises SimulationError, TimeOverError."""
-        return simulator.run(
-            inputs, current_profiles, phases=self._phases, wanted=self._needed, deadline=deadline
-        )  # fmt: skip
+    def simulated(self, inputs: Array) -> dict[str, float]:
+        """What the cycle supplies at some inputs, as far as the problem needs it, with constant currents.
+
+        Raises SimulationError.
+        """
+        if not self.events:
+            return dict.fromkeys(self.model.switch_names, np.inf)
+        found = self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed)
+        return dict(zip(self.model.switch_names, found.values.tolist(), strict=True))
 
     @cached_property
     def known(self) -> list[str]:
@@ -222,128 +318,21 @@ class Problem:
         ]
 
     @cached_property
-    def _phases(self) -> set[str]:
+    def phases(self) -> list[str]:
+        """The phases the problem needs."""
         rows = [self.model.table.quantity(name) for name in (*self.events, *self._needed)]
-        return {row.phase for row in rows if isinstance(row, Event | Path | Steady)}
+        return [name for name in self.model.phases if any(
+            isinstance(row, Event | Path | Steady) and row.phase == name for row in rows
+        )]
 
     @cached_property
     def _needed(self) -> set[str]:
         table = self.model.table
         return {base for name in self.wanted for base in (name.partition("@")[0], *table.ancestors(name))}
 
-    def elements(self, phase: str, asked: int | None = None) -> int:
-        """Count of a phase's elements: no less than `asked` for, and the corners of its current lie between them.
-
-        A freezing layer whose edge runs through the cells wants more; twice as many where its current is free, as the
-        current's corners divide its time already.
-        """
-        pieces = next((current.pieces for current in self.free_currents if current.phase == phase), 1)
-        more = (FREEZING if pieces == 1 else 2.0) if self.model.phases[phase].phase.history else 1.0
-        return pieces * math.ceil((asked or self._elements) * more / pieces)
-
-    def currents_at_nodes(self, phase: str, inputs: Any) -> Any:
-        """Current [A] of a phase at its nodes: one where it is constant."""
-        row = self.model.phases[phase].phase
-        for current in self.free_currents:
-            if current.phase == phase:
-                return row.sign * current.upper * self._nodes[phase]
-        return row.sign * inputs[self.model.index[row.current_input]]
-
-    def _write_blocks(self, inputs: Any) -> list[Block]:
-        blocks: dict[str, Block] = {}
-        for event in self.events:
-            row = self.model.table.quantity(event)
-            assert isinstance(row, Event)
-            phase = self.model.phases[row.phase]
-            after = phase.phase.after
-            if after is None:
-                start = phase.initial(inputs)
-            else:
-                start = phase.begin(blocks[self.model.phases[after].phase.ends].states[:, -1], inputs)
-            nodes = self.currents_at_nodes(row.phase, inputs)
-            ramp = self._ramp(row.phase, inputs)
-            blocks[event] = phase_block(phase, event, self.elements(row.phase), inputs, start, nodes, ramp, self.order)
-        return list(blocks.values())
-
-    def _ramp(self, phase: str, inputs: Any) -> tuple[int, Any]:
-        """Elements and time [s] a free current takes to its first node; a constant one is there from the start."""
-        for current in self.free_currents:
-            if current.phase == phase:
-                first = current.upper * self._nodes[phase][0]
-                return current.ramp_elements, ramp_time(first, inputs[self.model.index["current_slew"]])
-        return 0, 0.0
-
-    def _write_balances(self, inputs: Any) -> list[Balance]:
-        needed = self._needed
-        balances = []
-        for name, phase in self.model.phases.items():
-            if any(row.name in needed for row in phase.steadies):
-                unknowns = ca.MX.sym(f"balance_{name}", phase.state_size + 1)
-                state, profile = unknowns[:-1], unknowns[-1]
-                gap = phase.watch_in_parts([phase.phase.ends])(state, profile, inputs)
-                equations = ca.vertcat(phase.rates(state, profile, inputs), gap)
-                balances.append(Balance(phase=name, unknowns=unknowns, equations=equations))
-        return balances
-
-    def _slopes(self, inputs: Any) -> Any:
-        """How much steeper than allowed the free currents are, either way, as a share of what is allowed."""
-        rows = []
-        allowed = inputs[self.model.index["current_slew"]] if self.free_currents else None
-        for block in self.blocks:
-            for current in self.free_currents:
-                if block.event == self.model.phases[current.phase].phase.ends:
-                    step = current.upper * ca.diff(self._nodes[current.phase])
-                    slope = step * current.pieces / (block.pieces_time * allowed)
-                    rows += [slope - 1.0, -slope - 1.0]
-        return ca.vertcat(*rows)
-
-    def _switch_values(self) -> tuple[Any, dict[str, Any], Any]:
-        """Values of the supplied rows as unknowns see them, the peaks' unknowns, and their constraints (<= 0).
-
-        A path's maximum is an unknown that no sample exceeds: exact wherever the study bounds or minimises it.
-        """
-        by_event = {block.event: block for block in self.blocks}
-        values: dict[str, Any] = {name: block.final_time for name, block in by_event.items()}
-        peaks: dict[str, Any] = {}
-        rows = []
-        needed = self._needed
-        for phase in self.model.phases.values():
-            paths = [row for row in phase.paths if row.name in needed]
-            if not paths:
-                continue
-            block, watch = by_event[phase.phase.ends], phase.watch([row.name for row in paths])
-            samples = ca.vertsplit(at_each(phase, watch, block.every, block.currents, self._device_inputs))
-            for row, sampled in zip(paths, samples, strict=True):
-                if row.reduce == "integral":
-                    values[row.name] = ca.mtimes(sampled[1:], block.weights)
-                elif row.reduce == "end":
-                    values[row.name] = sampled[-1]
-                else:
-                    scale = self.peak_scale(row)
-                    peaks[row.name] = ca.MX.sym(row.name)
-                    values[row.name] = scale * peaks[row.name]
-                    rows.append(sampled.T / scale - peaks[row.name])
-        for balance in self.balances:
-            phase = self.model.phases[balance.phase]
-            for steady in phase.steadies:
-                state, profile = balance.unknowns[:-1], balance.unknowns[-1]
-                values[steady.name] = phase.watch([steady.name])(state, profile, self._device_inputs)
-        # What no wanted row needs is never read; NaN would show it if it were.
-        cycle = ca.vertcat(*(values.get(name, np.nan) for name in self.model.switch_names))
-        return cycle, peaks, ca.vertcat(*rows)
-
-    @staticmethod
-    def peak_scale(row: Path) -> float:
-        """Order of magnitude of a peak: kelvins are hundreds, watts and volts tens."""
-        return 100.0 if row.unit == "degC" else 10.0
-
     def _check(self) -> None:
         """Raise InputError for what cannot be put to the solver, with what can be said instead."""
         table = self.model.table
-        for limit in self.limits:
-            row = table.quantity(limit.output)
-            if isinstance(row, Path) and row.reduce == "maximum" and limit.sense == ">=":
-                raise InputError(f"require.{limit.output}: a peak can be kept below a limit, not above one")
         for current in self.free_currents:
             ends = self.model.phases[current.phase].phase.ends
             mine = [row.name for row in self.model.phases[current.phase].events if row.name != ends]

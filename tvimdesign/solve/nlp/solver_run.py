@@ -39,8 +39,8 @@ class Run:
     unknowns: Array
     multipliers: Array
     bound_multipliers: Array
-    parameter_multipliers: Array
-    """What the objective falls with every parameter of the problem, per unit."""
+    times: Mapping[str, float] = field(default_factory=dict)
+    """Time [s] of each event the problem needs."""
     within: Mapping[str, Ends] = field(default_factory=dict)
     """Ends of their own that some numbers were kept within."""
 
@@ -55,11 +55,11 @@ class Derivatives:
     """The problem where a run ended: its constraints' values, and exact first and second derivatives."""
 
     rows: Array
-    jacobian: Any
-    """DM, of the constraints by the unknowns."""
-    hessian: Any
-    """DM, of the Lagrangian, both triangles."""
+    jacobian: Array
+    """Of the constraints by the unknowns."""
+    hessian: Array
+    """Of the Lagrangian."""
     values: dict[str, float]
-    """The minimised outputs, as collocation has them."""
+    """The minimised outputs."""
     gradients: dict[str, Array]
     """Of the minimised outputs by the unknowns."""

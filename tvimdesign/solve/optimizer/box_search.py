@@ -40,7 +40,7 @@ class BoxSearch:
 
     def run(self, begin: Array) -> Run:
         """Where boxes lead to from some inputs: converged where that is an optimum of the whole problem."""
-        inputs, unknowns, width = begin, self._optimizer.simulated_guess(begin), _FIRST
+        inputs, unknowns, width = begin, self._optimizer.guess(begin), _FIRST
         best: Run | None = None
         held = True
         for _ in range(_MOST_BOXES):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from tvimdesign.solve.nlp.solution import Constant
 from tvimdesign.solve.nlp.solver_run import Array, Run
-from tvimdesign.solve.optimizer.coarse_first import search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 
@@ -21,7 +20,7 @@ class ConstantCurrentOptimum:
         """Inputs of the optimum with constant currents from a start; the start itself where there is none."""
         if self.optimizer is None:
             return begin
-        run = search_from(self.optimizer, begin)
+        run = self.optimizer.solve(begin=begin)
         if not run.start.converged:
             return begin
         if self.best is None or run.start.objective < self.best.start.objective:

@@ -10,10 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import Deadline
-from tvimdesign.base.errors import SimulationError, TimeOverError
-from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.base.errors import SimulationError
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.constraints import impossible, on_cycle
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.problem import Problem
@@ -28,8 +26,8 @@ class Multistart:
     """Points to begin at, each tried by simulating its switch as far as the problem needs it."""
 
     def __init__(
-        self, problem: Problem, model: DeviceFunctions, simulator: Simulator, options: SolverOptions,
-        progress: Progress, deadline: Deadline | None = None,
+        self, problem: Problem, model: DeviceFunctions, options: SolverOptions, progress: Progress,
+        deadline: Deadline | None = None,
     ) -> None:  # fmt: skip
         """Simulate the study's own start, which is in `model`, as far as the problem needs it.
 
@@ -37,14 +35,14 @@ class Multistart:
         SimulationError where none is found, TimeOverError where the time of the whole command is over first.
         """
         self.deadline = deadline or Deadline()
-        self.problem, self.model, self.simulator = problem, model, simulator
+        self.problem, self.model = problem, model
         self.options, self.progress = options, progress
         self.passed_over = {"switch never ends": 0, "no such module": 0}
         """Points at which no search began, by the reason."""
-        self.cycle = Cycle(dict.fromkeys(model.switch_names, np.inf), {}, {})
-        """The switch of the study's own start."""
+        self.cycle = dict.fromkeys(model.switch_names, np.inf)
+        """What the switch of the study's own start supplies."""
         try:
-            self.cycle = problem.simulated(simulator, model.start, deadline=self.deadline.whole)
+            self.cycle = problem.simulated(model.start)
         except SimulationError as error:
             self._move_start(error)
 
@@ -111,7 +109,7 @@ class Multistart:
 
     def _exists(self, point: Array) -> bool:
         """Whether there is such a module."""
-        values = self.model.values(point, self.cycle.values)
+        values = self.model.values(point, self.cycle)
         numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
         return (
             not np.any(np.isnan(numbers))
@@ -136,20 +134,18 @@ class Multistart:
         return self._links(self.model.start) <= 0.0
 
     def _bodies(self, inputs: Array) -> bool:
-        return all(np.all(np.asarray(block.phase.lumps(inputs)) > 0.0) for block in self.problem.blocks)
+        return all(np.all(np.asarray(self.model.phases[name].lumps(inputs)) > 0.0) for name in self.problem.phases)
 
     def _links(self, inputs: Array) -> Array:
-        links = [np.asarray(block.phase.links(inputs)).ravel() for block in self.problem.blocks]
+        links = [np.asarray(self.model.phases[name].links(inputs)).ravel() for name in self.problem.phases]
         return np.concatenate(links) if links else np.zeros(0)
 
-    def trial(self, inputs: Array) -> Cycle | None:
-        """The switch at a point, None where it does not end, or is over before it begins: that tells nothing of it.
-
-        None also where the time is over.
+    def trial(self, inputs: Array) -> dict[str, float] | None:
+        """What the switch at a point supplies, None where it does not end, or is over before it begins: that tells
+        nothing of it.
         """
         try:
-            known = inputs is self.model.start
-            cycle = self.cycle if known else self.problem.simulated(self.simulator, inputs, deadline=self.deadline)
-        except (SimulationError, TimeOverError):
+            cycle = self.cycle if inputs is self.model.start else self.problem.simulated(inputs)
+        except SimulationError:
             return None
-        return cycle if all(0.0 < cycle.values[event] < np.inf for event in self.problem.events) else None
+        return cycle if all(0.0 < cycle[event] < np.inf for event in self.problem.events) else None

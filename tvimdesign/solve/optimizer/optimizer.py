@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Mapping, Sequence
 from copy import copy
@@ -16,24 +15,25 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.device import Input
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.current_profile import ramp_time
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
-from tvimdesign.solve.nlp.derivatives import Known
-from tvimdesign.solve.nlp.ipopt import NLP, TIME_OVER, Beginning, Solver, solver_of
+from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, Solver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.objective import Objective
-from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Problem
+from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Parameters, Point, Problem
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, Run, Trace
-from tvimdesign.solve.nlp.transcription import ORDER
 from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
-RAMP_ELEMENT = 15.0  # s, the longest element of a ramp, in which the current changes fastest
+SETTLED = 1e-5
+"""Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
+MOST_GRIDS = 4
+"""Times the steps are placed anew for one run."""
+_APART = 1e-4
+"""Step of an unknown in the differences that second derivatives come from."""
 
 
 class Optimizer:
@@ -76,14 +76,10 @@ class Optimizer:
         limits = constraints_of(study, self.table, self.model.words)
         if without_cycle:
             limits = [limit for limit in limits if not on_cycle(self.table, limit.output)]
-        self.problem = self._problem(self.kept_constraints(limits), objectives, study.solver.elements)
+        self.problem = self._problem(self.kept_constraints(limits), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
         self._solvers: dict[Beginning, Solver] = {}
-        self.points: Known = {}
-        """What is known of the derivatives of the functions that problems of this device call."""
-        self._grids: dict[tuple[int, int], Optimizer] = {}
-        """This problem with other counts and orders of elements, once they are built."""
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def _device(self) -> DeviceFunctions:
@@ -115,8 +111,7 @@ class Optimizer:
         vary = self.study.vary[row]
         assert isinstance(vary, Range)  # the reader sees to that
         slew = float(self.model.start[self.model.index["current_slew"]])
-        ramp_elements = math.ceil(ramp_time(vary.upper, slew) / RAMP_ELEMENT)
-        return FreeCurrent(phase, row, pieces, vary.lower, vary.upper, ramp_elements)
+        return FreeCurrent(phase, row, pieces, vary.lower, vary.upper, slew)
 
     def with_records(self, study: Study) -> Optimizer | None:
         """The same problem for a study that differs in its records alone, where their numbers are all that counts.
@@ -138,30 +133,9 @@ class Optimizer:
         other._begin()
         return other
 
-    def on_grid(self, elements: int, order: int) -> Optimizer:
-        """The same problem with so many elements of time of an order, built once for all that differ in their records
-        alone."""
-        if (elements, order) not in self._grids:
-            first = copy(self)
-            first.__dict__.pop("_compiled", None)
-            first.problem = self._problem(list(self.problem.limits), self.problem.objectives, elements, order)
-            first._solvers = {}
-            self._grids[elements, order] = first
-        other = copy(self._grids[elements, order])
-        other.study, other.model, other.multistart = self.study, self.model, self.multistart
-        other.seconds, other.start_values, other.margins = self.seconds, self.start_values, self.margins
-        other.vector = DecisionVector(other.problem, self.model)
-        return other
-
-    def _problem(self, kept: list[Constraint], objectives: Sequence[str], elements: int, order: int = ORDER) -> Problem:
-        back_offs = None
-        if self.study.robust and self.study.robust.sigma is not None:
-            from tvimdesign.solve.nlp.back_off import back_offs_of
-
-            back_offs = back_offs_of(self.model, self.study, kept)
+    def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
         return Problem(
-            self.model, self.free, kept, tuple(self.study.minimize), elements, self.currents, objectives, back_offs,
-            self.mixtures, order,
+            self.model, self.free, kept, tuple(self.study.minimize), self.currents, objectives, self.mixtures
         )  # fmt: skip
 
     def kept_constraints(self, limits: list[Constraint]) -> list[Constraint]:
@@ -187,30 +161,16 @@ class Optimizer:
     def _begin(self) -> None:
         """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
         asked = self.study.solver
-        self.multistart = Multistart(
-            self.problem, self.model, self.simulator, asked, self.progress, self.deadline
-        )  # fmt: skip
+        self.multistart = Multistart(self.problem, self.model, asked, self.progress, self.deadline)
         self.vector = DecisionVector(self.problem, self.model)
-        cycle = self.multistart.cycle.values
+        cycle = self.multistart.cycle
         self.start_values = self.model.some_values(self.problem.minimize, self.model.start, cycle)
         """What is minimised, at the study's start."""
 
     def guess(self, inputs: Array) -> Array:
-        """The unknowns at a point, with the switch simulated there; with the start's where that does not end.
-
-        Nothing is simulated where a body takes no heat: CVODES needs seconds to give that up. A link that corrects
-        another one may be below zero and counts as such a body, so that most modules with a structure begin with the
-        start's switch. Simulated there, three of 21 studies ended in worse optima (`ankle` 1.4 %) and none in a better.
-        """
-        return (self.simulated_guess if self.multistart.heats(inputs) else self.first_guess)(inputs)
-
-    def simulated_guess(self, inputs: Array) -> Array:
-        """The same, simulated whatever there takes heat."""
-        return self.vector.at(inputs, self.multistart.trial(inputs) or self.multistart.cycle)
-
-    def first_guess(self, inputs: Array) -> Array:
-        """The unknowns at a point, with the switch simulated at the study's start."""
-        return self.vector.at(inputs, self.multistart.cycle)
+        """The unknowns at a design; where its switch does not end, with the start's times."""
+        cycle = self.multistart.trial(inputs) if self.currents else None
+        return self.vector.at(inputs, cycle or self.multistart.cycle)
 
     def _reference(self, name: str) -> float:
         value = self.start_values[name]
@@ -220,18 +180,12 @@ class Optimizer:
             return float(horizon)
         return value if value != 0.0 else 1.0
 
-    @cached_property
-    def _compiled(self) -> Any:
-        """The problem as one function."""
-        written = self.problem.function
-        return ca.Function("problem", [written["x"], written["p"]], [written["f"], written["g"]], *NLP)
-
     def _solver(self, beginning: Beginning) -> Solver:
         """The solver, built when it is first needed."""
         if beginning not in self._solvers:
-            known, asked = self._solvers.values(), self.study.solver
+            problem = self.problem
             self._solvers[beginning] = solver_of(
-                self._compiled, asked, known, beginning, points=self.points, of_parameters=not self.mixtures
+                problem.unknown_count, problem.row_count, self.study.solver, beginning
             )
         return self._solvers[beginning]
 
@@ -245,55 +199,65 @@ class Optimizer:
         *,
         beginning: Beginning | None = None,
     ) -> Run:
-        """Run IPOPT once from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within`
-        ends of their own.
+        """Run IPOPT from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within` ends
+        of their own.
 
-        `unknowns` stand in place of the switch simulated at `begin`; `beginning` says what is neither cold nor warm.
-        An `objective` stands in place of the study's weights and bounds what is traded; nothing is built anew. Raises
-        KeyboardInterrupt where an interrupt came, also one that CasADi has swallowed. The run ends at the deadline; one
-        that refines a coarse optimum, which would be lost otherwise, at that of the whole command.
+        `unknowns` stand in place of `begin`; `beginning` says what is neither cold nor warm. An `objective` stands in
+        place of the study's weights and bounds what is traded. Steps in time are placed where the run begins, and anew
+        where it ends, until that moves the optimum no more. Raises KeyboardInterrupt where an interrupt came, also one
+        that CasADi has swallowed. The run ends at the deadline.
         """
         raise_pending()
         inputs = self.model.start if begin is None else begin
         clock = time.perf_counter()
-        deadline = self.deadline.whole if beginning == "refined" else self.deadline
         if warm is not None:
             unknowns = warm.unknowns
         beginning = beginning or ("cold" if warm is None else "warm")
-        takes = 0.0 if self._solvers else self.seconds["set_up"]  # building a solver takes about as long
-        if deadline.remaining <= takes:
-            self.deadline.met = True
-            return self._not_begun(inputs, unknowns, within or {})
-        solver = self._solver(beginning)
-        arguments: dict[str, Any] = {"x0": self.guess(inputs) if unknowns is None else unknowns}
-        if warm is not None:
-            arguments |= {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
+        x = self.guess(inputs) if unknowns is None else unknowns
         objective = objective or Objective(self.study.minimize)
-        answer = solver(deadline, **arguments, p=self.parameters(objective), **self.ends(within or {}, objective))
+        parameters = self.parameters(objective)
+        if self.deadline.remaining <= 0.0:
+            self.deadline.met = True
+            return replace(self._not_begun(x, inputs, parameters), within=within or {})
+        multipliers = {} if warm is None else {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
+        ends = self.ends(within or {}, objective)
+        iterations = 0
+        for _ in range(MOST_GRIDS):
+            self.problem.place_grids(x, parameters)
+            solver = self._solver(beginning)
+            answer = solver(_WithParameters(self.problem, parameters), self.deadline, x0=x, **multipliers, **ends)
+            stats = solver.stats()
+            iterations += int(stats["iter_count"])
+            x = np.asarray(answer["x"]).ravel()
+            if not stats["success"] or not self.problem.events or self._settled(x, parameters):
+                break
+            multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
+            beginning = "warm"
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
-        run = self.record(answer, solver.stats(), inputs, seconds)
+        run = self.record(answer, {**stats, "iter_count": iterations}, inputs, seconds, parameters)
         return replace(run, within=within or {})
 
-    def _not_begun(self, inputs: Array, unknowns: Array | None, within: Mapping[str, Ends]) -> Run:
-        """Return a run that ended where it was to start, as the time was over: nothing is simulated or built."""
-        x = self.first_guess(inputs) if unknowns is None else unknowns
-        p = self.parameters(Objective(self.study.minimize))
-        value, rows = self._compiled(x, p)
-        answer = {"x": x, "f": value} | {
-            name: np.zeros(len(like)) for name, like in (("lam_g", np.asarray(rows)), ("lam_x", x), ("lam_p", p))
-        }
+    def _settled(self, x: Array, parameters: Parameters) -> bool:
+        """Whether steps that are placed anew at an optimum leave it where it is."""
+        before = self.problem.at(x, parameters)
+        self.problem.place_grids(x, parameters)
+        after = self.problem.at(x, parameters)
+        moved = np.append(np.abs(after.rows - before.rows), abs(after.objective / (before.objective or 1.0) - 1.0))
+        return bool(np.max(moved) < SETTLED)
+
+    def _not_begun(self, x: Array, inputs: Array, parameters: Parameters) -> Run:
+        """Return a run that ended where it was to start, as the time was over."""
+        point = self.problem.at(x, parameters)
+        answer = {"x": x, "f": point.objective, "lam_g": np.zeros(len(point.rows)), "lam_x": np.zeros(len(x))}
         stats = {"return_status": TIME_OVER, "success": False, "iter_count": 0}
-        return replace(self.record(answer, stats, inputs, 0.0), within=within)
+        return self.record(answer, stats, inputs, 0.0, parameters)
 
     def ends(self, within: Mapping[str, Ends], objective: Objective) -> dict[str, Array]:
         """Ends of the unknowns and of the rows for one run, as nlpsol names them."""
         lower, upper = self.vector.bounds(within)
         equations = np.zeros(self.problem.equation_count)
-        room, rest = (
-            objective.room(self.problem.objectives),
-            np.zeros(self.problem.slope_count + self.problem.peak_count),
-        )
+        room, rest = objective.room(self.problem.objectives), np.zeros(self.problem.slope_count)
         most = np.concatenate([self._limits_less_margins(), room, rest])
         least, largest = self.with_room_where_decided(equations, within)
         return {
@@ -310,7 +274,10 @@ class Optimizer:
                 least[place], largest[place] = -1.0, 1.0
         return least, largest
 
-    def record(self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float) -> Run:
+    def record(
+        self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float,
+        parameters: Parameters,
+    ) -> Run:  # fmt: skip
         """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it.
 
         CasADi takes an interrupt that comes while it evaluates a function for a failure of that.
@@ -326,37 +293,53 @@ class Optimizer:
             begin=self.vector.free_values(inputs), end=self.vector.free_values(end),
         )  # fmt: skip
         current_profiles = self.vector.current_profiles(unknowns)
-        multipliers, of_bounds, of_parameters = (
-            np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x", "lam_p")
-        )
-        times = self.vector.times(unknowns)
+        multipliers, of_bounds = (np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x"))
+        times = self.problem.at(unknowns, parameters).times
         ends = {phase.name: times[phase.ends] for phase in self.table.phases if phase.ends in times}
-        return Run(start, end, current_profiles, ends, unknowns, multipliers, of_bounds, of_parameters)
+        return Run(start, end, current_profiles, ends, unknowns, multipliers, of_bounds, times)
 
     def _limits_less_margins(self) -> Array:
         """What the limits' residuals may come to: zero, or so far within as their margins say."""
         return -np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
 
-    def parameters(self, objective: Objective) -> Array:
+    def parameters(self, objective: Objective) -> Parameters:
         """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
         over = [objective.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
-        return np.concatenate([self.model.start, over, objective.factors(self.problem.objectives).ravel(order="F")])
+        return Parameters(self.model.start, np.array(over), objective.factors(self.problem.objectives))
 
     def derivatives(self, run: Run) -> Derivatives:
         """The problem's values and derivatives where a run of the study's own objective ended.
 
-        IPOPT's own functions are used again; a weight on one output alone makes the objective's gradient that output's.
+        Second derivatives of the Lagrangian are differences of its gradients.
         """
-        solver = self._solver("cold")
-        parameters = self.parameters(Objective(self.study.minimize))
-        rows, jacobian = solver.get_function("nlp_jac_g")(run.unknowns, parameters)
-        hessian = solver.get_function("nlp_hess_l")(run.unknowns, parameters, 1.0, run.multipliers)
-        values, gradients = {}, {}
-        for name in self.study.minimize:
-            alone = self.parameters(Objective({name: self.reference[name]}))
-            value, gradient = solver.get_function("nlp_grad_f")(run.unknowns, alone)
-            values[name], gradients[name] = float(value), np.asarray(gradient).ravel()
-        found = np.asarray(rows).ravel()
+        parameters, x = self.parameters(Objective(self.study.minimize)), run.unknowns
+        self.problem.place_grids(x, parameters)
+        here = self.problem.at(x, parameters)
+        lower, upper = self.vector.bounds(run.within)
+
+        def gradient(place: int, step: float) -> Array:
+            there = x.copy()
+            there[place] += step
+            point = self.problem.at(there, parameters)
+            return np.asarray(point.gradient + run.multipliers @ point.jacobian)
+
+        hessian = np.zeros((len(x), len(x)))
+        for i in np.flatnonzero(lower < upper):
+            hessian[i] = (gradient(i, _APART) - gradient(i, -_APART)) / (2.0 * _APART)
+        found = here.rows.copy()
         # A limit that is to be kept by a margin is held where that is used up.
         found[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
-        return Derivatives(found, jacobian, ca.triu2symm(hessian), values, gradients)
+        names = self.study.minimize
+        values, gradients = ({name: of[name] for name in names} for of in (here.values, here.gradients))
+        return Derivatives(found, here.jacobian, 0.5 * (hessian + hessian.T), values, gradients)
+
+
+class _WithParameters:
+    """A problem with the parameters of one run: a programme in its unknowns alone."""
+
+    def __init__(self, problem: Problem, parameters: Parameters) -> None:
+        self._problem, self._parameters = problem, parameters
+        self.unknown_count, self.row_count = problem.unknown_count, problem.row_count
+
+    def at(self, x: Array) -> Point:
+        return self._problem.at(x, self._parameters)

@@ -1,7 +1,6 @@
 """How an optimum answers when a limit moves: the implicit function theorem on its optimality conditions.
 
-Where the active limits stay the same, the optimum is an implicit function of where they stand. States, times and peaks
-follow from the free numbers through the equations, so they are eliminated first and a small dense system remains.
+Where the active limits stay the same, the optimum is an implicit function of where they stand.
 Source: Fiacco, Introduction to Sensitivity and Stability Analysis in Nonlinear Programming (1983), ch. 3.
 """
 
@@ -13,7 +12,6 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -42,9 +40,8 @@ class Response:
             derivatives = self._sharpened(derivatives)
         self._values = derivatives.values
         self._decided = self._decisions()
-        tied = self._tied_peaks(derivatives)
-        along = self._along(derivatives, tied)
-        self._places, rows = self._active(derivatives, along, tied)
+        along = self._along(derivatives)
+        self._places, rows = self._active(derivatives, along)
         self._tangled = _tangled(rows)
         self._adjoints = self._solve(derivatives, along, rows)
 
@@ -88,41 +85,28 @@ class Response:
         currents = [range(place.start, place.stop) for _, place in self._optimizer.vector.places_of_currents()]
         return free + [i for places in currents for i in places]
 
-    def _tied_peaks(self, derivatives: Derivatives) -> list[int]:
-        """For each peak the row of the sample it is: the one that presses most, the greatest where none does."""
-        problem = self._optimizer.problem
-        first = len(derivatives.rows) - problem.peak_count
-        columns = derivatives.jacobian[first:, problem.unknown_count - len(problem.peaks) :].full()
-        tied = []
-        for column in columns.T:
-            samples = first + np.flatnonzero(column)
-            pressing = [self._presses(self._run.multipliers[i], -derivatives.rows[i]) for i in samples]
-            weights = self._run.multipliers[samples] if any(pressing) else derivatives.rows[samples]
-            tied.append(int(samples[np.argmax(weights)]))
-        return tied
-
-    def _along(self, derivatives: Derivatives, tied: list[int]) -> Array:
+    def _along(self, derivatives: Derivatives) -> Array:
         """Derivatives of all unknowns by the decisions, the equations kept."""
         problem = self._optimizer.problem
         fixed = set(range(len(problem.free))) - set(self._decided)
         follow = [i for i in range(problem.unknown_count) if i not in fixed and i not in set(self._decided)]
-        rows = [*range(problem.equation_count), *tied]
+        rows = range(len(problem.free_currents))  # the sums of shares move none of the times
         along = np.zeros((problem.unknown_count, len(self._decided)))
         along[self._decided, range(len(self._decided))] = 1.0
         if follow:
-            by_decisions = derivatives.jacobian[rows, self._decided]
-            along[follow] = -ca.solve(derivatives.jacobian[rows, follow], by_decisions, "csparse").full()
+            by = derivatives.jacobian[rows]
+            along[follow] = -np.linalg.solve(by[:, follow], by[:, self._decided])
         return along
 
-    def _active(self, derivatives: Derivatives, along: Array, tied: list[int]) -> tuple[list[Place], Array]:
+    def _active(self, derivatives: Derivatives, along: Array) -> tuple[list[Place], Array]:
         """Every place that presses on the optimum, and its derivatives by the decisions."""
         run, problem = self._run, self._optimizer.problem
         places: list[Place] = [
             ("row", i)
             for i in range(problem.equation_count, len(derivatives.rows))
-            if i not in tied and self._presses(run.multipliers[i], -derivatives.rows[i])
+            if self._presses(run.multipliers[i], -derivatives.rows[i])
         ]
-        rows = list((derivatives.jacobian[[i for _, i in places], :] @ ca.DM(along)).full()) if places else []
+        rows = list(derivatives.jacobian[[i for _, i in places]] @ along) if places else []
         lower, upper = self._optimizer.vector.bounds(run.within)
         for i in np.flatnonzero(np.isfinite(lower) | np.isfinite(upper)):
             multiplier, value = run.bound_multipliers[i], run.unknowns[i]
@@ -144,7 +128,7 @@ class Response:
     def _solve(self, derivatives: Derivatives, along: Array, rows: Array) -> dict[str, Array]:
         """Derivative of each minimised output by every active place, of those the optimum determines."""
         count, active = along.shape[1], len(rows)
-        curvature = along.T @ (derivatives.hessian @ ca.DM(along)).full()
+        curvature = along.T @ derivatives.hessian @ along
         system = np.block([[curvature, rows.T], [rows, np.zeros((active, active))]])
         found = {}
         for name, gradient in derivatives.gradients.items():

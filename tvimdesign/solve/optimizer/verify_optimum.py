@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from copy import copy
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, in_words, make_constraint, on_cycle
+from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution, Start
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -18,6 +21,7 @@ CYCLE_TOLERANCE = 2e-3
 """Share by which a limit on a row that depends on a switch may be broken: collocation against the simulation."""
 
 
+_SLEW_STEP = 1e-4
 SAME_CURRENT = 1e-4
 """Share of the range within which a current is said to be at its end."""
 
@@ -157,7 +161,18 @@ def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
     value = float(optimizer.model.start[place])
     limit = make_constraint(optimizer.table, "current_slew", "<=", value, "module")
     steepest = max(profile.steepest for profile in run.current_profiles.values())
-    # The supply's ramps are part of the equations: what they cost is the objective's derivative by the slew itself,
-    # which CasADi gives with the sign of what easing it saves.
-    shadow_price = float(run.parameter_multipliers[place]) * value / (run.start.objective or 1.0)
+    shadow_price = _price_of_slew(optimizer, run, value) / (run.start.objective or 1.0)
     return [_active(limit, in_words(limit, optimizer.table), steepest / value - 1.0, shadow_price, {})]
+
+
+def _price_of_slew(optimizer: Optimizer, run: Run, slew: float) -> float:
+    """What the objective falls with the slew, per share of it: the difference of the Lagrangian, as ramps hang on it."""
+    problem, parameters = optimizer.problem, optimizer.parameters(Objective(optimizer.study.minimize))
+    found = []
+    for share in (1.0 - _SLEW_STEP, 1.0 + _SLEW_STEP):
+        other = copy(problem)
+        other.free_currents = tuple(replace(one, slew=slew * share) for one in problem.free_currents)
+        other.forget()
+        point = other.at(run.unknowns, parameters)
+        found.append(point.objective + run.multipliers @ point.rows)
+    return float(found[0] - found[1]) / (2.0 * _SLEW_STEP)

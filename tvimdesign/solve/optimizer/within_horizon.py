@@ -19,7 +19,7 @@ def ending_in_time(study: Study, optimizer: Optimizer, run: Run) -> Study | None
     """The study with limits on the times that a run has beyond the horizon; None where it has none, or no design."""
     latest = LATEST * float(optimizer.model.start[optimizer.model.index["horizon"]])
     limited = {one.output for one in study.require if one.sense == "<=" and one.limit <= latest}
-    times = optimizer.vector.times(run.unknowns)
+    times = run.times
     late = [event for event, time in times.items() if time > latest and event not in limited]
     if not late or not run.start.converged:
         return None

@@ -243,7 +243,7 @@ class Tradeoff:
         """The design simulated and held against every limit again; in words which one it breaks."""
         optimizer, problem = self.optimizer, self.optimizer.problem
         try:
-            cycle = problem.simulated(optimizer.simulator, run.inputs, run.current_profiles)
+            cycle = optimizer.simulator.run(run.inputs, run.current_profiles, phases=problem.phases)
         except SimulationError as error:
             return str(error)
         every = optimizer.model.values(run.inputs, cycle.values)

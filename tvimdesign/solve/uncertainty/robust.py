@@ -1,24 +1,21 @@
 """A robust optimum: how far within its limits a design must stay so that modules that spread keep them.
 
-By deviations: limits on algebraic outputs stay inside by expressions of the problem itself (`back_off`). Times,
-energies and peaks follow from the working cycle; their spread comes from its exact derivatives at the optimum found,
-which is then sought again. By a yield: see `yield_search`.
+By deviations: the spread of what the limits are on comes from exact derivatives at the optimum found, to second order
+for what needs no working cycle; the optimum is then sought again. By a yield: see `yield_search`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-import numpy as np
-
 from tvimdesign.base.errors import TimeOverError
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import on_cycle
+from tvimdesign.solve.nlp.moments import moments_at
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Ends, Run
-from tvimdesign.solve.optimizer.coarse_first import search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import MARGINS
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
@@ -114,7 +111,7 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
 def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
     """The optimum with other margins, warm from the one before and else from its inputs."""
     found = optimizer.solve(within, warm=run, objective=objective)
-    return found if found.start.converged else search_from(optimizer, run.inputs, within, objective)
+    return found if found.start.converged else optimizer.solve(within, begin=run.inputs, objective=objective)
 
 
 def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
@@ -126,22 +123,32 @@ def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
 
 
 def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
-    """How far within the limits on times, energies and peaks to stay at a run's design."""
-    study = optimizer.study
-    assert study.robust is not None
-    assert study.robust.sigma is not None
-    limits = [limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output)]
-    if not limits:
-        return {}
-    model = optimizer.model
+    """How far within its limits to stay at a run's design, by limit [shares of its scale]."""
+    sigma = optimizer.study.robust.sigma if optimizer.study.robust else None
+    assert sigma is not None
+    timed, algebraic = [], []
+    for limit in optimizer.problem.limits:
+        (timed if on_cycle(optimizer.table, limit.output) else algebraic).append(limit)
+    margins = {}
+    if algebraic:
+        names, scales = [one.output for one in algebraic], [one.scale for one in algebraic]
+        shift, deviation = moments_at(optimizer.model, optimizer.study.tolerances, names, scales, run.inputs)
+        for i, limit in enumerate(algebraic):
+            moved = shift[i] if limit.sense == "<=" else -shift[i]
+            margins[limit.name] = float(moved + sigma * deviation[i]) / limit.scale
+    if timed:
+        deviations = _deviations(optimizer, run, list(dict.fromkeys(limit.output for limit in timed)))
+        margins |= {one.name: sigma * deviations[one.output] / one.scale for one in timed if one.output in deviations}
+    return margins
+
+
+def _deviations(optimizer: Optimizer, run: Run, wanted: list[str]) -> dict[str, float]:
+    """Standard deviations of what follows from the working cycle, by output."""
+    model, study = optimizer.model, optimizer.study
     numbers = {name: float(run.inputs[i]) for name, i in model.index.items()}
     resolved = ResolvedModule(study, {**numbers, **model.words}, run.current_profiles)
     contributors = contributors_of(resolved)
     names = [contributor.name for contributor in contributors]
-    options = study.solver
-    wanted = list(dict.fromkeys(limit.output for limit in limits))
-    exact = output_sensitivities(resolved, options.elements, options.cells, wanted, names, optimizer.deadline)
+    exact = output_sensitivities(resolved, study.solver.cells, wanted, names)
     known = [contributors[names.index(name)] for name in exact.variables]
-    deviations = dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0], strict=True))
-    return {limit.name: study.robust.sigma * float(deviations.get(limit.output, np.nan)) / limit.scale
-            for limit in limits if limit.output in deviations}  # fmt: skip
+    return dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0].tolist(), strict=True))

@@ -13,7 +13,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
-from tvimdesign.solve.sensitivity.output_sensitivity import FINER, output_sensitivities
+from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.contributors import FREE_ANGLE, contributors_of
 
 Array = NDArray[np.float64]
@@ -127,9 +127,8 @@ class Tolerancing:
                 f"{resolved.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
                 "give tolerances of other inputs, or require what depends on these"
             )
-        options = resolved.study.solver
         progress("differentiating the outputs by what spreads")
-        exact = output_sensitivities(resolved, FINER * options.elements, options.cells, list(wanted), names)
+        exact = output_sensitivities(resolved, resolved.study.solver.cells, list(wanted), names)
         progress("compiling the module for many designs")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out

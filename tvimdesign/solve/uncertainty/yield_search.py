@@ -17,7 +17,6 @@ from tvimdesign.base.errors import TimeOverError
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
-from tvimdesign.solve.optimizer.coarse_first import search_from
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import MARGINS
 from tvimdesign.solve.uncertainty.yields import Drawn, yields_of
@@ -131,7 +130,7 @@ def _tightened(
         }
         found = optimizer.solve(within, warm=run, objective=objective)
         if not found.start.converged:
-            found = search_from(optimizer, run.inputs, within, objective, certain=False)
+            found = optimizer.solve(within, begin=run.inputs, objective=objective)
         if found.start.converged or optimizer.deadline.passed:
             break
     return found if found.start.converged else None

@@ -1,0 +1,455 @@
+"""One run of a phase by the engine: its steps, its events, and what is asked of it.
+
+The last step ends at the event, and the lengths of the others follow from the module smoothly. So every value is a
+smooth function of the inputs, and its derivatives are those of the steps as they are taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tvimdesign.base.errors import SimulationError
+from tvimdesign.engine.integrator import STAGES, TIMES, Motion, adapted, advance, newton_matrix, step
+from tvimdesign.engine.sparse_lu import solve_many
+from tvimdesign.engine.tape import Array
+
+if TYPE_CHECKING:
+    from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
+
+TOLERANCE = 1e-3
+"""Largest error of a step of second order in the scaled state, a tenth of a kelvin; steps are of third order. Event
+times are within 4e-4 of CVODES's at 1e-9 (tests)."""
+FIRST = 0.02
+"""The first step, in times that the pads would need to heat the layer."""
+MOST_STEPS, EXTRA, GROWTH = 2000, 40, 1.3
+"""Steps of a phase at most; beyond those of the first run, and by how much each of these grows."""
+STANDING = -1e-12
+"""Share of the mass in the matrix of a state that stays, so that integrals, which do not, leave it regular."""
+NEAR, MOST_TRIALS = 1e-4, 12
+"""Part of a step by which the last one may miss an event: what is left, its square, is made up by slopes."""
+
+
+@dataclass
+class Grid:
+    """The steps of a phase, by what its first run needed: each in times that the pads would need to heat the layer."""
+
+    shares: list[float] = field(default_factory=list)
+    events: dict[str, int] = field(default_factory=dict)
+    """Step in which each event was due; -1 at the start."""
+
+
+@dataclass(frozen=True)
+class Instant:
+    """State and current at an instant of a phase, with their tangents."""
+
+    time: float
+    of_time: Array
+    state: Array
+    of_state: Array
+    current: float
+    of_current: Array
+    step: int = -1
+    """The step that ends there; -1 at the start."""
+
+    def without_length(self) -> Instant:
+        """Leave out the last direction."""
+        of_state = np.ascontiguousarray(self.of_state[:, :-1])
+        return replace(self, of_time=self.of_time[:-1], of_state=of_state, of_current=self.of_current[:-1])
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A current that runs straight between given moments of a phase, with tangents; steps end at the moments."""
+
+    moments: Array
+    of_moments: Array
+    currents: Array
+    of_currents: Array
+    steps: int
+    """Of each piece."""
+
+    def with_length(self) -> Drive:
+        """Add the direction of a last step's length, along which nothing moves."""
+        more = np.zeros((len(self.moments), 1))
+        return replace(
+            self, of_moments=np.hstack([self.of_moments, more]), of_currents=np.hstack([self.of_currents, more])
+        )
+
+
+@dataclass
+class Found:
+    """Values of a phase by name, with their derivatives."""
+
+    values: dict[str, float] = field(default_factory=dict)
+    slopes: dict[str, Array] = field(default_factory=dict)
+    end: Instant | None = None
+    short: float = 0.0
+    """What the event that ends a driven phase still waits for at its end, and its derivatives."""
+    of_short: Array = field(default_factory=lambda: np.zeros(1))
+
+    def without_length(self) -> Found:
+        """Leave out the last direction."""
+        end = self.end.without_length() if self.end is not None else None
+        slopes = {name: one[:-1] for name, one in self.slopes.items()}
+        return Found(self.values, slopes, end, self.short, self.of_short[:-1])
+
+    def add(self, name: str, value: float, slopes: Array) -> None:
+        """Add one."""
+        self.values[name], self.slopes[name] = float(value), np.asarray(slopes)
+
+
+class PhaseRun:
+    """One run of a phase, at given inputs."""
+
+    def __init__(
+        self, phase: PhaseEngine, motion: Motion, registers: tuple[Array, Array, Array], inputs: Array, along: Array
+    ) -> None:
+        """Nothing is stepped yet; `registers` have the constants in place."""
+        self.of, self.motion, self.registers = phase, motion, registers
+        self.inputs, self.along, self.lanes = inputs, along, along.shape[1]
+        self.instants: list[Instant] = []
+
+    # --- steps ---
+
+    def first(self, start: Instant, pace: float, sought: list[str], horizon: float) -> Grid:
+        """Step as far as the events that are sought, each step as long as its error allows."""
+        grid = Grid(events={name: -1 for name in sought if self._gap(name, start.state, start.current) >= 0.0})
+        y, h, time = start.state.copy(), FIRST * pace, 0.0
+        ahead, u = np.zeros(y.size), np.full(STAGES, start.current)
+        while len(grid.events) < len(sought) and time < horizon and len(grid.shares) < MOST_STEPS:
+            length, h = adapted(self.motion.system, self.registers[2], y, u, h, TOLERANCE, ahead)
+            if length == 0.0:
+                if time == 0.0:
+                    name = self.of.phase.phase.name
+                    raise SimulationError(f"the {name} of this design cannot be simulated; check its inputs")
+                break
+            due = [name for name in sought if name not in grid.events and self._gap(name, y, start.current) >= 0.0]
+            grid.events |= dict.fromkeys(due, len(grid.shares))
+            grid.shares.append(length / pace)
+            time += length
+        return grid
+
+    def search(
+        self, start: Instant, pace: float, dpace: Array, sought: list[str], grid: Grid
+    ) -> dict[str, Instant]:
+        """Step along a grid to where each event first is due."""
+        shares = np.array(grid.shares)
+        if len(shares):
+            shares = np.append(shares, shares[-1] * GROWTH ** np.arange(1, EXTRA + 1))
+        self.instants = [start]
+        steps = _Steps(start, shares * pace, shares[:, None] * dpace)
+        found: dict[str, Instant] = {}
+        for name in sorted(sought, key=grid.events.__getitem__):
+            k = grid.events[name]
+            while 0 <= k < len(shares):
+                if not self._advanced(steps, k + 1):
+                    return found
+                if self._gap_at(name, k) >= 0.0:
+                    k -= 1
+                elif self._gap_at(name, k + 1) < 0.0:
+                    k += 1
+                else:
+                    found[name] = self._crossing(name, k)
+                    break
+            if k < 0:
+                found[name] = start
+        return found
+
+    def _advanced(self, steps: _Steps, count: int) -> bool:
+        """Whether so many steps could be taken."""
+        done = len(self.instants) - 1
+        if count <= done:
+            return True
+        reached = advance(
+            self.motion.system, *self.registers, steps.states, steps.tangents, done, steps.lengths[:count],
+            steps.of_lengths[:count], steps.u, steps.du, steps.ahead,
+        )  # fmt: skip
+        for k in range(done, reached):
+            before = self.instants[k]
+            self.instants.append(Instant(
+                before.time + steps.lengths[k], before.of_time + steps.of_lengths[k], steps.states[k + 1],
+                steps.tangents[k + 1], steps.u[k, -1], steps.du[k, -1], k,
+            ))  # fmt: skip
+        return reached == count
+
+    def driven(self, start: Instant, drive: Drive) -> Instant | None:
+        """Step to the end of a drive; None where a step fails."""
+        start = replace(start, current=float(drive.currents[0]), of_current=drive.of_currents[0])
+        self.instants = [start]
+        shares = np.arange(drive.steps) / drive.steps
+        pieces = np.diff(drive.moments)
+        rise, of_rise = np.diff(drive.currents), np.diff(drive.of_currents, axis=0)
+        at = (shares[:, None] + TIMES / drive.steps).ravel()  # of a piece: stage after stage
+        u = (drive.currents[:-1, None] + rise[:, None] * at).reshape(-1, STAGES)
+        du = (drive.of_currents[:-1, None, :] + of_rise[:, None, :] * at[:, None]).reshape(-1, STAGES, self.lanes)
+        lengths = np.repeat(pieces / drive.steps, drive.steps)
+        of_lengths = np.repeat(np.diff(drive.of_moments, axis=0) / drive.steps, drive.steps, axis=0)
+        steps = _Steps(start, lengths, of_lengths, u, du)
+        return self.instants[-1] if self._advanced(steps, len(lengths)) else None
+
+    # --- events ---
+
+    def _gap(self, name: str, y: Array, current: float) -> float:
+        return self.of.value(name, y, current, self.inputs)
+
+    def _gap_at(self, name: str, k: int) -> float:
+        return self._gap(name, self.instants[k].state, self.instants[k].current)
+
+    def _rates(self, now: Instant) -> Array:
+        (rates,) = self.motion.rates.values(now.state, np.array([now.current]), self._constants)
+        return rates
+
+    @cached_property
+    def _constants(self) -> Array:
+        first = self.motion.size + 1
+        return self.registers[0][first : int(self.motion.rates.arguments[-1])]
+
+    def _crossing(self, name: str, low: int) -> Instant:
+        """The instant at which an event is due, between the ends of two steps of a constant current.
+
+        The last step ends there: its length is sought by Newton's method, whose slope is one more direction.
+        """
+        one, other = self.instants[low], self.instants[low + 1]
+        whole = other.time - one.time
+        here, there = self._rates(one) * whole, self._rates(other) * whole
+        current = one.current
+
+        def between(share: float) -> Array:
+            return _hermite(share, one.state, other.state, here, there)
+
+        length = whole * _root(lambda share: self._gap(name, between(share), current))
+        least, most = 0.0, 1.05 * whole
+        nowhere = np.zeros((len(self.inputs), 1))
+        for _ in range(MOST_TRIALS):
+            guess = 0.4 * (between(length / whole) - one.state)
+            last = self._last_step(one, length, guess, self._of_length)
+            gap, slopes = self.of.slopes(name, last, self.inputs, nowhere)
+            least, most = (length, most) if gap < 0.0 else (least, length)
+            short = -gap / slopes[0]
+            if abs(short) <= NEAR * whole:
+                break
+            length = length + short if least < length + short < most else 0.5 * (least + most)
+        last = self._last_step(one, length, 0.4 * (last.state - one.state), self.registers)
+        gap, slopes = self.of.slopes(name, last, self.inputs, self.along)
+        short, longer = -gap / slopes[-1], -slopes / slopes[-1]
+        longer[-1] = 0.0
+        by_length, s = last.of_state[:, -1:].copy(), last.of_state
+        s[:, -1] = 0.0
+        state = last.state + short * by_length[:, 0]
+        return replace(
+            last, time=one.time + length + short, of_time=one.of_time + longer, state=state,
+            of_state=s + by_length * longer,
+        )  # fmt: skip
+
+    @cached_property
+    def _of_length(self) -> tuple[Array, Array, Array]:
+        """Registers for the length of the last step as the one direction."""
+        return self.motion.registers(self._constants, np.zeros((len(self._constants), 1)))
+
+    def _last_step(
+        self, one: Instant, length: float, guess: Array, registers: tuple[Array, Array, Array]
+    ) -> Instant:
+        """The instant after a last step; the last direction is its length."""
+        lanes = registers[1].shape[1]
+        y, s = one.state.copy(), one.of_state[:, -lanes:].copy()
+        longer, of_current = np.zeros(lanes), one.of_current[-lanes:].copy()
+        longer[-1] = 1.0
+        u, du = np.full(STAGES, one.current), np.tile(of_current, (STAGES, 1))
+        step(self.motion.system, *registers, y, s, u, du, length, longer, guess)
+        return Instant(one.time + length, longer, y, s, one.current, of_current, one.step + 1)
+
+    # --- what is asked of the phase ---
+
+    def add_paths(self, found: Found, wanted: Collection[str] | None) -> None:
+        """Add what the phase adds up to, is at its end, or reaches."""
+        end = found.end
+        assert end is not None
+        for row in self.of.phase.paths:
+            if wanted is not None and row.name not in wanted:
+                continue
+            if row.reduce == "integral":
+                place = self.of.size + self.of.lip + self.of.integrals.index(row.name)
+                found.add(row.name, end.state[place], end.of_state[place])
+            elif row.reduce == "end":
+                found.add(row.name, *self.of.slopes(row.name, end, self.inputs, self.along))
+            else:
+                found.add(row.name, *self._highest(row.name, end))
+
+    def _highest(self, name: str, end: Instant) -> tuple[float, Array]:
+        """The maximum of a quantity up to the end; between two steps it is looked for along cubics."""
+        passed = [*self.instants[: max(end.step, 0) + 1], end] if end.step >= 0 else [end]
+        values = [self._gap(name, one.state, one.current) for one in passed]
+        k = int(np.argmax(values))
+        best = passed[k]
+        if k < len(passed) - 1:
+            for first in range(max(k - 1, 0), k + 1):
+                one, other = passed[first], passed[first + 1]
+                share, value = _peak(self._along_cubic(name, one, other))
+                if value > values[k]:
+                    best, values[k] = self._between(one, other, share), value
+        return self.of.slopes(name, best, self.inputs, self.along)
+
+    def _along_cubic(self, name: str, one: Instant, other: Instant) -> Callable[[float], float]:
+        """A quantity as a function of the share of a step."""
+        length, rise = other.time - one.time, other.current - one.current
+        here, there = self._rates(one) * length, self._rates(other) * length
+        return lambda share: self._gap(
+            name, _hermite(share, one.state, other.state, here, there), one.current + share * rise
+        )
+
+    def _between(self, one: Instant, other: Instant, share: float) -> Instant:
+        """The instant at a share of a step, along cubics."""
+        length, of_length = other.time - one.time, other.of_time - one.of_time
+        rates = [self._moving(now) for now in (one, other)]
+        here, there = (rate * length for rate, _ in rates)
+        of_here, of_there = (of_rate * length + rate[:, None] * of_length for rate, of_rate in rates)
+        return Instant(
+            one.time + share * length, one.of_time + share * of_length,
+            _hermite(share, one.state, other.state, here, there),
+            _hermite(share, one.of_state, other.of_state, of_here, of_there),
+            one.current + share * (other.current - one.current),
+            one.of_current + share * (other.of_current - one.of_current), one.step,
+        )  # fmt: skip
+
+    def _moving(self, now: Instant) -> tuple[Array, Array]:
+        """Rates at an instant, and their tangents."""
+        (pair,) = self.motion.rates.tangents(
+            (now.state, np.array([now.current]), self._constants), (now.of_state, now.of_current[None], self._of_constants)
+        )
+        return pair
+
+    @property
+    def _of_constants(self) -> Array:
+        return self.registers[1][self.motion.size + 1 : int(self.motion.rates.arguments[-1])]
+
+    def add_steadies(self, found: Found, wanted: Collection[str] | None) -> None:
+        """Add what it takes to stay where the phase has ended."""
+        rows = [row.name for row in self.of.phase.steadies if wanted is None or row.name in wanted]
+        standing = self._standing(found.end) if rows and found.end is not None else None
+        if standing is None:
+            return
+        for name in rows:
+            found.add(name, *self.of.slopes(name, standing, self.inputs, self.along))
+
+    def _standing(self, end: Instant) -> Instant | None:
+        """State and current that stay, with their tangents; None where there are none.
+
+        The current is sought at which the event that ends the phase stays due; at each, the state that stays.
+        """
+        ends, size = self.of.phase.phase.ends, self.of.size
+        y, current = end.state.copy(), end.current
+        of_current = np.append(np.zeros(self.lanes), 1.0)
+        along = np.column_stack([self.along, np.zeros(len(self.along))])
+        for _ in range(30):
+            settled = self._settle(y, current)
+            if settled is None:
+                return None
+            y, s = settled
+            now = Instant(0.0, of_current, y, s, current, of_current)
+            gap, slopes = self.of.slopes(ends, now, self.inputs, along)
+            if not np.isfinite(gap) or slopes[-1] == 0.0:
+                return None
+            room = 0.5 * abs(current) + 0.05
+            change = float(np.clip(-gap / slopes[-1], -room, room))
+            if abs(change) < 1e-9 * max(1.0, abs(current)):
+                moved = -slopes[:-1] / slopes[-1]
+                return Instant(0.0, moved, y, s[:, :-1] + s[:, -1:] * moved, current, moved)
+            y[:size] += change * s[:size, -1]
+            current += change
+        return None
+
+    def _settle(self, y: Array, current: float) -> tuple[Array, Array] | None:
+        """The state that stays at a current, and its tangents; along the current as the last."""
+        m, (_, _, v) = self.motion.system, self.registers
+        entries, size = np.empty(m.pattern.size), self.of.size + self.of.lip
+        order = m.pattern.order
+        y = y.copy()
+
+        def solved(right: Array) -> Array:
+            b = np.ascontiguousarray(right[order])
+            b[order >= size] = 0.0
+            solve_many(m.pattern, entries, b)
+            found = np.empty_like(b)
+            found[order] = b
+            found[size:] = 0.0
+            return found
+
+        for _ in range(40):
+            newton_matrix(m, v, y, current, STANDING, -1.0, entries)
+            change = solved(-v[m.slope_rates][:, None])[:, 0]
+            if not np.all(np.isfinite(change)):
+                return None
+            largest = float(np.max(np.abs(change)))
+            y += change * min(1.0, 0.5 / max(largest, 1e-12))
+            if largest < 1e-9:
+                break
+        else:
+            return None
+        nothing, of_current = np.zeros((y.size, self.lanes + 1)), np.append(np.zeros(self.lanes), 1.0)[None]
+        of_constants = np.column_stack([self._of_constants, np.zeros(len(self._of_constants))])
+        ((_, by),) = self.motion.rates.tangents(
+            (y, np.array([current]), self._constants), (nothing, of_current, of_constants)
+        )
+        newton_matrix(m, v, y, current, STANDING, -1.0, entries)
+        return y, solved(-by)
+
+
+class _Steps:
+    """Room for the states of steps whose lengths and currents are given."""
+
+    def __init__(
+        self, start: Instant, lengths: Array, of_lengths: Array, u: Array | None = None, du: Array | None = None
+    ) -> None:
+        count, (size, lanes) = len(lengths), start.of_state.shape
+        self.lengths, self.of_lengths = lengths, of_lengths
+        self.states, self.tangents = np.empty((count + 1, size)), np.empty((count + 1, size, lanes))
+        self.states[0], self.tangents[0] = start.state, start.of_state
+        self.u = np.full((count, STAGES), start.current) if u is None else u
+        self.du = np.broadcast_to(start.of_current, (count, STAGES, lanes)).copy() if du is None else du
+        self.ahead = np.zeros(size)
+
+
+def _hermite(share: float, one: Array, other: Array, here: Array, there: Array) -> Array:
+    """A cubic between two states, whose slopes over the step are given."""
+    left = 1.0 - share
+    whole = one * left**2 * (1.0 + 2.0 * share) + other * share**2 * (3.0 - 2.0 * share)
+    return np.asarray(whole + share * left * (here * left - there * share))
+
+
+def _root(function: Callable[[float], float]) -> float:
+    """Where a function of a share of a step passes zero, about: by regula falsi (Illinois)."""
+    low, high, below, above = 0.0, 1.0, function(0.0), function(1.0)
+    if above <= 0.0:
+        return 1.0
+    share, side = 1.0, 0
+    for _ in range(12):
+        share = (low * above - high * below) / (above - below)
+        value = function(share)
+        if abs(value) < 1e-6 * (above - below) or high - low < 1e-6:
+            return share
+        if value < 0.0:
+            low, below, above = share, value, above * (0.5 if side == -1 else 1.0)
+            side = -1
+        else:
+            high, above, below = share, value, below * (0.5 if side == 1 else 1.0)
+            side = 1
+    return share
+
+
+def _peak(function: Callable[[float], float]) -> tuple[float, float]:
+    """Where a function of a share of a step is highest, and how high: by samples and a parabola."""
+    shares = np.linspace(0.0, 1.0, 9)
+    values = np.array([function(one) for one in shares])
+    k = int(np.argmax(values))
+    if 0 < k < 8:
+        less, more = values[k] - values[k - 1], values[k + 1] - values[k]
+        share = float(shares[k] + 0.125 * 0.5 * (less + more) / (less - more))
+        value = function(share)
+        if value > values[k]:
+            return share, value
+    return float(shares[k]), float(values[k])
