@@ -208,7 +208,7 @@ class Problem:
         times |= {self.model.phases[one.phase].phase.ends: self.pieces_time(x, i) for i, one in enumerate(self.free_currents)}
         return Point(
             float(weights @ values[chosen]), weights @ slopes[chosen], np.concatenate([np.array(rows), steep]),
-            np.concatenate([np.array(jacobian).reshape(-1, len(x)), of_steep]),
+            np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep]),
             dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
         )  # fmt: skip
 

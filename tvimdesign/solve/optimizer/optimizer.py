@@ -26,6 +26,7 @@ from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Parameters, Point, P
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, Run, Trace
 from tvimdesign.solve.optimizer.multistart import Multistart
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
 SETTLED = 1e-5
@@ -221,6 +222,9 @@ class Optimizer:
             return replace(self._not_begun(x, inputs, parameters), within=within or {})
         multipliers = {} if warm is None else {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         ends = self.ends(within or {}, objective)
+        if not len(x):
+            answer, stats = self._checked(x, parameters, ends["ubg"])
+            return self.record(answer, stats, inputs, time.perf_counter() - clock, parameters)
         iterations = 0
         for _ in range(MOST_GRIDS):
             self.problem.place_grids(x, parameters)
@@ -245,6 +249,14 @@ class Optimizer:
         after = self.problem.at(x, parameters)
         moved = np.append(np.abs(after.rows - before.rows), abs(after.objective / (before.objective or 1.0) - 1.0))
         return bool(np.max(moved) < SETTLED)
+
+    def _checked(self, x: Array, parameters: Parameters, most: Array) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The answer of a solver where nothing is free: whether the rows are no more than they may be."""
+        self.problem.place_grids(x, parameters)
+        point = self.problem.at(x, parameters)
+        good = bool(np.all(point.rows <= most + self.study.solver.tolerance))
+        answer = {"x": x, "f": point.objective, "lam_g": np.zeros(len(point.rows)), "lam_x": np.zeros(0)}
+        return answer, {"return_status": "Solve_Succeeded" if good else NO_DESIGN, "success": good, "iter_count": 0}
 
     def _not_begun(self, x: Array, inputs: Array, parameters: Parameters) -> Run:
         """Return a run that ended where it was to start, as the time was over."""
