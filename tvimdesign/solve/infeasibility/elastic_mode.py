@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.solve.nlp.ipopt import Solver, solver_of
+from tvimdesign.solve.nlp.ipopt import ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Parameters, Point, Problem
 from tvimdesign.solve.nlp.solver_run import Array, Run
@@ -98,7 +98,7 @@ class ElasticMode:
         return self._settled(answer, begin, parameters, time.perf_counter() - clock)
 
     @cached_property
-    def _solver(self) -> Solver:
+    def _solver(self) -> ProgrammeSolver:
         problem = self.optimizer.problem
         return solver_of(problem.unknown_count + self.count, problem.row_count, self.optimizer.study.solver)
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, on_cycle
-from tvimdesign.solve.nlp.ipopt import NLP, Solver
+from tvimdesign.solve.nlp.ipopt import Solver
 from tvimdesign.solve.nlp.mixture import shared
 from tvimdesign.solve.nlp.solver_run import Ends
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -59,9 +59,9 @@ class FeasibilityScreen:
         broken = self._limits - (slacks if count == self._count else ca.repmat(slacks, self._count, 1))
         known = [ca.vertcat(self._unknowns, slacks), ca.MX.sym("none", 0)]
         rows = ca.vertcat(problem.shares_less_one(inputs), broken)
-        function = ca.Function("screen", known, [ca.sum1(slacks), rows], *NLP)
+        function = ca.Function("screen", known, [ca.sum1(slacks), rows], ["x", "p"], ["f", "g"])
         options: dict[str, Any] = {"ipopt": _IPOPT, "print_time": False, "show_eval_warnings": False}
-        sizes = (function.size1_in(0), function.size1_out(1), 0)
+        sizes = (function.size1_in(0), function.size1_out(1))
         return Solver("screen", function.expand(), options, sizes)
 
     def broken(self, inputs: Array) -> float:
@@ -110,7 +110,7 @@ class FeasibilityScreen:
     def _least(self, solver: Solver, within: Mapping[str, Ends], begin: Array) -> float:
         """The worst breach where a search from some inputs makes it, or the sum, least; NaN where it has no end."""
         optimizer = self._optimizer
-        free, count = len(optimizer.free), solver.size1_in("x0") - len(optimizer.free)
+        free, count = len(optimizer.free), solver.unknown_count - len(optimizer.free)
         lower, upper = (ends[:free] for ends in optimizer.vector.bounds(within))
         start = np.array([one.to_unknown(begin[optimizer.model.index[one.name]]) for one in optimizer.free])
         start = np.clip(start, lower, upper)

@@ -101,42 +101,56 @@ class Evaluated(Protocol):
 
 
 class Solver:
-    """IPOPT for one programme, ended between two iterations when the deadline of the run has passed."""
+    """IPOPT for one problem, ended between two iterations when the deadline of the run has passed."""
 
-    def __init__(self, name: str, unknowns: int, rows: int, settings: Mapping[str, Any]) -> None:
-        """Build it for so many unknowns and rows; the programme itself is given with each run."""
-        self._stop = _Stop((unknowns, rows, 0))
-        self._held = _Held()
-        x, p = ca.MX.sym("x", unknowns), ca.MX.sym("p", 0)
-        of = self._calls = [
-            _Part(self._held, unknowns, size, sloped=sloped, part=part)
-            for sloped in (False, True)
-            for part, size in (("objective", 1), ("rows", rows))
-        ]
-        f, g, (same_f, gradient), (same_g, jacobian) = (call(x) for call in of)
-        derivatives = {
-            "grad_f": ca.Function("grad_f", [x, p], [same_f, gradient], ["x", "p"], ["f", "grad_f_x"]),
-            "jac_g": ca.Function("jac_g", [x, p], [same_g, jacobian], ["x", "p"], ["g", "jac_g_x"]),
-            "no_nlp_grad": True, "calc_lam_p": False,
-        }  # fmt: skip
-        options: Any = {**settings, **derivatives, "iteration_callback": self._stop}
-        problem: Any = {"x": x, "p": p, "f": f, "g": g}
-        self._nlp = ca.nlpsol(name, "ipopt", problem, options)
+    def __init__(self, name: str, problem: Any, settings: Mapping[str, Any], sizes: tuple[int, int]) -> None:
+        """Build it from what nlpsol takes; `sizes` are the counts of unknowns and rows."""
+        self._stop = _Stop((*sizes, 0))
+        self._nlp = ca.nlpsol(name, "ipopt", problem, {**settings, "iteration_callback": self._stop})
+        self.unknown_count = sizes[0]
 
-    def __call__(self, programme: Programme, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
+    def __call__(self, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
         """Run it with nlpsol's arguments, until the deadline at most."""
         self._stop.deadline, self._stop.stopped = deadline, False
-        self._held.programme = programme
         answer: dict[str, Any] = self._nlp(**arguments)
-        if self._held.error is not None:
-            error, self._held.error = self._held.error, None
-            raise error
         return answer
 
     def stats(self) -> dict[str, Any]:
         """Return what nlpsol says of the last run."""
         found: dict[str, Any] = self._nlp.stats()
         return {**found, "return_status": TIME_OVER, "success": False} if self._stop.stopped else found
+
+
+class ProgrammeSolver:
+    """IPOPT for programmes of so many unknowns and rows, each given with its run."""
+
+    def __init__(self, unknowns: int, rows: int, settings: Mapping[str, Any]) -> None:
+        """Build it."""
+        self._held = _Held()
+        x, p = ca.MX.sym("x", unknowns), ca.MX.sym("p", 0)
+        self._calls = [
+            _Part(self._held, unknowns, size, sloped=sloped, part=part)
+            for sloped in (False, True)
+            for part, size in (("objective", 1), ("rows", rows))
+        ]
+        f, g, (same_f, gradient), (same_g, jacobian) = (call(x) for call in self._calls)
+        derivatives = {
+            "grad_f": ca.Function("grad_f", [x, p], [same_f, gradient], ["x", "p"], ["f", "grad_f_x"]),
+            "jac_g": ca.Function("jac_g", [x, p], [same_g, jacobian], ["x", "p"], ["g", "jac_g_x"]),
+            "no_nlp_grad": True, "calc_lam_p": False,
+        }  # fmt: skip
+        problem: Any = {"x": x, "p": p, "f": f, "g": g}
+        self._solver = Solver("design", problem, {**settings, **derivatives}, (unknowns, rows))
+        self.stats = self._solver.stats
+
+    def __call__(self, programme: Programme, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
+        """Run it with nlpsol's arguments, until the deadline at most. Raises what the programme raises."""
+        self._held.programme = programme
+        answer = self._solver(deadline, **arguments)
+        if self._held.error is not None:
+            error, self._held.error = self._held.error, None
+            raise error
+        return answer
 
 
 class _Held:
@@ -206,7 +220,7 @@ class _Stop(ca.Callback):
 
 def solver_of(
     unknowns: int, rows: int, asked: SolverOptions, beginning: Beginning = "cold"
-) -> Solver:
+) -> ProgrammeSolver:
     """IPOPT for programmes of so many unknowns and rows, set for where a run begins."""
     most = asked.max_iterations
     ipopt: dict[str, Any] = {
@@ -216,4 +230,4 @@ def solver_of(
         "tol": min(asked.tolerance, _SHARP) if beginning == "sharp" else asked.tolerance,
     }
     settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False}
-    return Solver("design", unknowns, rows, settings)
+    return ProgrammeSolver(unknowns, rows, settings)

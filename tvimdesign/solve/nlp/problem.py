@@ -237,6 +237,18 @@ class Problem:
             along[row, nodes] = current.upper * weights
         return found, along
 
+    def with_unknowns(self, inputs: Any, unknowns: Any) -> Any:
+        """Return inputs (MX) with the free numbers in their places."""
+        entries = ca.vertsplit(inputs)
+        for i, free in enumerate(self.free):
+            entries[self.model.index[free.name]] = free.to_value(unknowns[i])
+        return ca.vertcat(*entries)
+
+    def shares_less_one(self, inputs: Any) -> Any:
+        """Return what the shares of each mixture add up to beyond one (MX)."""
+        places = ([self.model.index[name] for name in mixture.shares] for mixture in self.mixtures)
+        return ca.vertcat(*(ca.sum1(ca.vertcat(*(inputs[place] for place in one))) - 1.0 for one in places))
+
     def nodes_place(self, i: int) -> slice:
         """Where the nodes of a free current stand among the unknowns; the logarithm of its time comes after them."""
         first = len(self.free) + sum(one.nodes + 1 for one in self.free_currents[:i])

@@ -19,7 +19,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
-from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, Solver, solver_of
+from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Parameters, Point, Problem
@@ -80,7 +80,7 @@ class Optimizer:
         self.problem = self._problem(self.kept_constraints(limits), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
-        self._solvers: dict[Beginning, Solver] = {}
+        self._solvers: dict[Beginning, ProgrammeSolver] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def _device(self) -> DeviceFunctions:
@@ -181,7 +181,7 @@ class Optimizer:
             return float(horizon)
         return value if value != 0.0 else 1.0
 
-    def _solver(self, beginning: Beginning) -> Solver:
+    def _solver(self, beginning: Beginning) -> ProgrammeSolver:
         """The solver, built when it is first needed."""
         if beginning not in self._solvers:
             problem = self.problem
