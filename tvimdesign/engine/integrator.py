@@ -165,7 +165,7 @@ def step(
 
 
 @njit(cache=True, error_model="numpy")
-def step_error(m: System, v: Array, y: Array, u: Array, h: float, ahead: Array) -> float:
+def step_error(m: System, v: Array, y: Array, current: float, slope: float, h: float, ahead: Array) -> float:
     """Take one step in place without sensitivities; return its error in the scaled state, NaN where it failed."""
     size = y.size
     entries, right = np.empty(m.pattern.size), np.empty(size)
@@ -175,7 +175,7 @@ def step_error(m: System, v: Array, y: Array, u: Array, h: float, ahead: Array) 
         for j in range(i):
             base += TABLEAU[i, j] / GAMMA * moved[j]
         y[:] = base + (moved[i - 1] if i > 0 else ahead)
-        if not stage(m, v, y, base, u[i], GAMMA * h, entries, right):
+        if not stage(m, v, y, base, current + slope * TIMES[i] * h, GAMMA * h, entries, right):
             return np.nan
         moved[i] = y - base
     ahead[:] = moved[STAGES - 1]
@@ -185,18 +185,23 @@ def step_error(m: System, v: Array, y: Array, u: Array, h: float, ahead: Array) 
         for j in range(STAGES):
             right[p] += m.mass[i] * ERROR[j] / GAMMA * moved[j, i]
     solve(m.pattern, entries, right)
-    return np.max(np.abs(right))
+    worst = 0.0
+    for p in range(size):
+        worst = max(worst, abs(right[p]))
+    return worst
 
 
 @njit(cache=True, error_model="numpy")
-def adapted(m: System, v: Array, y: Array, u: Array, h: float, tolerance: float, ahead: Array) -> tuple[float, float]:
+def adapted(
+    m: System, v: Array, y: Array, current: float, slope: float, h: float, tolerance: float, ahead: Array
+) -> tuple[float, float]:
     """Take one step in place, as long as the error allows; return its length and that of the next, zero where it fails.
 
-    `ahead` is scaled for the next step.
+    The current is `current` at first and changes by `slope`. `ahead` is scaled for the next step.
     """
     begin, guess = y.copy(), ahead.copy()
     for _ in range(30):
-        error = step_error(m, v, y, u, h, ahead)
+        error = step_error(m, v, y, current, slope, h, ahead)
         if error <= tolerance:
             factor = min(max(SAFETY * (tolerance / max(error, 1e-12)) ** (1.0 / 3.0), SHORTEST), LONGEST)
             ahead *= factor

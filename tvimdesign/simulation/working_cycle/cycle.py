@@ -9,62 +9,49 @@ import numpy as np
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_simulator import FIRST_STRETCH, PhaseSimulator
+from tvimdesign.simulation.working_cycle.phase_run import Found, Instant, PhaseRun
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle, Trajectory
 
-STEPS = 50  # samples of one stretch of time
-TOLERANCE = 1e-6  # with these, values are within 2e-4 of what they converge to (test)
-SHOWN_STRETCHES = 4  # of a phase that is to be drawn
+TOLERANCE = 2e-4
+"""Largest error of a step in the scaled state: values are within 2e-4 of what they converge to (test)."""
+SAMPLES = 200
+"""Samples of a phase at least."""
 
 
 class Simulator:
-    """Simulates the working cycle of one model; each phase's integrator is built once, when it is first needed."""
+    """Simulates the working cycle of one model, with any current over time; values have no derivatives here."""
 
-    def __init__(self, model: DeviceFunctions, tolerance: float = TOLERANCE, steps: int = STEPS) -> None:
-        """Nothing is built yet. `tolerance` is CVODES's, `steps` divides each stretch of time."""
+    def __init__(
+        self, model: DeviceFunctions, tolerance: float = TOLERANCE, samples: int = SAMPLES,
+        engine: CycleEngine | None = None,
+    ) -> None:  # fmt: skip
+        """Nothing is recorded yet; an `engine` of the same model saves recording it again."""
         self.model = model
-        self.tolerance, self.steps = tolerance, steps
-        self._phases: dict[str, PhaseSimulator] = {}
-
-    def run_to_show(
-        self,
-        inputs: Array,
-        current_profiles: Mapping[str, CurrentProfile] | None = None,
-    ) -> Cycle:
-        """Simulate all phases with samples enough to draw each, however short it is.
-
-        A first simulation finds out how long they take, and seeks nothing else: so the same inputs have the same
-        samples, and every value that is told of them is the same, whoever asks.
-        """
-        found = self.run(inputs, current_profiles, wanted=())
-        ends = {name: found.values[phase.phase.ends] for name, phase in self.model.phases.items()}
-        lengths = {
-            name: ends.get(name, ends.get(phase.phase.like or name, 0.0)) for name, phase in self.model.phases.items()
-        }
-        stretches = {name: length / SHOWN_STRETCHES for name, length in lengths.items() if 0.0 < length < np.inf}
-        return self.run(inputs, current_profiles, stretches=stretches)
+        self.tolerance, self.samples = tolerance, samples
+        self.engine = engine or CycleEngine(model)
 
     def run(
         self,
         inputs: Array,
         current_profiles: Mapping[str, CurrentProfile] | None = None,
         phases: Collection[str] | None = None,
-        stretches: Mapping[str, float] | None = None,
         wanted: Collection[str] | None = None,
         deadline: Deadline = NEVER,
     ) -> Cycle:
         """Simulate the named phases (all unless given) and those they start from; the rest has infinite values.
 
-        `drives` are currents by phase where they are not the constant ones of the inputs; `stretches` the lengths [s]
-        of time, by phase, that are sampled at a time at first. Of the phases' quantities only those that are
-        `wanted` need be sought (all unless given), as steady states and each event take time of their own. Raises
-        KeyboardInterrupt where an interrupt came that CasADi has swallowed, TimeOverError once the deadline has passed.
+        `current_profiles` are currents by phase where they are not the constant ones of the inputs. Of the phases'
+        quantities only those that are `wanted` need be sought (all unless given), as steady states and each event take
+        time of their own. Raises KeyboardInterrupt where an interrupt came that CasADi has swallowed, SimulationError
+        where a phase cannot be stepped, TimeOverError once the deadline has passed.
         """
         raise_pending()
         values = dict.fromkeys(self.model.switch_names, np.inf)
         trajectories: dict[str, Trajectory] = {}
         balances: dict[str, Array] = {}
+        horizon = float(inputs[self.model.index["horizon"]])
         for name, phase_functions in self.model.phases.items():
             phase = phase_functions.phase
             if phases is not None and name not in self._with_earlier(phases):
@@ -73,21 +60,39 @@ class Simulator:
             if phase.after and (before is None or not np.isfinite(values[self.model.phases[phase.after].phase.ends])):
                 continue
             profile = (current_profiles or {}).get(phase.like or name) or self.constant_drive(name, inputs)
-            simulator = self._phase(name)
-            stretch = (stretches or {}).get(name, FIRST_STRETCH)
             state = before.states[:, -1] if before else None
-            found, trajectories[name] = simulator.run(inputs, profile, state, stretch, wanted, deadline)
-            values |= found
-            settles = np.isfinite(found[phase.ends]) and simulator.stays(wanted)
-            balance = simulator.balance(inputs, trajectories[name]) if settles else None
-            if balance is not None:
-                balances[name] = balance
-                values |= simulator.steady_values(inputs, balance)
+            events = [row.name for row in phase_functions.events]
+            sought = [event for event in events if wanted is None or event in wanted or event == phase.ends]
+            engine = self.engine.phases[name]
+            run, moments, _ = engine.simulate(inputs, profile, state, sought, horizon, self.tolerance, deadline)
+            found = Found(end=moments.get(phase.ends))
+            run.add_paths(found, None)
+            values |= {event: moment.time for event, moment in moments.items()} | found.values
+            trajectories[name] = self._trajectory(run, found.end)
+            stays = [row.name for row in phase_functions.steadies if wanted is None or row.name in wanted]
+            standing = run.standing(found.end) if stays and found.end is not None else None
+            if standing is not None:
+                state = standing.state[: engine.size]
+                balances[name] = np.append(state, standing.current)
+                values |= {one: engine.value(one, state, standing.current, inputs) for one in stays}
         return Cycle(values, trajectories, balances)
+
+    def run_to_show(
+        self, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None
+    ) -> Cycle:
+        """Simulate all phases; the same inputs have the same values and samples, whoever asks."""
+        return self.run(inputs, current_profiles)
+
+    def _trajectory(self, run: PhaseRun, end: Instant | None) -> Trajectory:
+        times, states, currents = run.sampled(end or run.instants[-1], self.samples)
+        return Trajectory(times=times, states=states, currents=currents)
 
     def trace(self, name: str, inputs: Array, before: Array | None, end: float) -> Trajectory:
         """A phase at its constant current for `end` seconds, on beyond what ends it if that is longer."""
-        return self._phase(name).trace(inputs, self.constant_drive(name, inputs), before, end)
+        profile = self.constant_drive(name, inputs)
+        engine = self.engine.phases[name]
+        run, _, _ = engine.simulate(inputs, profile, before, [], end, self.tolerance, throughout=True)
+        return self._trajectory(run, None)
 
     def constant_drive(self, phase: str, inputs: Array) -> CurrentProfile:
         """The constant current the inputs ask for in a phase."""
@@ -101,8 +106,3 @@ class Simulator:
             if name in wanted and after:
                 wanted.add(after)
         return wanted
-
-    def _phase(self, name: str) -> PhaseSimulator:
-        if name not in self._phases:
-            self._phases[name] = PhaseSimulator(self.model, self.model.phases[name], self.tolerance, self.steps)
-        return self._phases[name]

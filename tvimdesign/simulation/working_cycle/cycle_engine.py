@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.engine.tape import Array
+from tvimdesign.engine.interpreter import Array
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid, Instant
@@ -33,7 +33,8 @@ class CycleEngine:
         self._place = {name: i for i, name in enumerate(model.switch_names)}
 
     @cached_property
-    def _phases(self) -> dict[str, PhaseEngine]:
+    def phases(self) -> dict[str, PhaseEngine]:
+        """Every phase by name."""
         return {name: PhaseEngine(phase) for name, phase in self.model.phases.items()}
 
     def run(
@@ -55,7 +56,7 @@ class CycleEngine:
         ended: dict[str, Instant] = {}
         short: dict[str, tuple[float, Array]] = {}
         horizon = float(inputs[self.model.index["horizon"]])
-        for name, engine in self._phases.items():
+        for name, engine in self.phases.items():
             after = engine.phase.phase.after
             if not self._needed(name, wanted) or (after and after not in ended):
                 continue

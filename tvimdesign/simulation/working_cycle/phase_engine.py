@@ -12,13 +12,19 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.engine.integrator import Motion
-from tvimdesign.engine.tape import Array, Tape
+from tvimdesign.engine.interpreter import Array
+from tvimdesign.engine.tape import Tape
 from tvimdesign.physics.heat_flow import heat
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.phase_run import Drive, Found, Grid, Instant, PhaseRun
 from tvimdesign.simulation.working_cycle.symbols import symbols
+
+_NONE = np.zeros(0)
 
 
 class PhaseEngine:
@@ -41,7 +47,7 @@ class PhaseEngine:
         phase, lip = self.phase, ca.SX.sym("lip", self.lip)
         stack = phase._stack
         if self.lip:
-            kelvin = heat.ZERO_CELSIUS + heat.TEMPERATURE_SCALE * symbols(lip)
+            kelvin = ZERO_CELSIUS + heat.TEMPERATURE_SCALE * symbols(lip)
             stack = stack._replace(lip_temperatures=(kelvin[0], kelvin[1]))
         state_rates, now, *integrands = phase._instant_with(
             ["state_rates", "stack_profile", *self.integrals], stack_now=stack
@@ -96,6 +102,31 @@ class PhaseEngine:
         ends there, whatever the event that ends it still waits for. Returns the grid, too. Raises SimulationError where
         not even the first step can be taken.
         """
+        run, start, pace, dpace = self._begin(inputs, along, before)
+        ends = self.phase.phase.ends
+        sought = [row.name for row in self.phase.events if wanted is None or row.name in wanted or row.name == ends]
+        found = Found()
+        if drive is not None:
+            found.end = run.driven(start, drive.with_length())
+            if found.end is not None:
+                found.add(ends, found.end.time, found.end.of_time)
+                found.short, found.of_short = self.slopes(ends, found.end, inputs, run.along)
+        else:
+            grid = grid or run.first(start, pace, sought, horizon)
+            events = [name for name in sought if name in grid.events]
+            moments = run.search(start, pace, dpace, events, grid)
+            for name, moment in moments.items():
+                found.add(name, moment.time, moment.of_time)
+            found.end = moments.get(ends)
+        if found.end is not None:
+            run.add_paths(found, wanted)
+            run.add_steadies(found, wanted)
+        return found.without_length(), grid or Grid()
+
+    def _begin(
+        self, inputs: Array, along: Array, before: Instant | None
+    ) -> tuple[PhaseRun, Instant, float, Array]:
+        """A run with its constants in place, where it starts, and the unit of its steps with its slopes."""
         motion, given = self._recorded
         along = np.column_stack([along, np.zeros(len(along))])  # the length of a phase's last step
         (k, dk), (pace, dpace), (y, s) = given.tangents([inputs], [along])
@@ -108,26 +139,20 @@ class PhaseEngine:
         sign = self.phase.phase.sign
         current, of_current = sign * float(inputs[self._current_place]), sign * along[self._current_place]
         start = Instant(0.0, np.zeros(along.shape[1]), y, s, current, of_current)
-        run = PhaseRun(self, motion, motion.registers(k, dk), inputs, along)
-        ends = self.phase.phase.ends
-        sought = [row.name for row in self.phase.events if wanted is None or row.name in wanted or row.name == ends]
-        found = Found()
-        if drive is not None:
-            found.end = run.driven(start, drive.with_length())
-            if found.end is not None:
-                found.add(ends, found.end.time, found.end.of_time)
-                found.short, found.of_short = self.slopes(ends, found.end, inputs, along)
-        else:
-            grid = grid or run.first(start, float(pace[0]), sought, horizon)
-            events = [name for name in sought if name in grid.events]
-            moments = run.search(start, float(pace[0]), dpace[0], events, grid)
-            for name, moment in moments.items():
-                found.add(name, moment.time, moment.of_time)
-            found.end = moments.get(ends)
-        if found.end is not None:
-            run.add_paths(found, wanted)
-            run.add_steadies(found, wanted)
-        return found.without_length(), grid or Grid()
+        return PhaseRun(self, motion, motion.registers(k, dk), inputs, along), start, float(pace[0]), dpace[0]
+
+    def simulate(
+        self, inputs: Array, profile: CurrentProfile, before: Array | None, sought: list[str], horizon: float,
+        tolerance: float, deadline: Deadline = NEVER, *, throughout: bool = False,
+    ) -> tuple[PhaseRun, dict[str, Instant], bool]:  # fmt: skip
+        """Step with a current that may follow a profile, without derivatives, until all that is sought has happened, or
+        `throughout` the horizon.
+
+        Returns the run, the instants of the events, and whether nothing will change any more. Raises SimulationError.
+        """
+        state = None if before is None else Instant(0.0, _NONE, before, np.zeros((len(before), 0)), 0.0, _NONE)
+        run, start, pace, _ = self._begin(inputs, np.zeros((len(inputs), 0)), state)
+        return run, *run.simulate(start, pace, sought, horizon, profile, tolerance, deadline, throughout=throughout)
 
 
 def _heating_time(stack: heat.Stack, current: Any) -> Any:

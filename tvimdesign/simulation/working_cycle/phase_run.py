@@ -9,14 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.engine.integrator import STAGES, TIMES, Motion, adapted, advance, newton_matrix, step
+from tvimdesign.engine.interpreter import Array
 from tvimdesign.engine.sparse_lu import solve_many
-from tvimdesign.engine.tape import Array
+from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 
 if TYPE_CHECKING:
     from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
@@ -28,6 +31,8 @@ FIRST = 0.02
 """The first step, in times that the pads would need to heat the layer."""
 MOST_STEPS, EXTRA, GROWTH = 2000, 40, 1.3
 """Steps of a phase at most; beyond those of the first run, and by how much each of these grows."""
+STALLED = 1e-7
+"""Change of the scaled state over the rest of the horizon below which nothing will happen any more."""
 STANDING = -1e-12
 """Share of the mass in the matrix of a state that stays, so that integrals, which do not, leave it regular."""
 NEAR, MOST_TRIALS = 1e-4, 12
@@ -118,21 +123,52 @@ class PhaseRun:
 
     def first(self, start: Instant, pace: float, sought: list[str], horizon: float) -> Grid:
         """Step as far as the events that are sought, each step as long as its error allows."""
-        grid = Grid(events={name: -1 for name in sought if self._gap(name, start.state, start.current) >= 0.0})
-        y, h, time = start.state.copy(), FIRST * pace, 0.0
-        ahead, u = np.zeros(y.size), np.full(STAGES, start.current)
-        while len(grid.events) < len(sought) and time < horizon and len(grid.shares) < MOST_STEPS:
-            length, h = adapted(self.motion.system, self.registers[2], y, u, h, TOLERANCE, ahead)
+        constant = CurrentProfile.constant(start.current)
+        found, _ = self.simulate(start, pace, sought, horizon, constant, TOLERANCE, seek=False)
+        times = np.array([one.time for one in self.instants])
+        return Grid((np.diff(times) / pace).tolist(), {name: one.step for name, one in found.items()})
+
+    def simulate(
+        self, start: Instant, pace: float, sought: list[str], horizon: float, profile: CurrentProfile,
+        tolerance: float, deadline: Deadline = NEVER, *, seek: bool = True, throughout: bool = False,
+    ) -> tuple[dict[str, Instant], bool]:  # fmt: skip
+        """Step as far as the events that are sought, or `throughout`, each step as long as its error allows.
+
+        Returns the instants of the events (with `seek`; else those before the steps in which they are due), and whether
+        nothing will change any more. Raises SimulationError where not even the first step can be taken.
+        """
+        start = replace(start, current=float(profile.at(np.zeros(1))[0]))
+        found = {name: start for name in sought if self._gap(name, start.state, start.current) >= 0.0}
+        self.instants, h = [start], FIRST * pace
+        y, ahead, one = start.state.copy(), np.zeros(start.state.size), start
+        nothing, settled = np.zeros((y.size, self.lanes)), False
+        while one.time < horizon and len(self.instants) <= MOST_STEPS and not settled:
+            if len(found) == len(sought) and not throughout:
+                break
+            deadline.check("the working cycle of a design was simulated")
+            room = min(profile.next_corner(one.time), horizon) - one.time
+            least, whole = (room, False) if h > 0.999 * room else (h, True)
+            end = float(profile.at(np.array([one.time + least]))[0])
+            slope = (end - one.current) / least
+            length, following = adapted(
+                self.motion.system, self.registers[2], y, one.current, slope, least, tolerance, ahead
+            )
             if length == 0.0:
-                if time == 0.0:
+                if len(self.instants) == 1:
                     name = self.of.phase.phase.name
                     raise SimulationError(f"the {name} of this design cannot be simulated; check its inputs")
                 break
-            due = [name for name in sought if name not in grid.events and self._gap(name, y, start.current) >= 0.0]
-            grid.events |= dict.fromkeys(due, len(grid.shares))
-            grid.shares.append(length / pace)
-            time += length
-        return grid
+            h = following if whole or length < least else max(following, h)
+            current = one.current + slope * length
+            other = Instant(one.time + length, one.of_time, y.copy(), nothing, current, one.of_current, one.step + 1)
+            self.instants.append(other)
+            for name in sought:
+                if name not in found and self._gap(name, other.state, current) >= 0.0:
+                    found[name] = self._crossing(name, one, other, slope) if seek else other
+            if slope == 0.0 and not throughout and np.isinf(profile.next_corner(other.time)):
+                settled = bool(np.max(np.abs(self._rates(other)[: self.of.size])) * (horizon - other.time) < STALLED)
+            one = other
+        return found, settled
 
     def search(
         self, start: Instant, pace: float, dpace: Array, sought: list[str], grid: Grid
@@ -154,7 +190,7 @@ class PhaseRun:
                 elif self._gap_at(name, k + 1) < 0.0:
                     k += 1
                 else:
-                    found[name] = self._crossing(name, k)
+                    found[name] = self._crossing(name, self.instants[k], self.instants[k + 1])
                     break
             if k < 0:
                 found[name] = start
@@ -209,41 +245,43 @@ class PhaseRun:
         first = self.motion.size + 1
         return self.registers[0][first : int(self.motion.rates.arguments[-1])]
 
-    def _crossing(self, name: str, low: int) -> Instant:
-        """The instant at which an event is due, between the ends of two steps of a constant current.
+    def _crossing(self, name: str, one: Instant, other: Instant, slope: float = 0.0) -> Instant:
+        """The instant at which an event is due, between the ends of two steps in which the current has a `slope`.
 
         The last step ends there: its length is sought by Newton's method, whose slope is one more direction.
         """
-        one, other = self.instants[low], self.instants[low + 1]
         whole = other.time - one.time
         here, there = self._rates(one) * whole, self._rates(other) * whole
-        current = one.current
 
         def between(share: float) -> Array:
             return _hermite(share, one.state, other.state, here, there)
 
-        length = whole * _root(lambda share: self._gap(name, between(share), current))
+        length = whole * _root(lambda share: self._gap(name, between(share), one.current + slope * share * whole))
         least, most = 0.0, 1.05 * whole
         nowhere = np.zeros((len(self.inputs), 1))
+        last = other
         for _ in range(MOST_TRIALS):
             guess = 0.4 * (between(length / whole) - one.state)
-            last = self._last_step(one, length, guess, self._of_length)
+            last = self._last_step(one, length, slope, guess, self._of_length)
             gap, slopes = self.of.slopes(name, last, self.inputs, nowhere)
             least, most = (length, most) if gap < 0.0 else (least, length)
             short = -gap / slopes[0]
             if abs(short) <= NEAR * whole:
                 break
             length = length + short if least < length + short < most else 0.5 * (least + most)
-        last = self._last_step(one, length, 0.4 * (last.state - one.state), self.registers)
+        if self.lanes > 1:
+            last = self._last_step(one, length, slope, 0.4 * (last.state - one.state), self.registers)
         gap, slopes = self.of.slopes(name, last, self.inputs, self.along)
         short, longer = -gap / slopes[-1], -slopes / slopes[-1]
         longer[-1] = 0.0
         by_length, s = last.of_state[:, -1:].copy(), last.of_state
         s[:, -1] = 0.0
-        state = last.state + short * by_length[:, 0]
+        of_current = last.of_current + slope * longer
+        of_current[-1] = 0.0
         return replace(
-            last, time=one.time + length + short, of_time=one.of_time + longer, state=state,
-            of_state=s + by_length * longer,
+            last, time=one.time + length + short, of_time=one.of_time + longer,
+            state=last.state + short * by_length[:, 0], of_state=s + by_length * longer,
+            current=last.current + slope * short, of_current=of_current,
         )  # fmt: skip
 
     @cached_property
@@ -252,25 +290,25 @@ class PhaseRun:
         return self.motion.registers(self._constants, np.zeros((len(self._constants), 1)))
 
     def _last_step(
-        self, one: Instant, length: float, guess: Array, registers: tuple[Array, Array, Array]
+        self, one: Instant, length: float, slope: float, guess: Array, registers: tuple[Array, Array, Array]
     ) -> Instant:
         """The instant after a last step; the last direction is its length."""
         lanes = registers[1].shape[1]
         y, s = one.state.copy(), one.of_state[:, -lanes:].copy()
-        longer, of_current = np.zeros(lanes), one.of_current[-lanes:].copy()
+        longer = np.zeros(lanes)
         longer[-1] = 1.0
-        u, du = np.full(STAGES, one.current), np.tile(of_current, (STAGES, 1))
+        u = one.current + slope * TIMES * length
+        du = one.of_current[-lanes:] + slope * TIMES[:, None] * longer
         step(self.motion.system, *registers, y, s, u, du, length, longer, guess)
-        return Instant(one.time + length, longer, y, s, one.current, of_current, one.step + 1)
+        return Instant(one.time + length, longer, y, s, float(u[-1]), du[-1], one.step + 1)
 
     # --- what is asked of the phase ---
 
     def add_paths(self, found: Found, wanted: Collection[str] | None) -> None:
-        """Add what the phase adds up to, is at its end, or reaches."""
-        end = found.end
-        assert end is not None
+        """Add what the phase adds up to, is at its end, or reaches; of a phase without an end, what it reaches."""
+        end = found.end or self.instants[-1]
         for row in self.of.phase.paths:
-            if wanted is not None and row.name not in wanted:
+            if (wanted is not None and row.name not in wanted) or (row.reduce != "maximum" and found.end is None):
                 continue
             if row.reduce == "integral":
                 place = self.of.size + self.of.lip + self.of.integrals.index(row.name)
@@ -282,7 +320,7 @@ class PhaseRun:
 
     def _highest(self, name: str, end: Instant) -> tuple[float, Array]:
         """The maximum of a quantity up to the end; between two steps it is looked for along cubics."""
-        passed = [*self.instants[: max(end.step, 0) + 1], end] if end.step >= 0 else [end]
+        passed = self.passed(end)
         values = [self._gap(name, one.state, one.current) for one in passed]
         k = int(np.argmax(values))
         best = passed[k]
@@ -293,6 +331,26 @@ class PhaseRun:
                 if value > values[k]:
                     best, values[k] = self._between(one, other, share), value
         return self.of.slopes(name, best, self.inputs, self.along)
+
+    def passed(self, end: Instant) -> list[Instant]:
+        """The ends of the steps up to an instant."""
+        return [*self.instants[: end.step + 1], end] if end.step >= 0 else [end]
+
+    def sampled(self, end: Instant, least: int) -> tuple[Array, Array, Array]:
+        """Times, states (a column each) and currents up to an instant, no fewer than so many: cubics between steps."""
+        passed = self.passed(end)
+        each = max(-(-least // max(len(passed) - 1, 1)), 1)
+        shares = np.arange(each) / each
+        times, states, currents = [], [], []
+        for one, other in pairwise(passed):
+            length = other.time - one.time
+            here, there = self._rates(one) * length, self._rates(other) * length
+            for share in shares:
+                times.append(one.time + share * length)
+                states.append(_hermite(share, one.state, other.state, here, there))
+                currents.append(one.current + share * (other.current - one.current))
+        times, states, currents = [*times, end.time], [*states, end.state], [*currents, end.current]
+        return np.array(times), np.array(states).T[: self.of.size], np.array(currents)
 
     def _along_cubic(self, name: str, one: Instant, other: Instant) -> Callable[[float], float]:
         """A quantity as a function of the share of a step."""
@@ -330,13 +388,13 @@ class PhaseRun:
     def add_steadies(self, found: Found, wanted: Collection[str] | None) -> None:
         """Add what it takes to stay where the phase has ended."""
         rows = [row.name for row in self.of.phase.steadies if wanted is None or row.name in wanted]
-        standing = self._standing(found.end) if rows and found.end is not None else None
+        standing = self.standing(found.end) if rows and found.end is not None else None
         if standing is None:
             return
         for name in rows:
             found.add(name, *self.of.slopes(name, standing, self.inputs, self.along))
 
-    def _standing(self, end: Instant) -> Instant | None:
+    def standing(self, end: Instant) -> Instant | None:
         """State and current that stay, with their tangents; None where there are none.
 
         The current is sought at which the event that ends the phase stays due; at each, the state that stays.
