@@ -89,7 +89,7 @@ class PhaseEngine:
         self._tapes: dict[tuple[str, ...], Tape] = {}
 
     @cached_property
-    def _recorded(self) -> tuple[Motion, Tape]:
+    def recorded(self) -> tuple[Motion, Tape]:
         """The equation of motion, and what it takes from the inputs: constants, length of a step, first state."""
         phase, lip = self.phase, ca.SX.sym("lip", self.lip)
         stack = phase._stack
@@ -116,13 +116,13 @@ class PhaseEngine:
         return self.phase.input_names.index(self.phase.phase.current_input)
 
     @cached_property
-    def _start(self) -> Tape:
+    def start(self) -> Tape:
         """Record the state that a phase goes on from."""
         before = ca.SX.sym("before", len(self.phase._initial(self.phase._stack._replace(freezing=None))))
         state = self.phase.begin(before, self.phase._inputs)
         return Tape.of([before, self.phase._inputs], [state])
 
-    def _tape(self, *names: str) -> Tape:
+    def tape(self, *names: str) -> Tape:
         """Record what quantities are at an instant: of state, current and inputs."""
         if names not in self._tapes:
             values = [ca.SX(self.phase._instant[name]) for name in names]
@@ -130,12 +130,12 @@ class PhaseEngine:
         return self._tapes[names]
 
     def _value(self, name: str, state: Array, current: float, inputs: Array) -> float:
-        return float(self._tape(name).values(state[: self.size], np.array([current]), inputs)[0][0])
+        return float(self.tape(name).values(state[: self.size], np.array([current]), inputs)[0][0])
 
     def _pushed(self, name: str, at: tuple[Array, Array, float, Array], inputs: Array, along: Array) -> tuple[float, Array]:
         """A quantity at an instant (state, its tangents, current, its tangents), and its slopes."""
         state, of_state, current, of_current = at
-        ((value, slopes),) = self._tape(name).tangents(
+        ((value, slopes),) = self.tape(name).tangents(
             (state[: self.size], np.array([current]), inputs), (of_state[: self.size], of_current[None], along)
         )
         return float(value[0]), slopes[0]
@@ -148,13 +148,13 @@ class PhaseEngine:
 
         Steps are those of a `grid`, or as long as the error allows. Returns the grid, too.
         """
-        motion, given = self._recorded
+        motion, given = self.recorded
         along = np.column_stack([along, np.zeros(len(along))])  # the length of a phase's last step
         (k, dk), (pace, dpace), (y, s) = given.tangents([inputs], [along])
         if before is not None:
-            size = self._start.arguments[1]
+            size = self.start.arguments[1]
             of_state = np.column_stack([before.of_state[:size], np.zeros(size)])
-            ((y, s),) = self._start.tangents((before.state[:size], inputs), (of_state, along))
+            ((y, s),) = self.start.tangents((before.state[:size], inputs), (of_state, along))
         pad = self.lip + len(self.integrals)
         y, s = np.append(y, np.zeros(pad)), np.concatenate([s, np.zeros((pad, along.shape[1]))])
         current = self.phase.phase.sign * float(inputs[self._current_place])
