@@ -77,7 +77,7 @@ def compare(kind: str, options: Options) -> Comparison:
     """Compare all subjects of a kind with the frozen ones."""
     done, frozen = Comparison(kind), frozen_values(kind, options.studies)
     tolerance, renames = options.tolerance_of(kind), options.renames_of(kind)
-    for name, compute in subjects(kind, options.studies):
+    for name, compute in subjects(kind, options.studies, options.renames):
         expected = frozen.pop(name, None)
         try:
             now = compute()
@@ -105,7 +105,7 @@ def compare_optima(options: Options) -> Comparison:
             done.add(1, [Difference(name, "optimum:status", frozen["status"], type(error).__name__)])
             continue
         now = found.found["optimum"]
-        done.add(1, list(optima.optimum_differences(name, frozen, now)))
+        done.add(1, list(optima.optimum_differences(name, frozen, now, options.renames)))
         change = optima.objective_change(frozen, now)
         better = "  BETTER" if change < -optima.OBJECTIVE_TOLERANCE else ""
         print(f"# {name}: objective {now['objective']}, {change:+.2e}, {found.seconds:.0f} s{better}", flush=True)
@@ -116,7 +116,7 @@ def freeze(kind: str, options: Options) -> None:
     """Write the values of now in place of the frozen ones, at the frozen designs; other studies keep theirs."""
     commit = code_version()
     kept = {} if kind == "outputs" or not FILES[kind].exists() else read_frozen(FILES[kind])["values"]
-    values = {name: compute() for name, compute in subjects(kind, options.studies)}
+    values = {name: compute() for name, compute in subjects(kind, options.studies, options.renames)}
     if kind == "outputs":
         for name, outputs in values.items():
             path = study_outputs.frozen_file(name)

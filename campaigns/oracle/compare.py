@@ -31,7 +31,7 @@ class Difference:
         return f"{self.subject}  {self.quantity}  {self.frozen}  {self.now}  {relative}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Renames:
     """Hold the deliberate changes of names since the values were frozen."""
 
@@ -59,11 +59,12 @@ class Renames:
     def expected(self, frozen: Values) -> dict[str, Value]:
         """Return the frozen values by the names of today, without those that were removed."""
         kept = {name: value for name, value in frozen.items() if base_name(name) not in self.removed}
-        return {self._renamed(name): value for name, value in kept.items()}
+        return {self.name_now(name): value for name, value in kept.items()}
 
-    def _renamed(self, name: str) -> str:
-        base = base_name(name)
-        return name.replace(base, self.renamed[base], 1) if base in self.renamed else name
+    def name_now(self, name: str) -> str:
+        """Return the name that a frozen one has today."""
+        base, (group, colon, rest) = base_name(name), name.rpartition(":")
+        return group + colon + self.renamed[base] + rest[len(base) :] if base in self.renamed else name
 
 
 def base_name(name: str) -> str:

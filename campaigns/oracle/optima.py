@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import tvimdesign
-from oracle.compare import Difference, differences, relative_difference
+from oracle.compare import Difference, Renames, differences, relative_difference
 from oracle.study_outputs import chosen_by_search, load_study
 
 OBJECTIVE_TOLERANCE = 1e-6
@@ -39,7 +39,9 @@ def search(name: str) -> Optimum:
     return Optimum(result.design, chosen_by_search(study, result.design), time.process_time() - start)
 
 
-def optimum_differences(name: str, frozen: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[Difference]:
+def optimum_differences(
+    name: str, frozen: Mapping[str, Any], now: Mapping[str, Any], renames: Renames | None = None
+) -> Iterator[Difference]:
     """Compare an optimum with the frozen one; a better objective is no difference.
 
     Yields
@@ -54,6 +56,7 @@ def optimum_differences(name: str, frozen: Mapping[str, Any], now: Mapping[str, 
         {f"reference:{output}": value for output, value in frozen["reference"].items()},
         {f"reference:{output}": value for output, value in now["reference"].items()},
         tolerance=REFERENCE_TOLERANCE,
+        renames=renames,
     )
     change = objective_change(frozen, now)
     if change > OBJECTIVE_TOLERANCE:

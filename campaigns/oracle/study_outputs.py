@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 import tvimdesign
-from oracle.compare import Value
+from oracle.compare import Renames, Value
 from oracle.frozen_files import FOLDER, read_frozen
 from tvimdesign.base.units import si_unit
 from tvimdesign.device import table_for
@@ -60,8 +60,8 @@ def chosen_by_search(study: tvimdesign.Study, design: tvimdesign.Design) -> dict
 
 
 @cache
-def evaluate_frozen(name: str) -> tvimdesign.Result:
-    """Evaluate a shipped study at its frozen design; nothing is optimised.
+def evaluate_frozen(name: str, renames: Renames) -> tvimdesign.Result:
+    """Evaluate a shipped study at its frozen design, by the names of today; nothing is optimised.
 
     Raises
     ------
@@ -70,13 +70,13 @@ def evaluate_frozen(name: str) -> tvimdesign.Result:
     TvimError
         If the study cannot be evaluated there.
     """
-    return evaluated_study(load_study(name), read_frozen(frozen_file(name))).evaluate(progress=False)
+    return evaluated_study(load_study(name), read_frozen(frozen_file(name)), renames).evaluate(progress=False)
 
 
-def evaluated_study(study: tvimdesign.Study, design: Mapping[str, Any]) -> tvimdesign.Study:
+def evaluated_study(study: tvimdesign.Study, design: Mapping[str, Any], renames: Renames) -> tvimdesign.Study:
     """Return a study with the values of a frozen design in place of what it varies, and its current profiles."""
     chosen = {
-        name: f"{value!r} {design['units'][name]}" if name in design["units"] else value
+        renames.name_now(name): f"{value!r} {design['units'][name]}" if name in design["units"] else value
         for name, value in design["chosen"].items()
     }
     profiles = {f"currents.{phase}": _current(profile) for phase, profile in design["current_profiles"].items()}

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from oracle import fits, messages, part_volumes, study_outputs
-from oracle.compare import Values
+from oracle.compare import Renames, Values
 from oracle.frozen_files import FOLDER, read_frozen
 
 KINDS = ("outputs", "parts", "fit", "messages")
@@ -18,11 +18,11 @@ Subject = tuple[str, Callable[[], Values]]
 """A name, such as that of a study, and what computes its values."""
 
 
-def subjects(kind: str, studies: Sequence[str]) -> Iterator[Subject]:
+def subjects(kind: str, studies: Sequence[str], renames: Renames) -> Iterator[Subject]:
     """Yield the subjects of a kind; of outputs and parts those of the named studies, or of all if none is named."""
     if kind in OF_STUDIES:
         for name in studies or study_outputs.study_names():
-            yield name, partial(_outputs if kind == "outputs" else _parts, name)
+            yield name, partial(_outputs if kind == "outputs" else _parts, name, renames)
     elif kind == "fit":
         for case in fits.fit_cases():
             yield case.name, partial(fits.fit, case)
@@ -31,12 +31,12 @@ def subjects(kind: str, studies: Sequence[str]) -> Iterator[Subject]:
             yield name, partial(messages.message_places, text)
 
 
-def _outputs(name: str) -> Values:
-    return study_outputs.outputs(study_outputs.evaluate_frozen(name))
+def _outputs(name: str, renames: Renames) -> Values:
+    return study_outputs.outputs(study_outputs.evaluate_frozen(name, renames))
 
 
-def _parts(name: str) -> Values:
-    return part_volumes.part_volumes(study_outputs.evaluate_frozen(name).design)
+def _parts(name: str, renames: Renames) -> Values:
+    return part_volumes.part_volumes(study_outputs.evaluate_frozen(name, renames).design)
 
 
 def frozen_values(kind: str, studies: Sequence[str]) -> dict[str, Values]:
