@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
 
 .DEFAULT_GOAL := help
-.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-engine bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
+.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-engine bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine same same-optima validation fit-coverage check-wheel check-cad docs pictures lint format types contracts page-code schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -99,6 +99,15 @@ time-limits: $(STAMP)  ## every shipped study with time limits of 5, 20 and 60 s
 
 machine: $(STAMP)  ## a run without room, descriptors, memory, a home or letters: done, or one line and the right code (minutes)
 	$(BIN)/python campaigns/machine.py
+
+SAME := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python campaigns/same.py
+SAME_STUDIES := $(if $(ONLY),--studies $(ONLY))
+
+same: $(STAMP)  ## compare outputs, parts, fits and messages with the frozen ones (minutes); ONLY="finger ankle", TOLERANCE=1e-9
+	$(SAME) $(SAME_STUDIES) $(if $(TOLERANCE),--tolerance $(TOLERANCE))
+
+same-optima: $(STAMP)  ## search the studies again and compare the optima with the frozen ones (half an hour); ONLY="finger ankle"
+	$(SAME) --only optima $(SAME_STUDIES)
 
 validation: $(STAMP)  ## compare with handbooks, closed solutions, FE and published data, and write docs/validation.md (minutes)
 	$(BENCH) validation/run.py

@@ -8,6 +8,7 @@ import numpy as np
 from engine_network import Assembler
 
 from tvimdesign.device.shear import layer_columns
+from tvimdesign.device.table.module import Module
 from tvimdesign.physics.heat_flow import columns, heat
 from tvimdesign.physics.heat_flow.lip import WarmLip
 from tvimdesign.physics.polymers import polymer
@@ -35,13 +36,9 @@ class JointNumbers:
         self.fed_evenly = np.array([float(columns.fed_evenly(place)) for place in across.places])
         node_temperatures = ca.SX.sym("nodes", assembler.size)
         now = _profile(symbols(node_temperatures), assembler)
-        drops = layer_columns.edge_drops(
-            now, assembler.stack, of["heater_form"], of["pad_wall"], of["heater_along"], of["plate_to_edge"],
-            of["uneven_sideways"], end, of["edge_length"],
-        )  # fmt: skip
-        around = layer_columns.layer_surroundings(
-            now, assembler.stack, drops, of["air_beside"], end, of["plate_slenderness"]
-        )
+        m = Module(stack_profile=now, stack=assembler.stack, **of)
+        m.edge_drops = layer_columns.edge_drops(m)
+        around = layer_columns.layer_surroundings(m)
         seen = ca.vertcat(*around.drops, around.through)
         by_nodes = ca.densify(ca.jacobian(seen, node_temperatures))
         if end is None:

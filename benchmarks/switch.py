@@ -25,8 +25,8 @@ from tvimdesign.device import table_for
 from tvimdesign.device.core.heat import thermal_stack
 from tvimdesign.device.core.impedance import warm_structure
 from tvimdesign.device.shear import layer_columns
+from tvimdesign.device.table.module import Module
 from tvimdesign.physics.heat_flow import heat
-from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -58,52 +58,39 @@ class Contender:
     solve: Callable[[float], Array]
 
 
-OF_EDGES = (
-    "heater_form",
-    "pad_wall",
-    "heater_along",
-    "plate_to_edge",
-    "uneven_sideways",
-    "cold_end",
-    "edge_length",
-)
-OF_SURROUNDINGS = ("air_beside", "cold_end", "plate_slenderness")
-OF_ENDS = ("air_beside", "cold_end", "pcl_area", "edge_length", "pcl_depth")
-"""What the layer's columns need to know of the module."""
+SETTLED = (
+    "stack", "pcl_rheology", "structure_compliances", "structure_softening", "clamped_loss_factor",
+    "lossless_compliance", "spring_stiffness", "pcl_depth", "heater_form", "pad_wall", "heater_along", "plate_to_edge",
+    "uneven_sideways", "cold_end", "edge_length", "air_beside", "plate_slenderness", "pcl_area", "column_shares",
+)  # fmt: skip
+"""What the joint's impedance at an instant needs to know of the module."""
+AT_AN_INSTANT = (
+    layer_columns.edge_drops, layer_columns.layer_surroundings, layer_columns.end_places, layer_columns.end_profile,
+    layer_columns.layer_temperatures, thermal_stack.slice_moduli, thermal_stack.column_compliances,
+    thermal_stack.layer_moduli, thermal_stack.layer_stiffness_now, warm_structure.parts_now, warm_structure.support_now,
+    thermal_stack.branch_now, thermal_stack.impedance_now,
+)  # fmt: skip
 
 
 def written_by_hand(model: DeviceFunctions, sparse: bool) -> Equations:
     """Write the equations as a user of numpy and scipy would: floats through `physics.heat`, a state as an array."""
     numbers = {name: float(value) for name, value in zip(model.names, model.start, strict=True)}
     known = {**model.words, **numbers, "rotor_cells": int(numbers["rotor_cells"])}
-    wanted = ["stack", "pcl_rheology", "layer_polar_moment", "structure_compliances", "structure_softening",
-              "spring_stiffness", "joint_impedance@hot"]  # fmt: skip
-    found = model.table.evaluate(known, [*wanted, *OF_EDGES, *OF_SURROUNDINGS, *OF_ENDS])
-    of = {**known, **found}
-    edges, around, ends = ({name: of[name] for name in names} for names in (OF_EDGES, OF_SURROUNDINGS, OF_ENDS))
-    stack, rheology, moment, parts, law, springs, hot = (found[name] for name in wanted)
-    target, soft = numbers["target_temperature"], numbers["softening_band"] * hot
-
-    current, omega = numbers["current"], 2.0 * np.pi * numbers["frequency@hot"]
+    found = model.table.evaluate(known, [*SETTLED, "layer_polar_moment", "joint_impedance@hot"])
+    stack, moment = found["stack"], found["layer_polar_moment"]
+    target, soft = numbers["target_temperature"], numbers["softening_band"] * found["joint_impedance@hot"]
+    current, frequency = numbers["current"], numbers["frequency@hot"]
 
     def rates(_: float, state: Array) -> Any:
         return heat.rates(state, stack, current)
 
     def gaps(_: float, state: Array) -> list[Any]:
         now = heat.profile(state, stack)
-        drops = layer_columns.edge_drops(now, stack, **edges)
-        surroundings = layer_columns.layer_surroundings(now, stack, drops, **around)
-        profile = layer_columns.end_profile(layer_columns.end_places(now, **ends), of["cold_end"])
-        warm = layer_columns.layer_temperatures(surroundings, profile, stack, of["cold_end"])
-        slices = polymer.moduli(now.cells, now.fractions, omega, rheology)
-        side_by_side = thermal_stack.column_compliances(stack, warm, rheology, numbers["frequency@hot"])
-        moduli = thermal_stack.layer_moduli(stack, slices, side_by_side, layer_columns.across(of["cold_end"]).shares)
-        support = warm_structure.in_series(parts, warm_structure.parts_now(now), law, numbers["clamped_loss_factor"])
-        stiffness = thermal_stack.layer_stiffness_now(moduli, moment, numbers["pcl_thickness"])
-        branch = thermal_stack.branch_now(stiffness, support)
-        impedance = thermal_stack.impedance_now(springs, branch)
+        m = Module(stack_profile=now, stack_now=stack, frequency_now=frequency, moment_now=moment, **found)
+        for function in AT_AN_INSTANT:
+            setattr(m, function.__name__, function(m))
         mean = np.mean(now.cells)
-        return [now.near - target, mean - target, now.far - target, np.log(soft / impedance)]
+        return [now.near - target, mean - target, now.far - target, np.log(soft / m.impedance_now)]
 
     start = np.asarray(model.phases["softening"].initial(model.start)).ravel()
     return Equations(start, rates, gaps, sparsity=_pattern(model) if sparse else None)

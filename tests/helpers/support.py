@@ -32,14 +32,6 @@ Command = Callable[..., CompletedProcess[str]]
 TRANSFORMED = {"hold_angle", "set_angle", "backlash", "relaxation_loss"}
 """Rows read off a Laplace transform, whose weights cancel: other rounding shows in the tenth digit."""
 
-USED_BY_PARTS = {
-    "hole_compensation", "making_method", "thinnest_wall", "overhang_angle", "bridge_span", "hole_depth_ratio",
-    "bed_length", "bed_width", "bed_height", "flange_azimuth", "link_screw_key", "retainer_screw_key",
-    "cover_screw_key", "adjuster_screw_key", "motor_screw_key", "mount_screw_key", "heater_fuse",
-    "peltier_bulk_modulus",
-}  # fmt: skip
-"""Rows that print files, the assembly note, checks on the solids and, in shear, FE of the parts read alone."""
-
 
 def is_at_work(process: int) -> bool:
     """Whether a process runs; one that has ended and waits to be reaped does not."""

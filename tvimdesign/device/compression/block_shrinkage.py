@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.shrinkage import quantities as shared
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import shrinkage
@@ -18,18 +19,18 @@ groups = (places, quantities)
 
 
 @places.output("mm")
-def freezing_travel(melting_growth: Scalar) -> Scalar:
+def freezing_travel(m: Module) -> Scalar:
     """How far the rotor comes down as the PCL freezes: not at all, blocks have clearance above and below."""
-    return 0.0 * melting_growth
+    return 0.0 * m.melting_growth
 
 
 @quantities.output("mm")
-def freezing_gap(block_depth: Scalar, freezing_shrinkage: Scalar) -> Scalar:
+def freezing_gap(m: Module) -> Scalar:
     """What a freezing block loses of its depth, and leaves beside its vane."""
-    return block_depth * shrinkage.linear_share(freezing_shrinkage)
+    return m.block_depth * shrinkage.linear_share(m.freezing_shrinkage)
 
 
 @quantities.output("deg")
-def freezing_backlash(freezing_gap: Scalar, pcl_mean_radius: Scalar) -> Scalar:
+def freezing_backlash(m: Module) -> Scalar:
     """Angle between a block's touch on either side of a rotor vane, after freezing at rest without load."""
-    return 2.0 * freezing_gap / pcl_mean_radius
+    return 2.0 * m.freezing_gap / m.pcl_mean_radius

@@ -6,6 +6,7 @@ import numpy as np
 
 from tvimdesign.device.compression.ring_heat import ABOVE, ABOVE_PADS, ABOVE_VANES, ABOVE_WALLS, RIM, WITHIN
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
@@ -17,35 +18,28 @@ quantities = QuantityGroup(shared.group)
 
 
 @quantities.helper()
-def shares_above(heated_length: Scalar, plate_depth: Scalar, wall_depth: Scalar) -> tuple[tuple[Place, Scalar], ...]:
+def shares_above(m: Module) -> tuple[tuple[Place, Scalar], ...]:
     """Bodies of the rotor plate above the ring, and each one's share of it."""
-    ring = heated_length + plate_depth + wall_depth
-    heated = [(("beside", i), share * heated_length / ring) for i, share in zip(ABOVE, STRIP, strict=True)]
-    walls = [(("around", i), share * wall_depth / ring) for i, share in zip(ABOVE_WALLS, STRIP, strict=True)]
-    return (("beside", ABOVE_VANES), plate_depth / ring), *heated, *walls
+    ring = m.heated_length + m.plate_depth + m.wall_depth
+    heated = [(("beside", i), share * m.heated_length / ring) for i, share in zip(ABOVE, STRIP, strict=True)]
+    walls = [(("around", i), share * m.wall_depth / ring) for i, share in zip(ABOVE_WALLS, STRIP, strict=True)]
+    return (("beside", ABOVE_VANES), m.plate_depth / ring), *heated, *walls
 
 
 @quantities.helper()
-def plate_links(
-    ring_width: Scalar,
-    ways_along: tuple[Scalar, ...],
-    shares_above: tuple[tuple[Place, Scalar], ...],
-    heated_length: Scalar,
-    wall_depth: Scalar,
-    pads_share: Scalar,
-    core_and_link: lumps.Lump,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-) -> tuple[Link, ...]:
+def plate_links(m: Module) -> tuple[Link, ...]:
     """From the rotor plate above the rotor's vanes to what is beside it, but its lowest tenth, which is next in the
     chain; and to the core from all but the upper one above blocks and pads, after which the core is next."""
-    to_heated = structure_conductivity * rotor_thickness * ring_width * ways_along[0]
+    to_heated = m.structure_conductivity * m.rotor_thickness * m.ring_width * m.ways_along[0]
     vanes, core = ("beside", ABOVE_VANES), ("beside", ABOVE[-1] + 1)
     along = [Link(vanes, ("beside", i), share * to_heated) for i, share in zip(ABOVE[1:], STRIP[1:], strict=True)]
-    inwards = [Link(place, core, share * core_and_link.conductance)
-               for place, share in shares_above if place != ("beside", ABOVE[-1])]  # fmt: skip
-    upwards = structure_conductivity * ring_width * pads_share * heated_length / (WAYS[1] * rotor_thickness)
-    beyond = structure_conductivity * rotor_thickness * ring_width / wall_depth
+    inwards = [
+        Link(place, core, share * m.core_and_link.conductance)
+        for place, share in m.shares_above
+        if place != ("beside", ABOVE[-1])
+    ]
+    upwards = m.structure_conductivity * m.ring_width * m.pads_share * m.heated_length / (WAYS[1] * m.rotor_thickness)
+    beyond = m.structure_conductivity * m.rotor_thickness * m.ring_width / m.wall_depth
     walls = [
         Link(("around", i - 1), ("around", i), beyond / way) for i, way in zip(ABOVE_WALLS[1:], WAYS[1:], strict=True)
     ]
@@ -53,58 +47,45 @@ def plate_links(
 
 
 @quantities.helper()
-def core_share(shares_above: tuple[tuple[Place, Scalar], ...]) -> Scalar:
+def core_share(m: Module) -> Scalar:
     """What of the conductance to the core begins at the last body of the rotor plate."""
-    return dict(shares_above)["beside", ABOVE[-1]]
+    return dict(m.shares_above)["beside", ABOVE[-1]]
 
 
 @quantities.helper()
-def plate_losses(
-    around_pads: tuple[Body, ...],
-    ring_width: Scalar,
-    heated_length: Scalar,
-    wall_depth: Scalar,
-    shares_above: tuple[tuple[Place, Scalar], ...],
-    core_radius: Scalar,
-    pcl_inner_radius: Scalar,
-    pcl_outer_radius: Scalar,
-    rotor_radius: Scalar,
-    rotor_thickness: Scalar,
-    structure_conductivity: Scalar,
-    ambient_temperature: Scalar,
-) -> tuple[lumps.Loss, ...]:
+def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
     """From the rotor plate above blocks and pads to what is above the housing's vanes, and from all of it above the
     ring to what is without and within; and the air there.
 
     What ends free has its mean temperature a third of the way to its end.
     """
-    sheet = structure_conductivity * rotor_thickness * ring_width
-    along = sheet / (0.25 * heated_length + WAYS[0] * wall_depth)
-    walls = [around_pads[i].surface for i in ABOVE_WALLS]
-    air = sum(one.area * lumps.surface_coefficient(one, ambient_temperature, ambient_temperature) for one in walls)
-    onward = lumps.in_series(sheet / ((1.0 / 3.0 - WAYS[0]) * wall_depth), air)
+    sheet = m.structure_conductivity * m.rotor_thickness * m.ring_width
+    along = sheet / (0.25 * m.heated_length + WAYS[0] * m.wall_depth)
+    walls = [m.around_pads[i].surface for i in ABOVE_WALLS]
+    air = sum(one.area * lumps.surface_coefficient(one, m.ambient_temperature, m.ambient_temperature) for one in walls)
+    onward = lumps.in_series(sheet / ((1.0 / 3.0 - WAYS[0]) * m.wall_depth), air)
     found = [
         lumps.Loss(Link(("beside", i), ("around", ABOVE_WALLS[0]), share * along), share * onward)
         for i, share in zip(ABOVE, STRIP, strict=True)
     ]
-    around = 2.0 * np.pi * structure_conductivity * rotor_thickness
-    without = around / np.log(1.0 + (rotor_radius - pcl_outer_radius) / (3.0 * pcl_outer_radius))
-    within = -around / np.log(1.0 - (pcl_inner_radius - core_radius) / (3.0 * pcl_inner_radius))
+    around = 2.0 * np.pi * m.structure_conductivity * m.rotor_thickness
+    without = around / np.log(1.0 + (m.rotor_radius - m.pcl_outer_radius) / (3.0 * m.pcl_outer_radius))
+    within = -around / np.log(1.0 - (m.pcl_inner_radius - m.core_radius) / (3.0 * m.pcl_inner_radius))
     for beyond, conductance in ((RIM, without), (WITHIN, within)):
-        for place, share in shares_above:
+        for place, share in m.shares_above:
             link = Link(place, ("around", beyond), share * conductance)
-            found.append(_onward(link, around_pads, ambient_temperature, share))
+            found.append(_onward(link, m.around_pads, m.ambient_temperature, share))
     return tuple(found)
 
 
 @quantities.helper()
-def loss_links(plate_losses: tuple[lumps.Loss, ...]) -> tuple[Link, ...]:
+def loss_links(m: Module) -> tuple[Link, ...]:
     """What passes heat from the plate to bodies around it."""
-    return tuple(loss.link for loss in plate_losses)
+    return tuple(loss.link for loss in m.plate_losses)
 
 
 @quantities.helper()
-def lip() -> Lip | None:
+def lip(_: Module) -> Lip | None:
     """No lip stands at a block."""
     return None
 

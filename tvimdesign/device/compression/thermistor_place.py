@@ -13,6 +13,7 @@ from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.mass_properties import quantities as bodies
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at
@@ -22,96 +23,79 @@ groups = (places, weights, rules)
 
 
 @places.output("1")
-def thermistor_count() -> Scalar:
+def thermistor_count(_: Module) -> Scalar:
     """Thermistors by the layer: one at the end of the first pad."""
     return 1.0
 
 
 @places.output("mm")
-def thermistor_seat_diameter(thermistor_diameter: Scalar, slip_clearance: Scalar) -> Scalar:
+def thermistor_seat_diameter(m: Module) -> Scalar:
     """Diameter of the hole in the floor through which the thermistor is put in; zero without."""
-    return np.fmin(thermistor_diameter + 2.0 * slip_clearance, 1e3 * thermistor_diameter)
+    return np.fmin(m.thermistor_diameter + 2.0 * m.slip_clearance, 1e3 * m.thermistor_diameter)
 
 
 @places.output("mm")
-def thermistor_seat_radius(pcl_outer_radius: Scalar, thermistor_diameter: Scalar) -> Scalar:
+def thermistor_seat_radius(m: Module) -> Scalar:
     """Distance of the bead's axis from the module's: half a bead beyond the end of the pad, and behind its face."""
-    half = 0.5 * thermistor_diameter
-    return np.sqrt((pcl_outer_radius + half) ** 2 + half**2)
+    half = 0.5 * m.thermistor_diameter
+    return np.sqrt((m.pcl_outer_radius + half) ** 2 + half**2)
 
 
 @weights.helper(default=NOTHING)
-def thermistor_seat_section(thermistor_seat_diameter: Scalar, thermistor_seat_radius: Scalar) -> Section:
+def thermistor_seat_section(m: Module) -> Section:
     """What the floor has not got for the thermistor."""
-    return disc_at(0.5 * thermistor_seat_diameter, thermistor_seat_radius)
+    return disc_at(0.5 * m.thermistor_seat_diameter, m.thermistor_seat_radius)
 
 
 @weights.output("mm^3")
-def thermistor_volume(thermistor_diameter: Scalar, thermistor_length: Scalar) -> Scalar:
+def thermistor_volume(m: Module) -> Scalar:
     """Volume of the thermistor's bead; zero without."""
-    return 0.25 * np.pi * thermistor_diameter**2 * thermistor_length
+    return 0.25 * np.pi * m.thermistor_diameter**2 * m.thermistor_length
 
 
 @weights.output("g")
-def thermistor_mass(thermistor_volume: Scalar, thermistor_density: Scalar) -> Scalar:
+def thermistor_mass(m: Module) -> Scalar:
     """Mass of the thermistor's bead; zero without."""
-    return thermistor_volume * thermistor_density
+    return m.thermistor_volume * m.thermistor_density
 
 
 @rules.output("mm", at_least(0.0, "the thermistor would be taller than the block: a shorter bead"))
-def thermistor_height_gap(
-    vane_height: Scalar, running_clearance: Scalar, thermistor_diameter: Scalar, thermistor_length: Scalar
-) -> Scalar:
+def thermistor_height_gap(m: Module) -> Scalar:
     """Height of the block beyond the bead's, where there is one."""
-    length = np.fmin(thermistor_length, 1e3 * thermistor_diameter)
-    return np.fmax(vane_height - running_clearance, 0.0) - length
+    length = np.fmin(m.thermistor_length, 1e3 * m.thermistor_diameter)
+    return np.fmax(m.vane_height - m.running_clearance, 0.0) - length
 
 
 @rules.output("mm", at_least(0.0, "the thermistor does not reach the pad's end: a smaller bead"))
-def thermistor_end_gap(
-    heater_form: str, peltier_thickness: Scalar, spreader_depth: Scalar, thermistor_diameter: Scalar
-) -> Scalar:
+def thermistor_end_gap(m: Module) -> Scalar:
     """Thickness of the pad, or the spreader, beyond half of the bead's, which touches it there."""
-    return (peltier_thickness if heater_form == CUT else spreader_depth) - 0.5 * thermistor_diameter
+    return (m.peltier_thickness if m.heater_form == CUT else m.spreader_depth) - 0.5 * m.thermistor_diameter
 
 
 @rules.output(
     "mm", at_least(0.0, "the thermistor stands out beyond the rotor plate: a wider rotor_rim, or a smaller bead")
 )
-def thermistor_rim_gap(rotor_rim: Scalar, thermistor_diameter: Scalar) -> Scalar:
+def thermistor_rim_gap(m: Module) -> Scalar:
     """Rim of the rotor plate beyond the blocks, under which the bead stands, less the bead."""
-    return rotor_rim - thermistor_diameter
+    return m.rotor_rim - m.thermistor_diameter
 
 
 @rules.helper()
-def thermistor_azimuth(
-    vane_count: Scalar, housing_vane_angle: Scalar, pcl_outer_radius: Scalar, thermistor_diameter: Scalar
-) -> Scalar:
+def thermistor_azimuth(m: Module) -> Scalar:
     """Azimuth of the bead's axis [rad]: half a bead behind the face of the first vane that the first pad stands in."""
-    half = 0.5 * thermistor_diameter
-    return np.pi / vane_count + 0.5 * housing_vane_angle - np.arctan2(half, pcl_outer_radius + half)
+    half = 0.5 * m.thermistor_diameter
+    return np.pi / m.vane_count + 0.5 * m.housing_vane_angle - np.arctan2(half, m.pcl_outer_radius + half)
 
 
 @rules.output("mm", at_least(0.0, "the floor between the thermistor's hole and what is beside it is too thin"))
-def thermistor_hole_gap(
-    placement_radius: Scalar,
-    spring_count: Scalar,
-    spring_reach: Scalar,
-    adjuster_radius: Scalar,
-    slip_clearance: Scalar,
-    tang_clearance: Scalar,
-    thermistor_azimuth: Scalar,
-    thermistor_seat_radius: Scalar,
-    thermistor_seat_diameter: Scalar,
-    minimum_wall: Scalar,
-) -> Scalar:
+def thermistor_hole_gap(m: Module) -> Scalar:
     """Floor between the hole and the nearest spring's tang or adjuster's pocket, beyond the least wall where it is.
 
     Springs stand at azimuth 0 and evenly around, so the nearest is arccos(cos(n a))/n beside.
     """
-    taken = np.fmax(spring_reach + tang_clearance, adjuster_radius + slip_clearance)
-    beside = np.arccos(np.fmin(np.cos(spring_count * thermistor_azimuth), 1.0 - 1e-12)) / spring_count
-    across = placement_radius * np.sin(beside)
-    away = np.sqrt((placement_radius * np.cos(beside) - thermistor_seat_radius) ** 2 + across**2)
+    taken = np.fmax(m.spring_reach + m.tang_clearance, m.adjuster_radius + m.slip_clearance)
+    beside = np.arccos(np.fmin(np.cos(m.spring_count * m.thermistor_azimuth), 1.0 - 1e-12)) / m.spring_count
+    across = m.placement_radius * np.sin(beside)
+    away = np.sqrt((m.placement_radius * np.cos(beside) - m.thermistor_seat_radius) ** 2 + across**2)
     room = np.fmax(away - taken, 0.0)
-    return room - np.fmin(minimum_wall + 0.5 * thermistor_seat_diameter, room + 1e3 * thermistor_seat_diameter)
+    return room - np.fmin(m.minimum_wall + 0.5 * m.thermistor_seat_diameter, room + 1e3 * m.thermistor_seat_diameter)

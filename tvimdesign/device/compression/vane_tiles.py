@@ -16,6 +16,7 @@ from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.heat.heater_form import WITH_TILES
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.materials import quantities as materials
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
@@ -31,88 +32,86 @@ kinds.option(
 
 
 @places.helper(requires=())
-def pocket_count(vane_count: Scalar) -> Scalar:
+def pocket_count(m: Module) -> Scalar:
     """Pockets for Peltier modules [1]: one in each face of the housing's vanes."""
-    return 2.0 * vane_count
+    return 2.0 * m.vane_count
 
 
 @places.helper(requires=())
-def tiles_per_pocket(tiles_per_block: Scalar) -> Scalar:
+def tiles_per_pocket(m: Module) -> Scalar:
     """Rectangular Peltier modules in each pocket [1]."""
-    return tiles_per_block
+    return m.tiles_per_block
 
 
 @places.helper(default=1.0)
-def slot_count(tiles_per_block: Scalar) -> Scalar:
+def slot_count(m: Module) -> Scalar:
     """Slots of a housing vane [1]: one behind each tile; one behind pads."""
-    return tiles_per_block
+    return m.tiles_per_block
 
 
 @places.output("mm")
-def tile_spacing(block_width: Scalar, tiles_per_block: Scalar) -> Scalar:
+def tile_spacing(m: Module) -> Scalar:
     """Distance from one tile of a row to the next."""
-    return block_width / tiles_per_block
+    return m.block_width / m.tiles_per_block
 
 
 @places.output("mm")
-def tile_window(slot_share: Scalar, peltier_length: Scalar) -> Scalar:
+def tile_window(m: Module) -> Scalar:
     """Width of a tile that its slot leaves open."""
-    return slot_share * peltier_length
+    return m.slot_share * m.peltier_length
 
 
 @places.output("mm")
-def tile_slot_radius(pcl_mean_radius: Scalar, pad_depth: Scalar, housing_vane_angle: Scalar) -> Scalar:
+def tile_slot_radius(m: Module) -> Scalar:
     """Distance from the axis, along a vane's middle, of what lies behind the middle of its rows of tiles."""
-    half = 0.5 * housing_vane_angle
-    return pcl_mean_radius * np.cos(half) + pad_depth * np.sin(half)
+    half = 0.5 * m.housing_vane_angle
+    return m.pcl_mean_radius * np.cos(half) + m.pad_depth * np.sin(half)
 
 
 @places.output("mm")
-def tile_slot_pitch(tile_spacing: Scalar, housing_vane_angle: Scalar) -> Scalar:
+def tile_slot_pitch(m: Module) -> Scalar:
     """Distance of a vane's slots along its middle."""
-    return tile_spacing * np.cos(0.5 * housing_vane_angle)
+    return m.tile_spacing * np.cos(0.5 * m.housing_vane_angle)
 
 
 @places.output("mm^2")
-def tile_seat_area(peltier_length: Scalar, peltier_width: Scalar, tile_window: Scalar, slot_height: Scalar) -> Scalar:
+def tile_seat_area(m: Module) -> Scalar:
     """Area with which one tile bears on its vane: all of it but the slot's."""
-    return peltier_length * peltier_width - tile_window * slot_height
+    return m.peltier_length * m.peltier_width - m.tile_window * m.slot_height
 
 
 @rules.output("mm", at_least(0.0, "the Peltier modules are too long for the block's width: fewer, or a wider block"))
-def tile_side_margin(tile_spacing: Scalar, peltier_length: Scalar, tile_clearance: Scalar) -> Scalar:
+def tile_side_margin(m: Module) -> Scalar:
     """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
-    return tile_spacing - peltier_length - tile_clearance
+    return m.tile_spacing - m.peltier_length - m.tile_clearance
 
 
 @rules.output("mm", at_least(0.0, "the Peltier modules are taller than the block: a smaller one, or a taller block"))
-def tile_height_margin(block_height: Scalar, peltier_width: Scalar) -> Scalar:
+def tile_height_margin(m: Module) -> Scalar:
     """Height of the block beyond that of the tiles."""
-    return block_height - peltier_width
+    return m.block_height - m.peltier_width
 
 
 @rules.output("mm", at_least(0.0, "a Peltier module reaches beyond the outer end of its vane: a wider block"))
-def tile_end_margin(
-    pcl_outer_radius: Scalar, tile_spacing: Scalar, peltier_length: Scalar, pad_depth: Scalar
-) -> Scalar:
+def tile_end_margin(m: Module) -> Scalar:
     """Vane beyond the back corner of its outermost tiles, which bear on it up to there."""
-    end = pcl_outer_radius - 0.5 * (tile_spacing - peltier_length)
-    return pcl_outer_radius - np.sqrt(end**2 + pad_depth**2)
+    end = m.pcl_outer_radius - 0.5 * (m.tile_spacing - m.peltier_length)
+    return m.pcl_outer_radius - np.sqrt(end**2 + m.pad_depth**2)
 
 
 @rules.output("mm", at_least(0.0, "the slot behind a Peltier module is too narrow for its leads"))
-def lead_slot_margin(slot_width: Scalar, lead_hole_diameter: Scalar) -> Scalar:
+def lead_slot_margin(m: Module) -> Scalar:
     """Width of the slots beyond what the leads of a tile need."""
-    return slot_width - lead_hole_diameter
+    return m.slot_width - m.lead_hole_diameter
 
 
 @rules.output("mm", at_least(0.0, "a slot breaks through the inner end of its vane: choose a smaller slot_share"))
-def inner_web_margin(slot_inner_radius: Scalar, pcl_inner_radius: Scalar, minimum_wall: Scalar) -> Scalar:
+def inner_web_margin(m: Module) -> Scalar:
     """Housing vane within its innermost slot beyond the process's least wall."""
-    return slot_inner_radius - pcl_inner_radius - minimum_wall
+    return m.slot_inner_radius - m.pcl_inner_radius - m.minimum_wall
 
 
 @rules.output("mm", at_least(0.0, "a slot breaks through the outer end of its vane: choose a smaller slot_share"))
-def outer_web_margin(pcl_outer_radius: Scalar, slot_outer_radius: Scalar, minimum_wall: Scalar) -> Scalar:
+def outer_web_margin(m: Module) -> Scalar:
     """Housing vane without the corners of its outermost slot beyond the process's least wall."""
-    return pcl_outer_radius - slot_outer_radius - minimum_wall
+    return m.pcl_outer_radius - m.slot_outer_radius - m.minimum_wall

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from tvimdesign.device.core.impedance.joint_impedance import quantities as impedance
 from tvimdesign.device.core.shrinkage import quantities as shared
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import melt_flow, polymer, viscoelasticity
@@ -20,15 +21,13 @@ HOUR = 3600.0
 
 
 @rheology.output("Pa*s", per_point=True)
-def pcl_viscosity(temperature: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.AnyRheology) -> Scalar:
+def pcl_viscosity(m: Module) -> Scalar:
     """Viscosity of the PCL in slow steady flow."""
-    return viscoelasticity.zero_shear_viscosity(polymer.spectrum(temperature, solid_fraction, pcl_rheology))
+    return viscoelasticity.zero_shear_viscosity(polymer.spectrum(m.temperature, m.solid_fraction, m.pcl_rheology))
 
 
 @quantities.output("mm")
-def melt_creep(
-    pcl_melt_density: Scalar, pcl_depth: Scalar, freezing_travel: Scalar, pcl_viscosity_at_hot: Scalar
-) -> Scalar:
+def melt_creep(m: Module) -> Scalar:
     """Way the free ends of the PCL creep in an hour at the hot point, the axis level; lips along an arc hold no end."""
-    weight = pcl_melt_density * GRAVITY
-    return HOUR * melt_flow.gap_speed(weight, pcl_depth + freezing_travel, pcl_viscosity_at_hot)
+    weight = m.pcl_melt_density * GRAVITY
+    return HOUR * melt_flow.gap_speed(weight, m.pcl_depth + m.freezing_travel, m.pcl_viscosity_at_hot)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from tvimdesign.base.record import Record
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
@@ -35,7 +35,8 @@ for screw, words in (("motor_screw", "motor's retainer screw"), ("mount_screw", 
         ("head_height", "mm", "head_height", "Head height"),
         ("density", "kg/m^3", "density", "Density"),
     ):
-        quantities.property(f"{screw}_{name}", unit, (screw, field), f"{description} of the {words}")
+        read_by = "cad" if name == "key" else ""
+        quantities.property(f"{screw}_{name}", unit, (screw, field), f"{description} of the {words}", read_by=read_by)
 quantities.property("motor_screw_clearance", "mm", ("motor_screw", "clearance_hole"), "Clearance hole of that screw")
 
 
@@ -76,122 +77,112 @@ class Encoder(NamedTuple):
     """Steps a turn."""
 
 
-def motor_of(motor: Record, bearing: Record) -> Motor:
-    """What the records of a motor and of its bearings say; diameters become radii."""
-    return Motor(
-        stator_radius=0.5 * motor.value("stator_diameter"),
-        stator_bore=0.5 * motor.value("stator_bore"),
-        stator_length=motor.value("stator_length"),
-        rotor_radius=0.5 * motor.value("rotor_diameter"),
-        rotor_bore=0.5 * motor.value("rotor_bore"),
-        rotor_length=motor.value("rotor_length"),
-        stator_mass=motor.value("stator_mass"),
-        rotor_mass=motor.value("rotor_mass"),
-        rotor_inertia=motor.value("rotor_inertia"),
-        torque_constant=motor.value("torque_constant"),
-        continuous_torque=motor.value("continuous_torque"),
-        bearing_bore=0.5 * bearing.value("bore"),
-        bearing_radius=0.5 * bearing.value("outer_diameter"),
-        bearing_width=bearing.value("width"),
-        inner_shoulder=0.5 * bearing.value("inner_shoulder"),
-        outer_shoulder=0.5 * bearing.value("outer_shoulder"),
-        bearing_rating=bearing.value("static_load_rating"),
-    )
-
-
-def encoder_of(encoder: Record) -> Encoder:
-    """What the record of an encoder says; diameters become radii."""
-    return Encoder(
-        magnet_radius=0.5 * encoder.value("magnet_diameter"),
-        magnet_height=encoder.value("magnet_height"),
-        magnet_density=encoder.value("magnet_density"),
-        air_gap=encoder.value("air_gap"),
-        board_radius=0.5 * encoder.value("board_diameter"),
-        board_height=encoder.value("board_height"),
-        board_mass=encoder.value("board_mass"),
-        resolution=2.0 ** encoder.value("resolution_bits"),
-    )
-
-
 @quantities.helper(default=None)
-def drive_motor(motor: Record, motor_bearing: Record) -> Motor:
-    """The motor with its bearings; None without one."""
-    return motor_of(motor, motor_bearing)
+def drive_motor(m: Module) -> Motor:
+    """The motor with its bearings, diameters as radii; None without one."""
+    return Motor(
+        stator_radius=0.5 * m.motor.value("stator_diameter"),
+        stator_bore=0.5 * m.motor.value("stator_bore"),
+        stator_length=m.motor.value("stator_length"),
+        rotor_radius=0.5 * m.motor.value("rotor_diameter"),
+        rotor_bore=0.5 * m.motor.value("rotor_bore"),
+        rotor_length=m.motor.value("rotor_length"),
+        stator_mass=m.motor.value("stator_mass"),
+        rotor_mass=m.motor.value("rotor_mass"),
+        rotor_inertia=m.motor.value("rotor_inertia"),
+        torque_constant=m.motor.value("torque_constant"),
+        continuous_torque=m.motor.value("continuous_torque"),
+        bearing_bore=0.5 * m.motor_bearing.value("bore"),
+        bearing_radius=0.5 * m.motor_bearing.value("outer_diameter"),
+        bearing_width=m.motor_bearing.value("width"),
+        inner_shoulder=0.5 * m.motor_bearing.value("inner_shoulder"),
+        outer_shoulder=0.5 * m.motor_bearing.value("outer_shoulder"),
+        bearing_rating=m.motor_bearing.value("static_load_rating"),
+    )
 
 
 @quantities.helper(requires=WITH_ENCODER, default=None)
-def angle_sensor(encoder: Record) -> Encoder:
-    """The encoder; None without one, or without a motor."""
-    return encoder_of(encoder)
+def angle_sensor(m: Module) -> Encoder:
+    """The encoder, diameters as radii; None without one, or without a motor."""
+    return Encoder(
+        magnet_radius=0.5 * m.encoder.value("magnet_diameter"),
+        magnet_height=m.encoder.value("magnet_height"),
+        magnet_density=m.encoder.value("magnet_density"),
+        air_gap=m.encoder.value("air_gap"),
+        board_radius=0.5 * m.encoder.value("board_diameter"),
+        board_height=m.encoder.value("board_height"),
+        board_mass=m.encoder.value("board_mass"),
+        resolution=2.0 ** m.encoder.value("resolution_bits"),
+    )
 
 
 @quantities.output("mm")
-def stator_radius(drive_motor: Motor) -> Scalar:
+def stator_radius(m: Module) -> Scalar:
     """Outer radius of the motor's stator; zero without one."""
-    return drive_motor.stator_radius
+    return m.drive_motor.stator_radius
 
 
 @quantities.output("mm")
-def stator_bore_radius(drive_motor: Motor) -> Scalar:
+def stator_bore_radius(m: Module) -> Scalar:
     """Inner radius of the motor's stator; zero without one."""
-    return drive_motor.stator_bore
+    return m.drive_motor.stator_bore
 
 
 @quantities.output("mm")
-def motor_rotor_radius(drive_motor: Motor) -> Scalar:
+def motor_rotor_radius(m: Module) -> Scalar:
     """Outer radius of the motor's rotor; zero without one."""
-    return drive_motor.rotor_radius
+    return m.drive_motor.rotor_radius
 
 
 @quantities.output("mm")
-def motor_rotor_bore_radius(drive_motor: Motor) -> Scalar:
+def motor_rotor_bore_radius(m: Module) -> Scalar:
     """Inner radius of the motor's rotor; zero without one."""
-    return drive_motor.rotor_bore
+    return m.drive_motor.rotor_bore
 
 
 @quantities.output("mm")
-def motor_rotor_length(drive_motor: Motor) -> Scalar:
+def motor_rotor_length(m: Module) -> Scalar:
     """Length of the motor's rotor; zero without one."""
-    return drive_motor.rotor_length
+    return m.drive_motor.rotor_length
 
 
 @quantities.output("mm")
-def motor_bearing_bore_radius(drive_motor: Motor) -> Scalar:
+def motor_bearing_bore_radius(m: Module) -> Scalar:
     """Inner radius of the motor's bearings; zero without one."""
-    return drive_motor.bearing_bore
+    return m.drive_motor.bearing_bore
 
 
 @quantities.output("mm")
-def motor_bearing_radius(drive_motor: Motor) -> Scalar:
+def motor_bearing_radius(m: Module) -> Scalar:
     """Outer radius of the motor's bearings; zero without one."""
-    return drive_motor.bearing_radius
+    return m.drive_motor.bearing_radius
 
 
 @quantities.output("mm")
-def motor_bearing_width(drive_motor: Motor) -> Scalar:
+def motor_bearing_width(m: Module) -> Scalar:
     """Width of one of the motor's bearings; zero without one."""
-    return drive_motor.bearing_width
+    return m.drive_motor.bearing_width
 
 
 @quantities.output("mm", requires=WITH_ENCODER)
-def encoder_magnet_radius(angle_sensor: Encoder) -> Scalar:
+def encoder_magnet_radius(m: Module) -> Scalar:
     """Radius of the encoder's magnet; zero without one."""
-    return angle_sensor.magnet_radius
+    return m.angle_sensor.magnet_radius
 
 
 @quantities.output("mm", requires=WITH_ENCODER)
-def encoder_magnet_height(angle_sensor: Encoder) -> Scalar:
+def encoder_magnet_height(m: Module) -> Scalar:
     """Height of the encoder's magnet; zero without one."""
-    return angle_sensor.magnet_height
+    return m.angle_sensor.magnet_height
 
 
 @quantities.output("mm", requires=WITH_ENCODER)
-def encoder_board_radius(angle_sensor: Encoder) -> Scalar:
+def encoder_board_radius(m: Module) -> Scalar:
     """Radius of the encoder's board; zero without one."""
-    return angle_sensor.board_radius
+    return m.angle_sensor.board_radius
 
 
 @quantities.output("mm", requires=WITH_ENCODER)
-def encoder_board_height(angle_sensor: Encoder) -> Scalar:
+def encoder_board_height(m: Module) -> Scalar:
     """Height of the encoder's board with its chip; zero without one."""
-    return angle_sensor.board_height
+    return m.angle_sensor.board_height

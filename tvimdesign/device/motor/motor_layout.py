@@ -23,9 +23,9 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR, Encoder, Motor
+from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
 from tvimdesign.device.fixtures.drilled_holes import runout
-from tvimdesign.device.fixtures.sensor_flange import Pattern
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
@@ -39,204 +39,175 @@ quantities = QuantityGroup(layout.group, WITH_MOTOR)
 
 
 @quantities.output("mm")
-def motor_disc_radius(drive_motor: Motor, slip_clearance: Scalar) -> Scalar:
+def motor_disc_radius(m: Module) -> Scalar:
     """Radius of the motor hub's disc and barrel, on which the rotor is bonded; zero without a motor."""
-    return drive_motor.rotor_bore - slip_clearance
+    return m.drive_motor.rotor_bore - m.slip_clearance
 
 
 @quantities.output("mm")
-def motor_corner_radius(corner_radius: Scalar, corner_depth_ratio: Scalar, motor_plate_thickness: Scalar) -> Scalar:
+def motor_corner_radius(m: Module) -> Scalar:
     """Radius of the corners between the hub's disc and its spokes, which are as deep as it; zero without a motor."""
-    return np.fmax(corner_radius, motor_plate_thickness / corner_depth_ratio)
+    return np.fmax(m.corner_radius, m.motor_plate_thickness / m.corner_depth_ratio)
 
 
 @quantities.output("mm")
-def motor_barrel_radius(motor_disc_radius: Scalar, motor_hub_wall: Scalar) -> Scalar:
+def motor_barrel_radius(m: Module) -> Scalar:
     """Inner radius of that barrel; zero without a motor."""
-    return motor_disc_radius - motor_hub_wall
+    return m.motor_disc_radius - m.motor_hub_wall
 
 
 @quantities.output("mm")
-def motor_journal_radius(drive_motor: Motor, seat_clearance: Scalar) -> Scalar:
+def motor_journal_radius(m: Module) -> Scalar:
     """Radius of the motor hub's journal in its bearings; zero without a motor."""
-    return drive_motor.bearing_bore - seat_clearance
+    return m.drive_motor.bearing_bore - m.seat_clearance
 
 
 @quantities.output("mm")
-def motor_collar_radius(drive_motor: Motor) -> Scalar:
+def motor_collar_radius(m: Module) -> Scalar:
     """Radius of what presses on the bearings' inner rings, collar above and retainer below; zero without a motor."""
-    return drive_motor.inner_shoulder
+    return m.drive_motor.inner_shoulder
 
 
 @quantities.output("mm")
-def motor_seat_radius(drive_motor: Motor, seat_clearance: Scalar) -> Scalar:
+def motor_seat_radius(m: Module) -> Scalar:
     """Radius of the seats of the motor's bearings; zero without a motor."""
-    return drive_motor.bearing_radius + seat_clearance
+    return m.drive_motor.bearing_radius + m.seat_clearance
 
 
 @quantities.output("mm")
-def motor_lip_radius(drive_motor: Motor) -> Scalar:
+def motor_lip_radius(m: Module) -> Scalar:
     """Inner radius of the lip between them; zero without a motor."""
-    return drive_motor.outer_shoulder
+    return m.drive_motor.outer_shoulder
 
 
 @quantities.output("mm")
-def motor_tube_radius(motor_seat_radius: Scalar, motor_wall: Scalar) -> Scalar:
+def motor_tube_radius(m: Module) -> Scalar:
     """Outer radius of the tube that holds the bearings; zero without a motor."""
-    return motor_seat_radius + motor_wall
+    return m.motor_seat_radius + m.motor_wall
 
 
 @quantities.output("mm")
-def stator_seat_radius(drive_motor: Motor, slip_clearance: Scalar) -> Scalar:
+def stator_seat_radius(m: Module) -> Scalar:
     """Inner radius of the motor housing's wall, to which the stator is bonded; zero without a motor."""
-    return drive_motor.stator_radius + slip_clearance
+    return m.drive_motor.stator_radius + m.slip_clearance
 
 
 @quantities.output("mm")
-def motor_outer_radius(stator_seat_radius: Scalar, motor_wall: Scalar) -> Scalar:
+def motor_outer_radius(m: Module) -> Scalar:
     """Outer radius of the motor's housing; zero without a motor."""
-    return stator_seat_radius + motor_wall
+    return m.stator_seat_radius + m.motor_wall
 
 
 @quantities.output("mm")
-def motor_base_hole_radius(drive_motor: Motor) -> Scalar:
+def motor_base_hole_radius(m: Module) -> Scalar:
     """Radius of the circle of the base's screws, under the middle of the stator's ring; zero without a motor."""
-    return 0.5 * (drive_motor.stator_bore + drive_motor.stator_radius)
+    return 0.5 * (m.drive_motor.stator_bore + m.drive_motor.stator_radius)
 
 
 @quantities.output("mm")
-def motor_sink_radius(
-    angle_sensor: Encoder | None,
-    motor_screw_head: Scalar,
-    motor_sink_clearance: Scalar,
-    slip_clearance: Scalar,
-) -> Scalar:
+def motor_sink_radius(m: Module) -> Scalar:
     """Radius of the retainer's counterbore for its screw's head, and for a magnet below it; zero without a motor."""
-    head = 0.5 * motor_screw_head + motor_sink_clearance
-    return head if angle_sensor is None else np.fmax(head, angle_sensor.magnet_radius + slip_clearance)
+    head = 0.5 * m.motor_screw_head + m.motor_sink_clearance
+    return head if m.angle_sensor is None else np.fmax(head, m.angle_sensor.magnet_radius + m.slip_clearance)
 
 
 @quantities.output("mm", requires=WITH_ENCODER)
-def encoder_recess_radius(angle_sensor: Encoder, slip_clearance: Scalar) -> Scalar:
+def encoder_recess_radius(m: Module) -> Scalar:
     """Radius of the recess for the encoder's board; zero without an encoder."""
-    return angle_sensor.board_radius + slip_clearance
+    return m.angle_sensor.board_radius + m.slip_clearance
 
 
 # --- levels: zero without a motor ------------------------------------------------------------------------------------
 
 
 @quantities.output("mm")
-def drive_height(
-    drive_motor: Motor, motor_plate_thickness: Scalar, axial_clearance: Scalar, motor_base_thickness: Scalar
-) -> Scalar:
+def drive_height(m: Module) -> Scalar:
     """Height the motor adds below the housing's feet: disc, gap, stator and base; zero without a motor."""
-    return motor_plate_thickness + axial_clearance + drive_motor.stator_length + motor_base_thickness
+    return m.motor_plate_thickness + m.axial_clearance + m.drive_motor.stator_length + m.motor_base_thickness
 
 
 @quantities.output("mm")
-def motor_plate_level(floor_thickness: Scalar, foot_height: Scalar, motor_plate_thickness: Scalar) -> Scalar:
+def motor_plate_level(m: Module) -> Scalar:
     """Lower face of the motor hub's disc and spokes, which the housing stands on; zero without a motor."""
-    return -floor_thickness - foot_height - motor_plate_thickness
+    return -m.floor_thickness - m.foot_height - m.motor_plate_thickness
 
 
 @quantities.output("mm")
-def stator_top_level(motor_plate_level: Scalar, axial_clearance: Scalar) -> Scalar:
+def stator_top_level(m: Module) -> Scalar:
     """Upper end of stator, motor housing and upper bearing; zero without a motor."""
-    return motor_plate_level - axial_clearance
+    return m.motor_plate_level - m.axial_clearance
 
 
 @quantities.output("mm")
-def stator_bottom_level(drive_motor: Motor, stator_top_level: Scalar) -> Scalar:
+def stator_bottom_level(m: Module) -> Scalar:
     """Lower end of the stator, on the base of the motor's housing; zero without a motor."""
-    return stator_top_level - drive_motor.stator_length
+    return m.stator_top_level - m.drive_motor.stator_length
 
 
 @quantities.output("mm")
-def motor_bottom_level(stator_bottom_level: Scalar, motor_base_thickness: Scalar) -> Scalar:
+def motor_bottom_level(m: Module) -> Scalar:
     """Lower face of the motor's housing; zero without a motor."""
-    return stator_bottom_level - motor_base_thickness
+    return m.stator_bottom_level - m.motor_base_thickness
 
 
 @quantities.output("mm")
-def encoder_board_level(motor_bottom_level: Scalar, sensor_recess_depth: Scalar) -> Scalar:
+def encoder_board_level(m: Module) -> Scalar:
     """Lower face of the encoder's board, if any: the base's, or over a sensor's spigot; zero without a motor."""
-    return motor_bottom_level + sensor_recess_depth
+    return m.motor_bottom_level + m.sensor_recess_depth
 
 
 @quantities.output("mm")
-def motor_rotor_bottom_level(drive_motor: Motor, stator_top_level: Scalar, stator_bottom_level: Scalar) -> Scalar:
+def motor_rotor_bottom_level(m: Module) -> Scalar:
     """Lower end of the motor's rotor and of the barrel: rotor and stator have one middle; zero without a motor."""
-    return 0.5 * (stator_top_level + stator_bottom_level - drive_motor.rotor_length)
+    return 0.5 * (m.stator_top_level + m.stator_bottom_level - m.drive_motor.rotor_length)
 
 
 @quantities.output("mm", requires=WITH_ENCODER)
-def magnet_room(angle_sensor: Encoder, encoder_magnet_spacing: Scalar) -> Scalar:
+def magnet_room(m: Module) -> Scalar:
     """Height of magnet and gap below the head of the retainer's screw; zero without an encoder."""
-    return angle_sensor.magnet_height + encoder_magnet_spacing
+    return m.angle_sensor.magnet_height + m.encoder_magnet_spacing
 
 
 @quantities.output("mm")
-def motor_retainer_thickness(
-    motor_retainer_floor: Scalar, motor_screw_head_height: Scalar, magnet_room: Scalar
-) -> Scalar:
+def motor_retainer_thickness(m: Module) -> Scalar:
     """Height of the motor's retainer, in which its screw's head and the magnet are sunk; zero without a motor."""
-    return motor_retainer_floor + motor_screw_head_height + magnet_room
+    return m.motor_retainer_floor + m.motor_screw_head_height + m.magnet_room
 
 
 @quantities.output("mm")
-def motor_retainer_level(
-    angle_sensor: Encoder | None,
-    encoder_board_level: Scalar,
-    motor_retainer_thickness: Scalar,
-    running_clearance: Scalar,
-) -> Scalar:
+def motor_retainer_level(m: Module) -> Scalar:
     """Upper face of the motor's retainer, below the lower inner ring: the magnet keeps its gap to the chip."""
-    below = running_clearance if angle_sensor is None else angle_sensor.air_gap + angle_sensor.board_height
-    return encoder_board_level + below + motor_retainer_thickness
+    below = m.running_clearance if m.angle_sensor is None else m.angle_sensor.air_gap + m.angle_sensor.board_height
+    return m.encoder_board_level + below + m.motor_retainer_thickness
 
 
 @quantities.output("mm")
-def motor_journal_level(motor_retainer_level: Scalar, running_clearance: Scalar) -> Scalar:
+def motor_journal_level(m: Module) -> Scalar:
     """Lower end of the motor hub's journal, short of the lower inner ring's; zero without a motor."""
-    return motor_retainer_level + running_clearance
+    return m.motor_retainer_level + m.running_clearance
 
 
 @quantities.output("mm")
-def motor_screw_depth(
-    motor_screw_length: Scalar,
-    motor_retainer_floor: Scalar,
-    running_clearance: Scalar,
-    motor_screw_runout: Scalar,
-) -> Scalar:
+def motor_screw_depth(m: Module) -> Scalar:
     """Depth of the retainer screw's hole in the journal, without a drill's point; zero without a motor."""
-    return motor_screw_length - motor_retainer_floor - running_clearance + motor_screw_runout
+    return m.motor_screw_length - m.motor_retainer_floor - m.running_clearance + m.motor_screw_runout
 
 
 @quantities.output("mm")
-def motor_screw_runout(
-    screw_tip_room: Scalar, tap_runout_ratio: Scalar, motor_screw_diameter: Scalar, motor_screw_pilot: Scalar
-) -> Scalar:
+def motor_screw_runout(m: Module) -> Scalar:
     """Depth of that hole beyond the screw's end; zero without a motor."""
-    return runout(screw_tip_room, tap_runout_ratio, motor_screw_diameter, motor_screw_pilot)
+    return runout(m.screw_tip_room, m.tap_runout_ratio, m.motor_screw_diameter, m.motor_screw_pilot)
 
 
 @quantities.output("mm")
-def mount_screw_runout(
-    screw_tip_room: Scalar, tap_runout_ratio: Scalar, mount_screw_diameter: Scalar, mount_screw_pilot: Scalar
-) -> Scalar:
+def mount_screw_runout(m: Module) -> Scalar:
     """Depth of the base's holes beyond their thread; zero without a motor."""
-    return runout(screw_tip_room, tap_runout_ratio, mount_screw_diameter, mount_screw_pilot)
+    return runout(m.screw_tip_room, m.tap_runout_ratio, m.mount_screw_diameter, m.mount_screw_pilot)
 
 
 @quantities.output("mm")
-def motor_base_hole_depth(
-    base_pattern: Pattern,
-    motor_base_thickness: Scalar,
-    drill_point_ratio: Scalar,
-    mount_screw_pilot: Scalar,
-    minimum_wall: Scalar,
-) -> Scalar:
+def motor_base_hole_depth(m: Module) -> Scalar:
     """Depth of the base's holes: their points leave it the least wall; zero without a motor, or on a sensor."""
-    if base_pattern.screws:
+    if m.base_pattern.screws:
         return 0.0
-    return motor_base_thickness - drill_point_ratio * mount_screw_pilot - minimum_wall
+    return m.motor_base_thickness - m.drill_point_ratio * m.mount_screw_pilot - m.minimum_wall

@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import peltier, shape_factors
+from tvimdesign.physics.heat_flow import shape_factors
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
 
 quantities = QuantityGroup(shared.group)
@@ -32,31 +33,29 @@ class ColdSide(NamedTuple):
 
 
 @quantities.helper()
-def cold_side_slab(
-    pads: peltier.PeltierModule,
-    pad_conductivity: Scalar,
-    peltier_thickness: Scalar,
-    heated_area: Scalar,
-    edge_length: Scalar,
-) -> ColdSide:
+def cold_side_slab(m: Module) -> ColdSide:
     """Legs and cold side, by the pads' conductance up and their conductivity along."""
-    width = heated_area / edge_length
-    up = pads.conductance / heated_area * peltier_thickness
-    mean = np.sqrt(pad_conductivity * up)
-    sheet = SIDE_SHARE * peltier_thickness * pad_conductivity / (mean * width)
-    depth = (1.0 - 2.0 * SIDE_SHARE) * peltier_thickness * np.sqrt(pad_conductivity / up) / width
-    return ColdSide(mean * edge_length, sheet, depth)
+    width = m.heated_area / m.edge_length
+    up = m.pads.conductance / m.heated_area * m.peltier_thickness
+    mean = np.sqrt(m.pad_conductivity * up)
+    sheet = SIDE_SHARE * m.peltier_thickness * m.pad_conductivity / (mean * width)
+    depth = (1.0 - 2.0 * SIDE_SHARE) * m.peltier_thickness * np.sqrt(m.pad_conductivity / up) / width
+    return ColdSide(mean * m.edge_length, sheet, depth)
 
 
 @quantities.helper()
-def cold_to_ledges(cold_side_slab: ColdSide, heated_area: Scalar, cold_area: Scalar) -> Scalar:
+def cold_to_ledges(m: Module) -> Scalar:
     """Resistance from where the cold sides have their mean temperature to the ledges they lie on [K/W]."""
-    share = (heated_area - cold_area) / heated_area
-    return shape_factors.constriction(share, cold_side_slab.sheet, cold_side_slab.depth) / cold_side_slab.conductance
+    share = (m.heated_area - m.cold_area) / m.heated_area
+    return (
+        shape_factors.constriction(share, m.cold_side_slab.sheet, m.cold_side_slab.depth) / m.cold_side_slab.conductance
+    )
 
 
 @quantities.helper()
-def cold_to_sink(cold_side_slab: ColdSide, heated_area: Scalar, cold_area: Scalar) -> Scalar:
+def cold_to_sink(m: Module) -> Scalar:
     """Resistance from where the cold sides have their mean temperature to a sink in the windows [K/W]."""
-    share = cold_area / heated_area
-    return shape_factors.constriction(share, cold_side_slab.sheet, cold_side_slab.depth) / cold_side_slab.conductance
+    share = m.cold_area / m.heated_area
+    return (
+        shape_factors.constriction(share, m.cold_side_slab.sheet, m.cold_side_slab.depth) / m.cold_side_slab.conductance
+    )

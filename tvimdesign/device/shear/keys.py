@@ -15,6 +15,7 @@ from tvimdesign.device.core.impedance.joint_impedance import quantities as imped
 from tvimdesign.device.core.impedance.lost_motion import quantities as lost_motion
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.mass_properties import quantities as bodies
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section, disc_at
@@ -32,29 +33,27 @@ groups = (places, strengths, play, weights, rules)
 
 
 @places.helper()
-def has_keys(key_count: Scalar) -> Scalar:
+def has_keys(m: Module) -> Scalar:
     """One where the arcs have keys, zero where they have none."""
-    return np.fmin(key_count, 1.0)
+    return np.fmin(m.key_count, 1.0)
 
 
 @places.output("mm")
-def key_circle_radius(pcl_mean_radius: Scalar) -> Scalar:
+def key_circle_radius(m: Module) -> Scalar:
     """Radius of the circle the keys stand on."""
-    return pcl_mean_radius
+    return m.pcl_mean_radius
 
 
 @places.output("mm")
-def key_depth(has_keys: Scalar, rotor_thickness: Scalar, minimum_wall: Scalar) -> Scalar:
+def key_depth(m: Module) -> Scalar:
     """Depth of the keys in the rotor plate, which keeps the process's least wall above them; zero without keys."""
-    return has_keys * (rotor_thickness - minimum_wall)
+    return m.has_keys * (m.rotor_thickness - m.minimum_wall)
 
 
 @weights.helper()
-def key_moments(
-    arc_count: Scalar, key_count: Scalar, key_diameter: Scalar, key_circle_radius: Scalar, key_depth: Scalar
-) -> Section:
+def key_moments(m: Module) -> Section:
     """Volume of all keys together and its polar moment about the axis."""
-    return disc_at(0.5 * key_diameter, key_circle_radius).times(arc_count * key_count * key_depth)
+    return disc_at(0.5 * m.key_diameter, m.key_circle_radius).times(m.arc_count * m.key_count * m.key_depth)
 
 
 # --- strength --------------------------------------------------------------------------------------------------------
@@ -63,40 +62,33 @@ strengths.after("layer_holding_torque")
 
 
 @strengths.output("N*m")
-def key_holding_torque(
-    pcl_tensile_yield: Scalar,
-    arc_count: Scalar,
-    key_count: Scalar,
-    key_diameter: Scalar,
-    key_depth: Scalar,
-    key_circle_radius: Scalar,
-) -> Scalar:
+def key_holding_torque(m: Module) -> Scalar:
     """Torque the frozen keys alone hold in the rotor plate, its bond gone; zero without keys.
 
     Sheared off, or pressed into their pockets' walls, whichever comes first. It does not add to what the bond holds,
     which gives way at a smaller displacement.
     """
-    shear = peg.shear_force(structure.shear_yield(pcl_tensile_yield), key_diameter)
-    bearing = peg.bearing_force(pcl_tensile_yield, key_diameter, key_depth)
-    return arc_count * key_count * np.fmin(shear, bearing) * key_circle_radius
+    shear = peg.shear_force(structure.shear_yield(m.pcl_tensile_yield), m.key_diameter)
+    bearing = peg.bearing_force(m.pcl_tensile_yield, m.key_diameter, m.key_depth)
+    return m.arc_count * m.key_count * np.fmin(shear, bearing) * m.key_circle_radius
 
 
 @strengths.output("1")
-def key_safety(key_holding_torque: Scalar, layer_torque_at_cold: Scalar) -> Scalar:
+def key_safety(m: Module) -> Scalar:
     """What the frozen keys alone hold over what the layer bears in a hold at the cold point; zero without keys.
 
     Of no other point: the strength is that of frozen PCL at room temperature.
     """
-    return key_holding_torque / layer_torque_at_cold
+    return m.key_holding_torque / m.layer_torque_at_cold
 
 
 @play.output("rad")
-def key_play(key_shrinkage: Scalar, key_diameter: Scalar, key_circle_radius: Scalar, has_keys: Scalar) -> Scalar:
+def key_play(m: Module) -> Scalar:
     """Angle the frozen keys turn in their pockets, from which they shrink, once the bond is gone; zero without keys.
 
     No part of `lost_motion`: as long as the bond holds, it takes the torque.
     """
-    return has_keys * joint_play(0.5 * key_shrinkage * key_diameter, key_circle_radius)
+    return m.has_keys * joint_play(0.5 * m.key_shrinkage * m.key_diameter, m.key_circle_radius)
 
 
 # --- rules -----------------------------------------------------------------------------------------------------------
@@ -105,32 +97,25 @@ rules.after("arc_width")
 
 
 @rules.output("mm", at_least(0.0, "the keys are thinner than the process can make them"))
-def key_margin(key_diameter: Scalar, has_keys: Scalar, minimum_feature: Scalar) -> Scalar:
+def key_margin(m: Module) -> Scalar:
     """Diameter of the keys beyond the process's least pin."""
-    return key_diameter - has_keys * minimum_feature
+    return m.key_diameter - m.has_keys * m.minimum_feature
 
 
 @rules.output("mm", at_least(0.0, "the rotor plate is too thin for keys: a thicker plate, or key_count 0"))
-def key_depth_margin(rotor_thickness: Scalar, has_keys: Scalar, minimum_wall: Scalar, key_diameter: Scalar) -> Scalar:
+def key_depth_margin(m: Module) -> Scalar:
     """Rotor plate beyond the least wall and keys a quarter of their diameter deep."""
-    return rotor_thickness - has_keys * (minimum_wall + 0.25 * key_diameter)
+    return m.rotor_thickness - m.has_keys * (m.minimum_wall + 0.25 * m.key_diameter)
 
 
 @rules.output("mm", at_least(0.0, "the arcs are too narrow for their keys: thinner ones, or key_count 0"))
-def key_width_margin(arc_width: Scalar, has_keys: Scalar, key_diameter: Scalar, minimum_wall: Scalar) -> Scalar:
+def key_width_margin(m: Module) -> Scalar:
     """Radial width of the arcs beyond a key with half of the least wall on either side."""
-    return arc_width - has_keys * (key_diameter + minimum_wall)
+    return m.arc_width - m.has_keys * (m.key_diameter + m.minimum_wall)
 
 
 @rules.output("mm", at_least(0.0, "the keys stand too close in their arcs: fewer or thinner ones"))
-def key_pitch_margin(
-    key_circle_radius: Scalar,
-    arc_span: Scalar,
-    key_count: Scalar,
-    has_keys: Scalar,
-    key_diameter: Scalar,
-    minimum_wall: Scalar,
-) -> Scalar:
+def key_pitch_margin(m: Module) -> Scalar:
     """Distance of neighbouring keys beyond the least wall between their pockets, and half of it to the arc's ends."""
-    apart = 2.0 * key_circle_radius * np.sin(0.5 * arc_span / np.fmax(key_count, 1.0))
-    return apart - has_keys * (key_diameter + minimum_wall)
+    apart = 2.0 * m.key_circle_radius * np.sin(0.5 * m.arc_span / np.fmax(m.key_count, 1.0))
+    return apart - m.has_keys * (m.key_diameter + m.minimum_wall)

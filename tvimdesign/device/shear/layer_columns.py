@@ -10,6 +10,7 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER, SIDE
 from tvimdesign.device.shear.layer_end import ColdEnd
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import columns, conduction, heat, peltier, still_air
@@ -23,37 +24,27 @@ def across(cold_end: ColdEnd | None) -> columns.Columns:
 
 
 @quantities.helper()
-def column_shares(cold_end: ColdEnd | None) -> tuple[float, ...]:
+def column_shares(m: Module) -> tuple[float, ...]:
     """What of the arcs' width each column stands for [1]."""
-    return across(cold_end).shares
+    return across(m.cold_end).shares
 
 
 @quantities.helper(instant=True)
-def edge_drops(
-    stack_profile: heat.Profile,
-    stack: heat.Stack,
-    heater_form: str,
-    pad_wall: Scalar,
-    heater_along: Scalar,
-    plate_to_edge: Scalar,
-    uneven_sideways: Scalar,
-    cold_end: ColdEnd | None,
-    edge_length: Scalar,
-) -> tuple[Scalar, Scalar]:
+def edge_drops(m: Module) -> tuple[Scalar, Scalar]:
     """How far the edges of the pads' hot side and of the plate's face are below their means [K], by what they lose."""
-    now, corner = stack_profile, stack_profile.around[CORNER]
+    now, corner = m.stack_profile, m.stack_profile.around[CORNER]
     side = now.spreader
-    if heater_form == CUT:
+    if m.heater_form == CUT:
         upper = peltier.legs_temperatures(now.hot, now.legs[0], now.cold)[1]
         side = SIDE * now.hot + (1.0 - SIDE) * upper
     mean = np.mean(now.plate)
-    even = stack.beside[0].conductance * (mean - now.beside[0])
-    given = pad_wall * (side - corner)
-    if cold_end is not None and now.lip is not None:
-        given = given + edge_length * cold_end.near * (now.hot - now.lip.temperature)
+    even = m.stack.beside[0].conductance * (mean - now.beside[0])
+    given = m.pad_wall * (side - corner)
+    if m.cold_end is not None and now.lip is not None:
+        given = given + m.edge_length * m.cold_end.near * (now.hot - now.lip.temperature)
     return (
-        given / heater_along,
-        (even + uneven_sideways * (now.plate[0] - mean)) / plate_to_edge,
+        given / m.heater_along,
+        (even + m.uneven_sideways * (now.plate[0] - mean)) / m.plate_to_edge,
     )
 
 
@@ -75,71 +66,52 @@ class LayerSurroundings(NamedTuple):
 
 
 @quantities.helper(instant=True)
-def layer_surroundings(
-    stack_profile: heat.Profile,
-    stack: heat.Stack,
-    edge_drops: tuple[Scalar, Scalar],
-    air_beside: tuple[Scalar, Scalar],
-    cold_end: ColdEnd | None,
-    plate_slenderness: Scalar,
-) -> LayerSurroundings:
+def layer_surroundings(m: Module) -> LayerSurroundings:
     """What surrounds the layer's slices at an instant."""
-    now, (conductivity, slot) = stack_profile, air_beside
+    now, (conductivity, slot) = m.stack_profile, m.air_beside
     to_floor, lip = now.hot - now.around[CORNER], None
-    if cold_end is not None:
+    if m.cold_end is not None:
         assert now.lip is not None  # a cold end is that of a lip
         lip = now.lip.temperature
         into_lip, into_floor = still_air.below_lip(slot)
         to_floor = into_lip * (now.hot - lip) + into_floor * to_floor
     return LayerSurroundings(
         cells=now.cells,
-        through=conductivity / stack.conductivity_melt * to_floor,
-        drops=edge_drops,
-        in_plate=columns.in_sheet(np.array(across(cold_end).places), plate_slenderness),
-        share=columns.way_through(stack, heights_of(now)),
+        through=conductivity / m.stack.conductivity_melt * to_floor,
+        drops=m.edge_drops,
+        in_plate=columns.in_sheet(np.array(across(m.cold_end).places), m.plate_slenderness),
+        share=columns.way_through(m.stack, heights_of(now)),
         lip=lip,
     )
 
 
 @quantities.helper(instant=True)
-def end_places(
-    stack_profile: heat.Profile,
-    air_beside: tuple[Scalar, Scalar],
-    cold_end: ColdEnd | None,
-    pcl_area: Scalar,
-    edge_length: Scalar,
-    pcl_depth: Scalar,
-) -> columns.EndPlaces:
+def end_places(m: Module) -> columns.EndPlaces:
     """Where the layer's slices are, seen from its end: from a lip's wall, or from the gap."""
-    width, heights = pcl_area / edge_length / pcl_depth, heights_of(stack_profile)
-    if cold_end is None:
-        return columns.gap_places(heights, width, air_beside[1])
-    return columns.wall_places(heights, width, cold_end.contact, cold_end.layer, cold_end.free)
+    width, heights = m.pcl_area / m.edge_length / m.pcl_depth, heights_of(m.stack_profile)
+    if m.cold_end is None:
+        return columns.gap_places(heights, width, m.air_beside[1])
+    return columns.wall_places(heights, width, m.cold_end.contact, m.cold_end.layer, m.cold_end.free)
 
 
 @quantities.helper(instant=True)
-def end_profile(end_places: columns.EndPlaces, cold_end: ColdEnd | None) -> tuple[list[Scalar], ...]:
+def end_profile(m: Module) -> tuple[list[Scalar], ...]:
     """What the layer's end does to its slices, column by column: a wall and the clearance below it, or a gap."""
-    return columns.gap_profile(end_places) if cold_end is None else columns.wall_profile(end_places)
+    return columns.gap_profile(m.end_places) if m.cold_end is None else columns.wall_profile(m.end_places)
 
 
 @quantities.helper(instant=True)
-def layer_temperatures(
-    layer_surroundings: LayerSurroundings,
-    end_profile: tuple[list[Scalar], ...],
-    stack: heat.Stack,
-    cold_end: ColdEnd | None,
-) -> list[Scalar]:
+def layer_temperatures(m: Module) -> list[Scalar]:
     """Temperatures of the layer's slices [K], in columns from the middle of an arc to its edge.
 
     The hot side's edge is colder, and so is the plate's; between them the layer falls evenly. At its free side it gives
     heat to the gap or a lip.
     """
-    (pads, plate), places = layer_surroundings.drops, across(cold_end).places
+    (pads, plate), places = m.layer_surroundings.drops, across(m.cold_end).places
     found = []
-    for i, (place, end) in enumerate(zip(places, _at_end(layer_surroundings, end_profile, stack), strict=True)):
-        near, far = pads * columns.fed_evenly(place), plate * layer_surroundings.in_plate[i]
-        found.append(end - (near + (far - near) * layer_surroundings.share))
+    for i, (place, end) in enumerate(zip(places, _at_end(m.layer_surroundings, m.end_profile, m.stack), strict=True)):
+        near, far = pads * columns.fed_evenly(place), plate * m.layer_surroundings.in_plate[i]
+        found.append(end - (near + (far - near) * m.layer_surroundings.share))
     return found
 
 

@@ -14,14 +14,13 @@ import numpy as np
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.shear.melt_lip import NO_LIP
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, shape_factors
-from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.still_air import below_lip
 from tvimdesign.physics.heat_flow.walled_end import WalledEnd, sheet_end, sheeted_end, walled_end
-from tvimdesign.physics.polymers import polymer
 
 quantities = QuantityGroup(shared.group)
 
@@ -70,69 +69,48 @@ class EndWall(NamedTuple):
 
 
 @quantities.helper()
-def end_wall(
-    melt_lip: str,
-    lip_height: Scalar,
-    pcl_thickness: Scalar,
-    pcl_area: Scalar,
-    edge_length: Scalar,
-    hot_contact: Scalar,
-    rotor_contact: Scalar,
-    liner_sheet: Liner | None,
-    pcl_conductivity_solid: Scalar,
-    pcl_conductivity_melt: Scalar,
-) -> EndWall | None:
+def end_wall(m: Module) -> EndWall | None:
     """The wall at the layer's end; none without lips and liner. A contact is as much more layer, where heat crowds as
     well."""
-    if melt_lip == NO_LIP and liner_sheet is None:
+    if m.melt_lip == NO_LIP and m.liner_sheet is None:
         return None
-    conductivity = 0.5 * (pcl_conductivity_solid + pcl_conductivity_melt)
-    contacts = conductivity / hot_contact + conductivity / rotor_contact
+    conductivity = 0.5 * (m.pcl_conductivity_solid + m.pcl_conductivity_melt)
+    contacts = conductivity / m.hot_contact + conductivity / m.rotor_contact
     sheet, whole = 0.0, 0.0
-    if liner_sheet is not None:
-        sheet, whole = (conductivity * pcl_area * one for one in (liner_sheet.resistance, liner_sheet.whole))
-    height = pcl_thickness + contacts + whole
-    layer = (pcl_thickness + contacts) / height
-    if melt_lip == NO_LIP:
+    if m.liner_sheet is not None:
+        sheet, whole = (conductivity * m.pcl_area * one for one in (m.liner_sheet.resistance, m.liner_sheet.whole))
+    height = m.pcl_thickness + contacts + whole
+    layer = (m.pcl_thickness + contacts) / height
+    if m.melt_lip == NO_LIP:
         free, end = layer, sheet_end(layer)
     else:
-        below = np.fmax(pcl_thickness - lip_height, 0.0)
+        below = np.fmax(m.pcl_thickness - m.lip_height, 0.0)
         free = (below + AT_CORNER * contacts) / height
-        end = walled_end(free) if liner_sheet is None else sheeted_end(free, layer)
-    width = pcl_area / edge_length / (pcl_thickness + whole)
+        end = walled_end(free) if m.liner_sheet is None else sheeted_end(free, layer)
+    width = m.pcl_area / m.edge_length / (m.pcl_thickness + whole)
     return EndWall(conductivity, height, layer, sheet / height, contacts / height, free, width, end)
 
 
 @quantities.helper()
-def cold_end(melt_lip: str, end_wall: EndWall | None) -> ColdEnd | None:
+def cold_end(m: Module) -> ColdEnd | None:
     """What the layer gives to a lip at its end; none without lips."""
-    if melt_lip == NO_LIP or end_wall is None:
+    if m.melt_lip == NO_LIP or m.end_wall is None:
         return None
-    k, end, layer, width = end_wall.conductivity, end_wall.end, end_wall.layer, end_wall.width
+    k, end, layer, width = m.end_wall.conductivity, m.end_wall.end, m.end_wall.layer, m.end_wall.width
     # Slices that fall evenly are this much above the wall in their sum, twice as much as the half of a bare layer.
     fall = layer * (2.0 - layer)
     return ColdEnd(
         of_layer=k * layer * shape_factors.sink_of_slices(end.deep / width, end.colder / width) * width,
         of_pads=k * (end.wall - fall * shape_factors.FALLING * end.deep),
         near=k * end.near,
-        contact=0.5 * end_wall.contacts,
-        free=end_wall.free,
-        layer=layer - end_wall.contacts,
+        contact=0.5 * m.end_wall.contacts,
+        free=m.end_wall.free,
+        layer=layer - m.end_wall.contacts,
     )
 
 
 @quantities.helper()
-def air_beside(
-    melt_lip: str,
-    pcl_thickness: Scalar,
-    running_clearance: Scalar,
-    pcl_conductivity_melt: Scalar,
-    pad_edge_contact: Scalar,
-    air_conductivity: Scalar,
-    surface_emissivity: Scalar,
-    ambient_temperature: Scalar,
-    pcl_melting: polymer.Melting,
-) -> tuple[Scalar, Scalar]:
+def air_beside(m: Module) -> tuple[Scalar, Scalar]:
     """Of the gap's air at the layer's free side the conductivity [W/m K], in series with the layer's; and the slot's
     width over the gap's. Below a lip that gap is the running clearance.
 
@@ -140,21 +118,15 @@ def air_beside(
     the mean conductivity sqrt(k_x k_y), x stretched by sqrt(k_y/k_x). The contact of the pads' edges is a slot of
     still air.
     """
-    gap = pcl_thickness if melt_lip == NO_LIP else running_clearance
-    across = lumps.air_gap(1.0, gap, air_conductivity, surface_emissivity, HOT, FLOOR)
-    up = gap * lumps.link_conductance(across, pcl_melting.end, ambient_temperature)
-    evenly = np.sqrt(air_conductivity * up)
-    return lumps.in_series(evenly, pcl_conductivity_melt), evenly / (pad_edge_contact * gap)
+    gap = m.pcl_thickness if m.melt_lip == NO_LIP else m.running_clearance
+    across = lumps.air_gap(1.0, gap, m.air_conductivity, m.surface_emissivity, HOT, FLOOR)
+    up = gap * lumps.link_conductance(across, m.pcl_melting.end, m.ambient_temperature)
+    evenly = np.sqrt(m.air_conductivity * up)
+    return lumps.in_series(evenly, m.pcl_conductivity_melt), evenly / (m.pad_edge_contact * gap)
 
 
 @quantities.helper()
-def side_links(
-    edge_length: Scalar,
-    air_beside: tuple[Scalar, Scalar],
-    melt_lip: str,
-    structure_conductivity: Scalar,
-    liner_rim: tuple[Link, ...],
-) -> tuple[Link, ...]:
+def side_links(m: Module) -> tuple[Link, ...]:
     """From the liner's rim to the plate, and from the layer's free side through the air of the gap, to the floor's
     corner and to the plate beside it.
 
@@ -162,12 +134,12 @@ def side_links(
     it comes from within the layer (`gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot
     side gives it (`still_air.below_lip`), and the lip gets the rest (`lip_heat`).
     """
-    conductivity, slot = air_beside
-    near, far = shape_factors.gap_end(slot) if melt_lip == NO_LIP else below_lip(slot)[::-1]
-    through = edge_length * conductivity
-    if melt_lip != NO_LIP:
-        return (*liner_rim, Link(HOT, FLOOR, near * through))
-    corner = structure_conductivity * edge_length * shape_factors.corner_shape(near)
+    conductivity, slot = m.air_beside
+    near, far = shape_factors.gap_end(slot) if m.melt_lip == NO_LIP else below_lip(slot)[::-1]
+    through = m.edge_length * conductivity
+    if m.melt_lip != NO_LIP:
+        return (*m.liner_rim, Link(HOT, FLOOR, near * through))
+    corner = m.structure_conductivity * m.edge_length * shape_factors.corner_shape(near)
     inside = shape_factors.FALLING * shape_factors.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
-    return (*liner_rim, to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
+    return (*m.liner_rim, to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))

@@ -14,6 +14,7 @@ import numpy as np
 from tvimdesign.device.core.molten import GRAVITY, HOUR
 from tvimdesign.device.core.shrinkage import quantities as shared
 from tvimdesign.device.shear.melt_lip import NO_LIP
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import melt_flow
@@ -24,53 +25,35 @@ DRAWN = 1.1
 
 
 @quantities.output("Pa")
-def melt_head(pcl_melt_density: Scalar, arc_width: Scalar) -> Scalar:
+def melt_head(m: Module) -> Scalar:
     """Pressure of the melt over the radial width of an arc that stands upright."""
-    return pcl_melt_density * GRAVITY * arc_width
+    return m.pcl_melt_density * GRAVITY * m.arc_width
 
 
 @quantities.output("Pa")
-def melt_hold(melt_lip: str, pcl_surface_tension: Scalar, running_clearance: Scalar, freezing_travel: Scalar) -> Scalar:
+def melt_hold(m: Module) -> Scalar:
     """Pressure that the melt's surface holds below a lip; zero between flat faces, on which it may creep."""
-    if melt_lip == NO_LIP:
-        return 0.0 * pcl_surface_tension
-    return melt_flow.meniscus_pressure(pcl_surface_tension, running_clearance + freezing_travel)
+    if m.melt_lip == NO_LIP:
+        return 0.0 * m.pcl_surface_tension
+    return melt_flow.meniscus_pressure(m.pcl_surface_tension, m.running_clearance + m.freezing_travel)
 
 
 _CREEPS = "so much of the molten layer creeps out in an hour with the axis level (assumed, 0.5 to 5 %)"
 
 
 @quantities.output("%", advice=(Rule(sense="<=", value=0.01, reason=_CREEPS),))
-def melt_loss(
-    melt_lip: str,
-    melt_head: Scalar,
-    melt_hold: Scalar,
-    pcl_thickness: Scalar,
-    freezing_travel: Scalar,
-    running_clearance: Scalar,
-    rotor_rim: Scalar,
-    arc_width: Scalar,
-    pcl_viscosity_at_hot: Scalar,
-) -> Scalar:
+def melt_loss(m: Module) -> Scalar:
     """Share of the layer that gravity moves out past an edge in an hour at the hot point, the axis level."""
-    gap, length = pcl_thickness + freezing_travel, arc_width
-    if melt_lip != NO_LIP:
-        length = melt_flow.gaps_in_series(arc_width, gap, rotor_rim, running_clearance + freezing_travel)
-    head = np.fmax(melt_head - melt_hold, 0.0)
-    return HOUR * melt_flow.gap_speed(head / length, gap, pcl_viscosity_at_hot) / arc_width
+    gap, length = m.pcl_thickness + m.freezing_travel, m.arc_width
+    if m.melt_lip != NO_LIP:
+        length = melt_flow.gaps_in_series(m.arc_width, gap, m.rotor_rim, m.running_clearance + m.freezing_travel)
+    head = np.fmax(m.melt_head - m.melt_hold, 0.0)
+    return HOUR * melt_flow.gap_speed(head / length, gap, m.pcl_viscosity_at_hot) / m.arc_width
 
 
 @quantities.output("s")
-def layer_drawing_time(
-    turning_mass: Scalar,
-    pcl_viscosity_at_hot: Scalar,
-    arc_count: Scalar,
-    arc_span: Scalar,
-    pcl_mean_radius: Scalar,
-    arc_width: Scalar,
-    pcl_thickness: Scalar,
-) -> Scalar:
+def layer_drawing_time(m: Module) -> Scalar:
     """Time in which rotor, link and retainer, hanging on the molten layer alone, draw it a tenth thicker."""
-    length, weight = arc_count * arc_span * pcl_mean_radius, GRAVITY * turning_mass
-    ends = (pcl_thickness, DRAWN * pcl_thickness)
-    return melt_flow.squeeze_time(weight, pcl_viscosity_at_hot, length, arc_width, *ends)
+    length, weight = m.arc_count * m.arc_span * m.pcl_mean_radius, GRAVITY * m.turning_mass
+    ends = (m.pcl_thickness, DRAWN * m.pcl_thickness)
+    return melt_flow.squeeze_time(weight, m.pcl_viscosity_at_hot, length, m.arc_width, *ends)

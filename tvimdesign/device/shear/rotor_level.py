@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.device.core.layout import quantities as shared
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
@@ -10,12 +11,12 @@ quantities = QuantityGroup(shared.group)
 
 
 @quantities.output("mm", hidden=True)
-def rotor_bottom_level(pcl_thickness: Scalar) -> Scalar:
+def rotor_bottom_level(m: Module) -> Scalar:
     """Lower face of the rotor plate, which lies on the layer."""
-    return pcl_thickness
+    return m.pcl_thickness
 
 
 @quantities.helper()
-def pcl_depth(pcl_thickness: Scalar) -> Scalar:
+def pcl_depth(m: Module) -> Scalar:
     """Way of heat and load through the PCL [m]."""
-    return pcl_thickness
+    return m.pcl_thickness

@@ -17,6 +17,7 @@ from tvimdesign.device.core.heat.heater_form import WITH_TILES
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.core.materials import quantities as materials
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, rectangle_at
@@ -37,72 +38,68 @@ kinds.option(
 
 
 @places.helper(requires=())
-def pocket_count(arc_count: Scalar) -> Scalar:
+def pocket_count(m: Module) -> Scalar:
     """Pockets for Peltier modules [1]: one under each arc."""
-    return arc_count
+    return m.arc_count
 
 
 @places.helper(requires=())
-def tiles_per_pocket(tiles_per_arc: Scalar) -> Scalar:
+def tiles_per_pocket(m: Module) -> Scalar:
     """Rectangular Peltier modules in each pocket [1]."""
-    return tiles_per_arc
+    return m.tiles_per_arc
 
 
 @places.helper()
-def tile_reach(pcl_outer_radius: Scalar, peltier_length: Scalar) -> Scalar:
+def tile_reach(m: Module) -> Scalar:
     """Distance from the axis at which the outer corners of a tile would touch the pocket's outer wall [m]."""
-    least = 0.1 * pcl_outer_radius
-    return np.sqrt(np.fmax(pcl_outer_radius**2 - 0.25 * peltier_length**2, least**2))
+    least = 0.1 * m.pcl_outer_radius
+    return np.sqrt(np.fmax(m.pcl_outer_radius**2 - 0.25 * m.peltier_length**2, least**2))
 
 
 @places.output("mm")
-def tile_radius(pcl_inner_radius: Scalar, tile_reach: Scalar) -> Scalar:
+def tile_radius(m: Module) -> Scalar:
     """Distance of the tiles' middles from the axis: inner edge and outer corners have the same room."""
-    return 0.5 * (pcl_inner_radius + tile_reach)
+    return 0.5 * (m.pcl_inner_radius + m.tile_reach)
 
 
 @places.output("deg")
-def lead_angle(lead_hole_diameter: Scalar, tile_clearance: Scalar, pcl_inner_radius: Scalar) -> Scalar:
+def lead_angle(m: Module) -> Scalar:
     """Angle at each end of an arc that is left to a hole for leads or the thermistor's."""
-    return (lead_hole_diameter + 2.0 * tile_clearance) / pcl_inner_radius
+    return (m.lead_hole_diameter + 2.0 * m.tile_clearance) / m.pcl_inner_radius
 
 
 @places.output("deg")
-def tile_pitch(arc_span: Scalar, lead_angle: Scalar, tiles_per_arc: Scalar) -> Scalar:
+def tile_pitch(m: Module) -> Scalar:
     """Angle from one tile of an arc to the next."""
-    return (arc_span - 2.0 * lead_angle) / tiles_per_arc
+    return (m.arc_span - 2.0 * m.lead_angle) / m.tiles_per_arc
 
 
 @weights.helper(default=NOTHING)
-def tile_section(heater_count: Scalar, peltier_length: Scalar, peltier_width: Scalar, tile_radius: Scalar) -> Section:
+def tile_section(m: Module) -> Section:
     """Plan view of all tiles."""
-    return rectangle_at(peltier_width, peltier_length, tile_radius).times(heater_count)
+    return rectangle_at(m.peltier_width, m.peltier_length, m.tile_radius).times(m.heater_count)
 
 
 @weights.helper(default=NOTHING)
-def lead_hole_section(arc_count: Scalar, lead_hole_diameter: Scalar, tile_radius: Scalar) -> Section:
+def lead_hole_section(m: Module) -> Section:
     """Plan view of the holes for leads and thermistors: two below each arc."""
-    return disc_at(0.5 * lead_hole_diameter, tile_radius).times(2.0 * arc_count)
+    return disc_at(0.5 * m.lead_hole_diameter, m.tile_radius).times(2.0 * m.arc_count)
 
 
 @weights.output("mm^3")
-def spreader_volume(pad_section: Section, spreader_depth: Scalar) -> Scalar:
+def spreader_volume(m: Module) -> Scalar:
     """Volume of all spreaders together; zero without."""
-    return pad_section.area * spreader_depth
+    return m.pad_section.area * m.spreader_depth
 
 
 @rules.output("mm", at_least(0.0, "a Peltier module is too wide for its arc: choose a smaller one, or a wider arc"))
-def tile_radial_margin(
-    tile_reach: Scalar, pcl_inner_radius: Scalar, peltier_width: Scalar, tile_clearance: Scalar
-) -> Scalar:
+def tile_radial_margin(m: Module) -> Scalar:
     """Gap of a tile's inner edge and outer corners to the walls of its pocket, beyond the least."""
-    return 0.5 * (tile_reach - pcl_inner_radius - peltier_width) - tile_clearance
+    return 0.5 * (m.tile_reach - m.pcl_inner_radius - m.peltier_width) - m.tile_clearance
 
 
 @rules.output("mm", at_least(0.0, "the Peltier modules of an arc overlap: choose fewer, or a longer arc"))
-def tile_side_margin(
-    tile_radius: Scalar, tile_pitch: Scalar, peltier_length: Scalar, peltier_width: Scalar, tile_clearance: Scalar
-) -> Scalar:
+def tile_side_margin(m: Module) -> Scalar:
     """Gap between the inner corners of neighbouring tiles beyond the least; at an arc's end, between tile and hole."""
-    inner = tile_radius - 0.5 * peltier_width
-    return 2.0 * inner * np.sin(0.5 * tile_pitch) - peltier_length * np.cos(0.5 * tile_pitch) - tile_clearance
+    inner = m.tile_radius - 0.5 * m.peltier_width
+    return 2.0 * inner * np.sin(0.5 * m.tile_pitch) - m.peltier_length * np.cos(0.5 * m.tile_pitch) - m.tile_clearance

@@ -1,12 +1,12 @@
 """What a quantity of the one table is: a number or a word that a study sets, or a result and how it follows.
 
 A table says what a module is. `Input` quantities are numbers that a study may set, `Choice` quantities are words (a
-catalogue record or an option), `Output` quantities are what follows. An output's function names what it needs by its
-parameters: the parameter `wire_diameter` is the quantity `wire_diameter`. So the table is also the dependency graph,
-and floats, arrays and CasADi symbols go through the same functions.
+catalogue record or an option), `Output` quantities are what follows. An output's function reads what it needs from the
+module `m`: `m.wire_diameter` is the quantity `wire_diameter`. So the table is also the dependency graph, and floats,
+arrays and CasADi symbols go through the same functions.
 
 A quantity with `per_point=True` has one value at each operating point and is written `name@point`; another quantity
-asks for it at a certain point with a parameter `name_at_point`. A quantity with `instant=True` has a value at each
+reads it at a certain point as `m.name_at_point`. A quantity with `instant=True` has a value at each
 instant of a phase (heating until the joint is soft is one, cooling until it is stiff again another). `Event` quantities
 are the times at which something that rises passes zero; `Path` quantities reduce an instant's value over a phase;
 `Steady` quantities are what it takes to stay where a phase ends. The solver, or a simulation, supplies those three;
@@ -15,11 +15,12 @@ is found."""
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal, TypeAlias
+
+from tvimdesign.device.table.module import Module, names_read
 
 Scalar: TypeAlias = Any
 """A float, a numpy array or a CasADi expression."""
@@ -92,6 +93,8 @@ class Input:
     """The one mode that has it, where not all have."""
     requires: tuple[Feature, ...] = ()
     """What a module must have for it to be of any effect."""
+    read_by: str = ""
+    """The floor that reads it; may be empty if a quantity does."""
 
     @property
     def falls_back(self) -> bool:
@@ -136,13 +139,13 @@ def template_name(name: str, of: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Output:
-    """A named result. `function` takes the quantities it names as parameters and returns SI."""
+    """A named result. `function` reads quantities of the module and returns SI."""
 
     name: str
     unit: str
     description: str
     group: str
-    function: Callable[..., Scalar]
+    function: Callable[[Module], Scalar]
     per_point: bool = False
     instant: bool = False
     hidden: bool = False
@@ -166,28 +169,34 @@ class Output:
     better: Literal["less", "more"] | None = None
     """Which way it is better whatever the module is for; None where that depends."""
     of: str = ""
-    """What has the quantity, where several things have it alike: `template_` in the parameters' names stands for
-    that."""
+    """What has the quantity, where several things have it alike: `template_` in the names it reads stands for that."""
     requires: tuple[Feature, ...] = ()
     """What a module must have for the quantity to be of anything; in one that lacks it the quantity is `default`."""
     default: Any = 0.0
 
     @cached_property
+    def reads(self) -> tuple[str, ...]:
+        """The attributes of the module that the function reads; raises ValueError if that cannot be told."""
+        try:
+            return names_read(self.function)
+        except ValueError as error:
+            raise ValueError(f"the function of the quantity {self.name!r} {error}") from error
+
+    @cached_property
     def needs(self) -> tuple[str, ...]:
-        """The quantities this one is computed from, `name@point` where the parameter says `name_at_point`.
+        """The quantities this one is computed from, `name@point` for the attribute `name_at_point`.
 
         First those that say whether the module has the quantity's features.
         """
-        parameters = inspect.signature(self.function).parameters
-        named = (template_name(name, self.of).replace("_at_", "@") for name in parameters)
+        named = (template_name(name, self.of).replace("_at_", "@") for name in self.reads)
         return (*(feature.choice for feature in self.requires), *named)
 
     def call(self, arguments: Sequence[Any]) -> Scalar:
-        """Apply the function to the values of `needs`, in order; `default` where the module lacks an feature."""
+        """Apply the function to the values of `needs`, in order; `default` where the module lacks a feature."""
         chosen, given = arguments[: len(self.requires)], arguments[len(self.requires) :]
         if any(word == feature.without for word, feature in zip(chosen, self.requires, strict=True)):
             return self.default
-        return self.function(*given)
+        return self.function(Module(**dict(zip(self.reads, given, strict=True))))
 
     def exists(self, chosen: Mapping[str, Any]) -> bool:
         """Whether there is anything to limit with some options chosen, by name; an option left open may be any."""

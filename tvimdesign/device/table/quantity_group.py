@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeVar
 import yaml
 
 from tvimdesign.base.units import to_si
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import (
     Choice,
     Event,
@@ -26,14 +27,14 @@ from tvimdesign.device.table.quantity import (
     template_name,
 )
 
-F = TypeVar("F", bound=Callable[..., Any])
+F = TypeVar("F", bound=Callable[[Module], Any])
 
 
 class QuantityGroup:
     """Collects the quantities of one group in the order they are written."""
 
     def __init__(self, group: str, requires: tuple[Feature, ...] = ()) -> None:
-        """`group` is the heading under which reports list the quantities, `features` what they are of unless they say
+        """`group` is the heading under which reports list the quantities, `requires` what they are of unless they say
         it."""
         self.group = group
         self.requires = requires
@@ -76,6 +77,7 @@ class QuantityGroup:
                     stock=_listed_in(*entry["stock"]) if "stock" in entry else None,
                     mode=entry.get("mode"),
                     requires=(Feature(*entry["feature"]),) if "feature" in entry else (),
+                    read_by=entry.get("read_by", ""),
                 )
             )
 
@@ -88,15 +90,16 @@ class QuantityGroup:
         mode: str | None = None,
         default: float | None = None,
         requires: tuple[Feature, ...] = (),
+        read_by: str = "",
     ) -> None:
         """Add a number that comes from a chosen record, (choice, field), unless the study sets it.
 
         `default` (SI) is for records that lack it; without one they are refused where the module has what it
-        `requires`.
+        `requires`. `read_by` names the floor that reads it where no quantity does.
         """
         quantity = Input(
             name=name, unit=unit, description=description, group=self.group, lower=0.0, record=record,
-            source=_of_record(record), mode=mode, default=default, requires=requires,
+            source=_of_record(record), mode=mode, default=default, requires=requires, read_by=read_by,
         )  # fmt: skip
         self.quantities.append(quantity)
 
@@ -201,14 +204,14 @@ class QuantityGroup:
         self,
         of: str,
         words: str,
-        function: Callable[..., Any],
+        function: Callable[[Module], Any],
         unit: str = "",
         *rules: Rule,
         requires: tuple[Feature, ...] = (),
     ) -> None:
         """Add a quantity that several things have alike, for one of them; without a unit it is an intermediate result.
 
-        The function is written with `template_` for the thing in its name and in its parameters, and {it} for `words`.
+        The function has `template_` for the thing in its name and in what it reads, and {it} for `words`.
         """
         quantity = Output(
             name=template_name(function.__name__, of),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 from tvimdesign.base.errors import InputError
@@ -33,17 +34,27 @@ class Table:
     by_name: dict[str, Quantity] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Index the quantities and refuse a name said twice or a parameter that is no quantity."""
+        """Index the quantities; raise ValueError for a name that is doubled or unknown, a circle or an unread input."""
         index: dict[str, Quantity] = {}
         for quantity in self.quantities:
             if quantity.name in index:
-                raise ValueError(f"the table has two rows named {quantity.name!r}")
+                raise ValueError(f"two quantities are named {quantity.name!r}")
             index[quantity.name] = quantity
         object.__setattr__(self, "by_name", index)
-        for quantity in self.outputs:
-            for need in quantity.needs:
-                if need.partition("@")[0] not in index and need not in NOT_QUANTITIES:
-                    raise ValueError(f"row {quantity.name!r} needs {need!r}, which is no row")
+        parents = {quantity.name: self._parents(quantity) for quantity in self.outputs}
+        for name, read in parents.items():
+            if unknown := read.difference(index):
+                raise ValueError(f"the quantity {name!r} reads {min(unknown)!r}, which is no quantity")
+        try:
+            TopologicalSorter(parents).prepare()
+        except CycleError as error:
+            raise ValueError(f"quantities depend on one another: {' -> '.join(error.args[1])}") from error
+        given: tuple[Input | Choice, ...] = (*self.inputs, *self.choices)
+        records = {source[0] for row in given for source in (row.record, row.stock_record) if source}
+        currents = {phase.current_input for phase in self.phases}
+        unread = {row.name for row in given if isinstance(row, Choice) or not row.read_by} - records - currents
+        if unread := unread.difference(*parents.values()):
+            raise ValueError(f"nothing reads the input {min(unread)!r}")
 
     @cached_property
     def inputs(self) -> tuple[Input, ...]:
@@ -96,7 +107,7 @@ class Table:
         """Return the quantity of a full name; raises InputError where there is none."""
         base = name.partition("@")[0]
         if base not in self.by_name:
-            raise InputError(f"no row is named {base!r}")
+            raise InputError(f"no quantity is named {base!r}")
         return self.by_name[base]
 
     def output(self, name: str) -> Output:
@@ -193,10 +204,14 @@ class Table:
         """Every quantity, by base name, that the named one depends on; the input that is a phase's current included."""
         if name not in self._ancestors:
             quantity = self.by_name[name.partition("@")[0]]
-            needs = (*quantity.needs, *self._currents(quantity)) if isinstance(quantity, Output) else ()
-            parents = {need.partition("@")[0] for need in needs} - NOT_QUANTITIES
-            self._ancestors[name] = frozenset(parents).union(*map(self.ancestors, parents))
+            parents = self._parents(quantity) if isinstance(quantity, Output) else frozenset()
+            self._ancestors[name] = parents.union(*map(self.ancestors, parents))
         return self._ancestors[name]
+
+    def _parents(self, quantity: Output) -> frozenset[str]:
+        """Return what a quantity reads, by base name, and the current of its phase."""
+        needs = (*quantity.needs, *self._currents(quantity))
+        return frozenset(need.partition("@")[0] for need in needs) - NOT_QUANTITIES
 
     def _currents(self, quantity: Output) -> Iterator[str]:
         """The inputs that are the current of a supplied quantity's phase, and of those before it."""

@@ -25,6 +25,8 @@ from tvimdesign.simulation.working_cycle.phase_run import Drive, Found, Grid, In
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
 _NONE = np.zeros(0)
+MANY = 5000
+"""Nodes of an expression from which on it is recorded apart from what has fewer."""
 
 
 class PhaseEngine:
@@ -37,12 +39,12 @@ class PhaseEngine:
         self.size = phase.state_size
         self.lip = 0 if phase._stack.lip is None else 2
         """Temperatures of the lip, which has no heat capacity: unknowns beside the state."""
-        self._tapes: dict[str, Tape] = {}
+        self._tapes: dict[tuple[str, ...], Tape] = {}
         place = phase.input_names.index(phase.phase.current_input)
         self._current_place = place
 
     @cached_property
-    def _recorded(self) -> tuple[Motion, Tape]:
+    def recorded(self) -> tuple[Motion, Tape]:
         """The equation of motion, and what it takes from the inputs: constants, unit of time, first state."""
         phase, lip = self.phase, ca.SX.sym("lip", self.lip)
         stack = phase._stack
@@ -66,30 +68,44 @@ class PhaseEngine:
     @property
     def motion(self) -> Motion:
         """The equation of motion of state, lip and integrals."""
-        return self._recorded[0]
+        return self.recorded[0]
 
     @cached_property
-    def _start(self) -> Tape:
+    def start(self) -> Tape:
         """Record the state that a phase goes on from."""
         before = ca.SX.sym("before", len(self.phase._initial(self.phase._stack._replace(freezing=None))))
         return Tape.of([before, self.phase._inputs], [self.phase.begin(before, self.phase._inputs)])
 
-    def _tape(self, name: str) -> Tape:
-        """Record what a quantity is at an instant: of state, current and inputs."""
-        if name not in self._tapes:
-            self._tapes[name] = Tape.of(self.phase._arguments, [ca.SX(self.phase._instant[name])])
-        return self._tapes[name]
+    def tape(self, *names: str) -> Tape:
+        """Record what quantities are at an instant: of state, current and inputs."""
+        if names not in self._tapes:
+            values = [ca.SX(self.phase._instant[name]) for name in names]
+            self._tapes[names] = Tape.of(self.phase._arguments, values)
+        return self._tapes[names]
+
+    @cached_property
+    def _together(self) -> dict[str, tuple[tuple[str, ...], int]]:
+        """The quantities that each is recorded with, and its place among them.
+
+        What needs the moduli of the layer's slices shares them; all else is a small part of the work.
+        """
+        names = [row.name for row in (*self.phase.events, *self.phase.paths, *self.phase.steadies)]
+        heavy = [name for name in names if ca.n_nodes(ca.SX(self.phase._instant[name])) > MANY]
+        groups = (tuple(name for name in names if name not in heavy), tuple(heavy))
+        return {name: (group, place) for group in groups for place, name in enumerate(group)}
 
     def value(self, name: str, state: Array, current: float, inputs: Array) -> float:
         """Return a quantity at an instant."""
-        return float(self._tape(name).values(state[: self.size], np.array([current]), inputs)[0][0])
+        group, place = self._together[name]
+        return float(self.tape(*group).values(state[: self.size], np.array([current]), inputs)[place][0])
 
     def slopes(self, name: str, now: Instant, inputs: Array, along: Array) -> tuple[float, Array]:
         """Return a quantity at an instant, and its slopes."""
-        ((value, slopes),) = self._tape(name).tangents(
+        group, place = self._together[name]
+        value, slopes = self.tape(*group).tangents(
             (now.state[: self.size], np.array([now.current]), inputs),
             (now.of_state[: self.size], now.of_current[None], along),
-        )
+        )[place]
         return float(value[0]), slopes[0]
 
     def run(
@@ -127,13 +143,13 @@ class PhaseEngine:
         self, inputs: Array, along: Array, before: Instant | None
     ) -> tuple[PhaseRun, Instant, float, Array]:
         """A run with its constants in place, where it starts, and the unit of its steps with its slopes."""
-        motion, given = self._recorded
+        motion, given = self.recorded
         along = np.column_stack([along, np.zeros(len(along))])  # the length of a phase's last step
         (k, dk), (pace, dpace), (y, s) = given.tangents([inputs], [along])
         if before is not None:
-            size = self._start.arguments[1]
+            size = self.start.arguments[1]
             of_state = np.column_stack([before.of_state[:size], np.zeros(size)])
-            ((y, s),) = self._start.tangents((before.state[:size], inputs), (of_state, along))
+            ((y, s),) = self.start.tangents((before.state[:size], inputs), (of_state, along))
         rest = self.lip + len(self.integrals)
         y, s = np.append(y, np.zeros(rest)), np.concatenate([s, np.zeros((rest, along.shape[1]))])
         sign = self.phase.phase.sign

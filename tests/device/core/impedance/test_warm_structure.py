@@ -7,6 +7,7 @@ import pytest
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core.impedance.warm_structure import parts_now
+from tvimdesign.device.table.module import Module
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.study import given as resolve
 from tvimdesign.study import read_study_text
@@ -87,7 +88,7 @@ def test_structure_in_a_phase_is_as_warm_as_the_stack_is(inputs: dict[str, Any])
     stack = table_for("shear").evaluate(inputs, ["stack"])["stack"]
     state = heat.initial_state(stack, 6, 320.0)
     profile = heat.profile(state, stack)._replace(cold=300.0, hot=340.0)
-    parts = parts_now(profile)
+    parts = parts_now(Module(stack_profile=profile))
     assert [parts.core, parts.beside, *parts.plate] == pytest.approx([320.0] * 10, abs=1e-9)
     assert (parts.walls, parts.floor) == (320.0, 300.0)
 

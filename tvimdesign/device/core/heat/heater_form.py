@@ -9,11 +9,11 @@ the spreader resists (`spreader_resistance`).
 from __future__ import annotations
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.record import Record
 from tvimdesign.device.core.heat.thermal_stack import quantities as heat
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.core.materials import quantities as materials
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import spreader
@@ -59,73 +59,63 @@ kinds.property(
 
 
 @places.output("1", default=1.0, requires=())
-def heater_count(heater_form: str, peltier_module: Record, pocket_count: Scalar, tiles_per_pocket: Scalar) -> Scalar:
+def heater_count(m: Module) -> Scalar:
     """Peltier modules of the module: one pad at each arc or block, or all its tiles."""
-    if heater_form != CUT:
-        return pocket_count * tiles_per_pocket
-    if peltier_module.word("form") != CUT:
-        raise InputError(f"heater_form: {CUT} needs a module that can be cut; {peltier_module.name} is rigid")
-    return pocket_count
+    if m.heater_form != CUT:
+        return m.pocket_count * m.tiles_per_pocket
+    if m.peltier_module.word("form") != CUT:
+        raise InputError(f"heater_form: {CUT} needs a module that can be cut; {m.peltier_module.name} is rigid")
+    return m.pocket_count
 
 
 @places.output("mm")
-def spreader_depth(spreader_thickness: Scalar) -> Scalar:
+def spreader_depth(m: Module) -> Scalar:
     """Depth the spreader takes of the pocket behind the PCL; zero without one."""
-    return spreader_thickness
+    return m.spreader_thickness
 
 
 @places.output("mm", requires=())
-def pad_depth(peltier_thickness: Scalar, spreader_depth: Scalar) -> Scalar:
+def pad_depth(m: Module) -> Scalar:
     """Depth of the pockets for the Peltier modules and the spreader on them."""
-    return peltier_thickness + spreader_depth
+    return m.peltier_thickness + m.spreader_depth
 
 
 @weights.output("g")
-def spreader_mass(spreader_volume: Scalar, spreader_density: Scalar) -> Scalar:
+def spreader_mass(m: Module) -> Scalar:
     """Mass of all spreaders together; zero without."""
-    return spreader_volume * spreader_density
+    return m.spreader_volume * m.spreader_density
 
 
 @flows.output("mm^2")
-def heated_area(heater_form: str, pcl_area: Scalar, heater_count: Scalar, peltier_area: Scalar) -> Scalar:
+def heated_area(m: Module) -> Scalar:
     """Area of all Peltier modules towards the layer."""
-    return pcl_area if heater_form == CUT else heater_count * peltier_area
+    return m.pcl_area if m.heater_form == CUT else m.heater_count * m.peltier_area
 
 
 @flows.output("%")
-def heater_coverage(heated_area: Scalar, pcl_area: Scalar) -> Scalar:
+def heater_coverage(m: Module) -> Scalar:
     """Share of the layer's area that faces Peltier modules."""
-    return heated_area / pcl_area
+    return m.heated_area / m.pcl_area
 
 
 @flows.helper()
-def pad_contact(
-    heater_form: str,
-    hot_contact: Scalar,
-    spreader_conductivity: Scalar,
-    spreader_thickness: Scalar,
-    heater_coverage: Scalar,
-    spreader_contact: Scalar,
-    spreader_resistance: Scalar,
-) -> Scalar:
+def pad_contact(m: Module) -> Scalar:
     """Conductance from the modules' hot side to the layer [W/m^2 K]: contact, and the spreader where there is one."""
-    if heater_form == CUT:
-        return hot_contact
+    if m.heater_form == CUT:
+        return m.hot_contact
     through = spreader.contact_resistance(
-        hot_contact, spreader_conductivity, spreader_thickness, heater_coverage, spreader_contact
+        m.hot_contact, m.spreader_conductivity, m.spreader_thickness, m.heater_coverage, m.spreader_contact
     )
-    return 1.0 / (through + spreader_resistance)
+    return 1.0 / (through + m.spreader_resistance)
 
 
 @flows.helper()
-def to_spreader(
-    heater_form: str, heater_coverage: Scalar, spreader_contact: Scalar, spreader_resistance: Scalar
-) -> Scalar:
+def to_spreader(m: Module) -> Scalar:
     """What of that lies between the modules' hot side and the mean of the spreader [m^2 K/W]; nothing without one."""
-    return 0.0 if heater_form == CUT else 1.0 / (heater_coverage * spreader_contact) + spreader_resistance
+    return 0.0 if m.heater_form == CUT else 1.0 / (m.heater_coverage * m.spreader_contact) + m.spreader_resistance
 
 
 @flows.helper(requires=WITH_TILES)
-def spreader_capacity(spreader_mass: Scalar, spreader_specific_heat: Scalar) -> Scalar:
+def spreader_capacity(m: Module) -> Scalar:
     """Heat capacity of all spreaders [J/K], counted at the modules' hot side; zero without."""
-    return spreader_mass * spreader_specific_heat
+    return m.spreader_mass * m.spreader_specific_heat

@@ -11,14 +11,13 @@ import functools
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.record import Record
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.heat.thermal_stack import quantities as heat
 from tvimdesign.device.core.materials import quantities as materials
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import electrodes
-from tvimdesign.physics.heat_flow.heat import Profile
 
 PADS = "pads"
 LAYER_HEATED = (Feature("heat_source", PADS),)
@@ -44,22 +43,12 @@ for name, description in (
 
 
 @flows.output("ohm", requires=LAYER_HEATED)
-def layer_resistance(
-    heater_form: str,
-    peltier_module: Record,
-    pcl_resistivity: Scalar,
-    pcl_depth: Scalar,
-    pcl_area: Scalar,
-    electrode_gap: Scalar,
-    electrode_width: Scalar,
-    heater_count: Scalar,
-    heater_strings: Scalar,
-) -> Scalar:
+def layer_resistance(m: Module) -> Scalar:
     """Resistance of the whole layer between its combs, wired as the heaters are."""
-    if heater_form != CUT:
-        raise InputError(f"heat_source: layer needs a heater that lies on the layer; {peltier_module.name} is rigid")
-    whole = electrodes.comb_resistance(pcl_resistivity, pcl_depth, pcl_area, electrode_gap, electrode_width)
-    return whole * (heater_count / heater_strings) ** 2
+    if m.heater_form != CUT:
+        raise InputError(f"heat_source: layer needs a heater that lies on the layer; {m.peltier_module.name} is rigid")
+    whole = electrodes.comb_resistance(m.pcl_resistivity, m.pcl_depth, m.pcl_area, m.electrode_gap, m.electrode_width)
+    return whole * (m.heater_count / m.heater_strings) ** 2
 
 
 @flows.output(
@@ -67,15 +56,15 @@ def layer_resistance(
     at_least(0.0, "the current stays near the combs, and does not heat the layer's far side"),
     requires=LAYER_HEATED,
 )
-def electrode_gap_margin(electrode_gap: Scalar, pcl_depth: Scalar) -> Scalar:
+def electrode_gap_margin(m: Module) -> Scalar:
     """Gap between the fingers of the combs less the layer's depth."""
-    return electrode_gap - pcl_depth
+    return m.electrode_gap - m.pcl_depth
 
 
 @flows.helper(instant=True)
-def hottest_pcl(heat_source: str, stack_profile: Profile) -> Scalar:
+def hottest_pcl(m: Module) -> Scalar:
     """Highest temperature [K] in the layer: at its face to the pads that heat it, anywhere in one that heats itself."""
-    if heat_source == PADS:
-        return stack_profile.near
-    cells = [stack_profile.cells[i] for i in range(len(stack_profile.cells))]
-    return functools.reduce(np.fmax, [stack_profile.near, *cells])
+    if m.heat_source == PADS:
+        return m.stack_profile.near
+    cells = [m.stack_profile.cells[i] for i in range(len(m.stack_profile.cells))]
+    return functools.reduce(np.fmax, [m.stack_profile.near, *cells])

@@ -15,15 +15,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.impedance.joint_impedance import joint_damping, joint_impedance, joint_stiffness
-from tvimdesign.device.table.quantity import Phase, Scalar
+from tvimdesign.device.core.impedance.joint_impedance import impedance_beside
+from tvimdesign.device.table.module import Module
+from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
-from tvimdesign.physics.heat_flow.liner import Liner
-from tvimdesign.physics.heat_flow.lip import Lip
 from tvimdesign.physics.layers import layer
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer
 
 POWER_ROUNDING = 0.01  # W
 """Width of the corner where the pads stop generating."""
@@ -43,172 +41,99 @@ quantities.option(
 
 
 @quantities.output("1")
-def peltier_scale(heated_area: Scalar, peltier_area: Scalar) -> Scalar:
+def peltier_scale(m: Module) -> Scalar:
     """Area of the pads over the area of the catalogue module they are cut from, or the count of modules."""
-    return heated_area / peltier_area
+    return m.heated_area / m.peltier_area
 
 
 @quantities.helper()
-def pads(
-    peltier_scale: Scalar,
-    heater_strings: Scalar,
-    peltier_seebeck: Scalar,
-    peltier_resistance: Scalar,
-    peltier_conductance: Scalar,
-) -> peltier.PeltierModule:
+def pads(m: Module) -> peltier.PeltierModule:
     """All pads as one module: S, R and K grow with the count of couples, strings in parallel share the current."""
-    one = peltier.PeltierModule(peltier_seebeck, peltier_resistance, peltier_conductance)
-    return peltier.wired(one, peltier_scale, heater_strings)
+    one = peltier.PeltierModule(m.peltier_seebeck, m.peltier_resistance, m.peltier_conductance)
+    return peltier.wired(one, m.peltier_scale, m.heater_strings)
 
 
 @quantities.helper()
-def core_and_link(
-    core_radius: Scalar,
-    pcl_inner_radius: Scalar,
-    rotor_thickness: Scalar,
-    plate_mass: Scalar,
-    rotor_mass: Scalar,
-    link_mass: Scalar,
-    retainer_mass: Scalar,
-    liner_recess: Section,
-    structure_density: Scalar,
-    structure_specific_heat: Scalar,
-    structure_conductivity: Scalar,
-) -> lumps.Lump:
+def core_and_link(m: Module) -> lumps.Lump:
     """Core, link and retainer, which the plate heats through its inner ring: 2 pi k h/ln(r_i/r_c)."""
-    plate = plate_mass - liner_recess.area * structure_density
+    plate = m.plate_mass - m.liner_recess.area * m.structure_density
+    sheet = 2.0 * np.pi * m.structure_conductivity * m.rotor_thickness
     return lumps.Lump(
-        conductance=2.0 * np.pi * structure_conductivity * rotor_thickness / np.log(pcl_inner_radius / core_radius),
-        capacity=(rotor_mass - plate + link_mass + retainer_mass) * structure_specific_heat,
+        conductance=sheet / np.log(m.pcl_inner_radius / m.core_radius),
+        capacity=(m.rotor_mass - plate + m.link_mass + m.retainer_mass) * m.structure_specific_heat,
         surface=lumps.NOWHERE,
     )
 
 
 @quantities.helper()
-def structure_heat_capacity(structure_density: Scalar, structure_specific_heat: Scalar) -> Scalar:
+def structure_heat_capacity(m: Module) -> Scalar:
     """Heat capacity of the printed or milled parts per volume [J/m^3 K]."""
-    return structure_density * structure_specific_heat
+    return m.structure_density * m.structure_specific_heat
 
 
 @quantities.helper()
-def floor_in_air(housing_coefficient: Scalar, surface_emissivity: Scalar) -> lumps.Surface:
+def floor_in_air(m: Module) -> lumps.Surface:
     """What a square metre of the floor's lower face gives to the air."""
-    return lumps.Surface(1.0, housing_coefficient, surface_emissivity)
+    return lumps.Surface(1.0, m.housing_coefficient, m.surface_emissivity)
 
 
 @quantities.helper()
-def housing_rest(
-    housing_outer_radius: Scalar,
-    rim_level: Scalar,
-    foot_height: Scalar,
-    floor_thickness: Scalar,
-    housing_mass: Scalar,
-    structure_specific_heat: Scalar,
-    floor_in_air: lumps.Surface,
-) -> lumps.Body:
+def housing_rest(m: Module) -> lumps.Body:
     """The whole housing's heat capacity, and its wall and feet in the air; a mode takes the floor's bodies from it."""
-    side = 2.0 * np.pi * housing_outer_radius * (rim_level + floor_thickness + foot_height)
-    return lumps.Body(housing_mass * structure_specific_heat, floor_in_air._replace(area=side))
+    side = 2.0 * np.pi * m.housing_outer_radius * (m.rim_level + m.floor_thickness + m.foot_height)
+    return lumps.Body(m.housing_mass * m.structure_specific_heat, m.floor_in_air._replace(area=side))
 
 
 @quantities.helper()
-def sink(
-    cold_side: str,
-    sink_contact: Scalar,
-    sink_capacity: Scalar,
-    sink_area: Scalar,
-    sink_coefficient: Scalar,
-    surface_emissivity: Scalar,
-    cold_area: Scalar,
-    cold_to_sink: Scalar,
-) -> lumps.Lump | None:
+def sink(m: Module) -> lumps.Lump | None:
     """Sink at the pads' cold sides, where those are open: behind its contact, and what leads to it along them."""
-    if cold_side == "open":
+    if m.cold_side == "open":
         return None
-    surface = lumps.Surface(sink_area, sink_coefficient, surface_emissivity)
-    contact = 1.0 / (1.0 / (sink_contact * cold_area) + cold_to_sink)
-    return lumps.Lump(conductance=contact, capacity=sink_capacity, surface=surface)
+    surface = lumps.Surface(m.sink_area, m.sink_coefficient, m.surface_emissivity)
+    contact = 1.0 / (1.0 / (m.sink_contact * m.cold_area) + m.cold_to_sink)
+    return lumps.Lump(conductance=contact, capacity=m.sink_capacity, surface=surface)
 
 
 @quantities.helper()
-def heat_links(
-    floor_links: tuple[lumps.Link, ...],
-    stack_links: tuple[lumps.Link, ...],
-    side_links: tuple[lumps.Link, ...],
-    loss_links: tuple[lumps.Link, ...],
-) -> tuple[lumps.Link, ...]:
+def heat_links(m: Module) -> tuple[lumps.Link, ...]:
     """What passes heat between the stack and the bodies beside and around it, and among these."""
-    return (*floor_links, *stack_links, *side_links, *loss_links)
+    return (*m.floor_links, *m.stack_links, *m.side_links, *m.loss_links)
 
 
 @quantities.helper()
-def stack(
-    pcl_area: Scalar,
-    pcl_depth: Scalar,
-    pcl_density: Scalar,
-    pcl_conductivity_solid: Scalar,
-    pcl_conductivity_melt: Scalar,
-    pcl_melting: polymer.Melting,
-    pads: peltier.PeltierModule,
-    layer_resistance: Scalar,
-    peltier_mass: Scalar,
-    peltier_specific_heat: Scalar,
-    cold_side_coefficient: Scalar,
-    surface_emissivity: Scalar,
-    cold_area: Scalar,
-    pad_contact: Scalar,
-    to_spreader: Scalar,
-    spreader_capacity: Scalar,
-    rotor_contact: Scalar,
-    liner_sheet: Liner | None,
-    backing_depth: Scalar,
-    plate_outside: lumps.Surface,
-    structure_conductivity: Scalar,
-    structure_density: Scalar,
-    structure_specific_heat: Scalar,
-    ambient_temperature: Scalar,
-    rotor_cells: float,
-    rotor_beside: tuple[lumps.Lump, ...],
-    uneven_sideways: Scalar | None,
-    core_and_link: lumps.Lump,
-    core_share: Scalar,
-    sink: lumps.Lump | None,
-    around_pads: tuple[lumps.Body, ...],
-    heat_links: tuple[lumps.Link, ...],
-    lip: Lip | None,
-) -> heat.Stack:
+def stack(m: Module) -> heat.Stack:
     """The stack the heat passes, from the cold side's air to the air above the rotor."""
-    side, legs = peltier.shared_capacity(peltier_mass * peltier_specific_heat)
+    side, legs = peltier.shared_capacity(m.peltier_mass * m.peltier_specific_heat)
     return heat.Stack(
-        area=pcl_area,
-        thickness=pcl_depth,
-        density=pcl_density,
-        conductivity_solid=pcl_conductivity_solid,
-        conductivity_melt=pcl_conductivity_melt,
-        melting=pcl_melting,
-        peltier=pads,
+        area=m.pcl_area,
+        thickness=m.pcl_depth,
+        density=m.pcl_density,
+        conductivity_solid=m.pcl_conductivity_solid,
+        conductivity_melt=m.pcl_conductivity_melt,
+        melting=m.pcl_melting,
+        peltier=m.pads,
         cold_capacity=side,
-        hot_capacity=side + spreader_capacity,
+        hot_capacity=side + m.spreader_capacity,
         legs_capacity=legs,
         # The pads' cold sides meet the air in the windows; the ledges are plastic.
-        cold_surface=lumps.Surface(cold_area, cold_side_coefficient, surface_emissivity),
-        hot_contact=pad_contact,
-        plate_contact=rotor_contact,
-        liner=liner_sheet,
-        plate_thickness=backing_depth,
-        plate_conductivity=structure_conductivity,
-        plate_heat_capacity=structure_density * structure_specific_heat,
-        plate_surface=plate_outside,
-        ambient=ambient_temperature,
-        plate_cells=int(rotor_cells),
-        beside=(*rotor_beside, core_and_link._replace(conductance=core_share * core_and_link.conductance)),
-        uneven_conductance=uneven_sideways,
-        sink=sink,
-        around=around_pads,
-        links=heat_links,
-        lip=lip,
-        to_spreader=to_spreader / pcl_area,
-        layer_resistance=layer_resistance,
+        cold_surface=lumps.Surface(m.cold_area, m.cold_side_coefficient, m.surface_emissivity),
+        hot_contact=m.pad_contact,
+        plate_contact=m.rotor_contact,
+        liner=m.liner_sheet,
+        plate_thickness=m.backing_depth,
+        plate_conductivity=m.structure_conductivity,
+        plate_heat_capacity=m.structure_density * m.structure_specific_heat,
+        plate_surface=m.plate_outside,
+        ambient=m.ambient_temperature,
+        plate_cells=int(m.rotor_cells),
+        beside=(*m.rotor_beside, m.core_and_link._replace(conductance=m.core_share * m.core_and_link.conductance)),
+        uneven_conductance=m.uneven_sideways,
+        sink=m.sink,
+        around=m.around_pads,
+        links=m.heat_links,
+        lip=m.lip,
+        to_spreader=m.to_spreader / m.pcl_area,
+        layer_resistance=m.layer_resistance,
     )
 
 
@@ -216,116 +141,107 @@ def stack(
 
 
 @quantities.helper(instant=True)
-def stack_now(stack: heat.Stack, phase: Phase, phase_model: str, pcl_kinetics: crystallization.Kinetics) -> heat.Stack:
+def stack_now(m: Module) -> heat.Stack:
     """The stack as a phase sees it: where the layer freezes, with the kinetics of freezing."""
-    return stack._replace(freezing=pcl_kinetics) if phase.history and phase_model == "kinetic" else stack
+    return m.stack._replace(freezing=m.pcl_kinetics) if m.phase.history and m.phase_model == "kinetic" else m.stack
 
 
 @quantities.helper(instant=True)
-def stack_profile(state: Scalar, stack_now: heat.Stack) -> heat.Profile:
+def stack_profile(m: Module) -> heat.Profile:
     """Temperatures and solid fractions through the stack."""
-    return heat.profile(state, stack_now)
+    return heat.profile(m.state, m.stack_now)
 
 
 @quantities.helper(instant=True)
-def state_rates(state: Scalar, stack_now: heat.Stack, drive_current: Scalar, motion_heat: Scalar) -> Scalar:
+def state_rates(m: Module) -> Scalar:
     """Time derivative of the thermal state."""
-    return heat.rates(state, stack_now._replace(motion_heat=motion_heat), drive_current)
+    return heat.rates(m.state, m.stack_now._replace(motion_heat=m.motion_heat), m.drive_current)
 
 
 @quantities.output("W", instant=True)
-def terminal_power(stack_profile: heat.Profile, stack_now: heat.Stack, drive_current: Scalar) -> Scalar:
+def terminal_power(m: Module) -> Scalar:
     """Electrical power at the pads' terminals, negative where they generate."""
-    return heat.electrical_power(stack_profile, stack_now, drive_current)
+    return heat.electrical_power(m.stack_profile, m.stack_now, m.drive_current)
 
 
 @quantities.output("W", instant=True)
-def electrical_power(terminal_power: Scalar) -> Scalar:
+def electrical_power(m: Module) -> Scalar:
     """Power the supply gives; what the pads generate is not recovered."""
-    return polymer.ramp(terminal_power, POWER_ROUNDING)
+    return polymer.ramp(m.terminal_power, POWER_ROUNDING)
 
 
 @quantities.output("V", instant=True)
-def supply_voltage(stack_profile: heat.Profile, stack_now: heat.Stack, drive_current: Scalar) -> Scalar:
+def supply_voltage(m: Module) -> Scalar:
     """Voltage over all pads as they are wired, in size."""
-    return np.fabs(heat.voltage(stack_profile, stack_now, drive_current))
+    return np.fabs(heat.voltage(m.stack_profile, m.stack_now, m.drive_current))
 
 
 @quantities.output("degC", instant=True)
-def mean_temperature(stack_profile: heat.Profile) -> Scalar:
+def mean_temperature(m: Module) -> Scalar:
     """Mean temperature of the layer."""
-    return np.mean(stack_profile.cells)
+    return np.mean(m.stack_profile.cells)
 
 
 @quantities.helper(instant=True)
-def frequency_now(phase: Phase, frequency_at_hot: Scalar, frequency_at_cold: Scalar) -> Scalar:
+def frequency_now(m: Module) -> Scalar:
     """Frequency of the operating point where the phase leads [Hz]."""
-    return frequency_at_hot if phase.sign > 0.0 else frequency_at_cold
+    return m.frequency_at_hot if m.phase.sign > 0.0 else m.frequency_at_cold
 
 
 @quantities.helper(instant=True)
-def slice_moduli(
-    stack_profile: heat.Profile, pcl_rheology: polymer.AnyRheology, frequency_now: Scalar
-) -> tuple[Scalar, Scalar]:
+def slice_moduli(m: Module) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer's slices [Pa], at the frequency of where the phase leads."""
-    return polymer.moduli(stack_profile.cells, stack_profile.fractions, 2.0 * np.pi * frequency_now, pcl_rheology)
+    return polymer.moduli(
+        m.stack_profile.cells, m.stack_profile.fractions, 2.0 * np.pi * m.frequency_now, m.pcl_rheology
+    )
 
 
 @quantities.helper(instant=True)
-def column_compliances(
-    stack_now: heat.Stack, layer_temperatures: list[Scalar], pcl_rheology: polymer.AnyRheology, frequency_now: Scalar
-) -> list[tuple[Scalar, Scalar]]:
+def column_compliances(m: Module) -> list[tuple[Scalar, Scalar]]:
     """Compliance of the slices in each column [1/Pa] of a layer that melts; one that freezes has no columns."""
-    if stack_now.freezing is not None:
+    if m.stack_now.freezing is not None:
         return []
-    omega = 2.0 * np.pi * frequency_now
-    return [layer.melting_compliance(one, stack_now.melting, omega, pcl_rheology) for one in layer_temperatures]
+    omega = 2.0 * np.pi * m.frequency_now
+    return [layer.melting_compliance(one, m.stack_now.melting, omega, m.pcl_rheology) for one in m.layer_temperatures]
 
 
 @quantities.helper(instant=True)
-def layer_moduli(
-    stack_now: heat.Stack,
-    slice_moduli: tuple[Scalar, Scalar],
-    column_compliances: list[tuple[Scalar, Scalar]],
-    column_shares: tuple[float, ...],
-) -> tuple[Scalar, Scalar]:
+def layer_moduli(m: Module) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the layer [Pa]: its slices in series, and while it melts its columns side by side.
 
     A layer that freezes has one history at each depth.
     """
-    if stack_now.freezing is not None:
-        return layer.series_modulus(*slice_moduli)
-    return layer.side_by_side(column_compliances, column_shares)
+    if m.stack_now.freezing is not None:
+        return layer.series_modulus(*m.slice_moduli)
+    return layer.side_by_side(m.column_compliances, m.column_shares)
 
 
 @quantities.helper(instant=True)
-def layer_stiffness_now(
-    layer_moduli: tuple[Scalar, Scalar], moment_now: Scalar, pcl_depth: Scalar
-) -> tuple[Scalar, Scalar]:
+def layer_stiffness_now(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of the layer [N*m/rad]."""
-    storage, loss = layer_moduli
-    return storage * moment_now / pcl_depth, loss * moment_now / pcl_depth
+    storage, loss = m.layer_moduli
+    return storage * m.moment_now / m.pcl_depth, loss * m.moment_now / m.pcl_depth
 
 
 @quantities.helper(instant=True)
-def branch_now(layer_stiffness_now: tuple[Scalar, Scalar], support_now: tuple[Scalar, Scalar]) -> tuple[Scalar, Scalar]:
+def branch_now(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    return layer.series_stiffness(*layer_stiffness_now, *support_now)
+    return layer.series_stiffness(*m.layer_stiffness_now, *m.support_now)
 
 
 @quantities.output("N*m/rad", instant=True)
-def impedance_now(spring_stiffness: Scalar, branch_now: tuple[Scalar, Scalar]) -> Scalar:
+def impedance_now(m: Module) -> Scalar:
     """Magnitude of the joint's dynamic stiffness at the frequency of where the phase leads."""
-    return joint_impedance(spring_stiffness, branch_now)
+    return impedance_beside(m.spring_stiffness, m.branch_now)
 
 
 @quantities.output("N*m/rad", instant=True)
-def stiffness_now(spring_stiffness: Scalar, branch_now: tuple[Scalar, Scalar]) -> Scalar:
+def stiffness_now(m: Module) -> Scalar:
     """Stiffness of the joint at the frequency of where the phase leads."""
-    return joint_stiffness(spring_stiffness, branch_now)
+    return m.spring_stiffness + m.branch_now[0]
 
 
 @quantities.output("N*m*s/rad", instant=True)
-def damping_now(branch_now: tuple[Scalar, Scalar], frequency_now: Scalar) -> Scalar:
+def damping_now(m: Module) -> Scalar:
     """Damping of the joint at the frequency of where the phase leads."""
-    return joint_damping(branch_now, frequency_now)
+    return m.branch_now[1] / (2.0 * np.pi * m.frequency_now)

@@ -8,6 +8,7 @@ the melt does (`hot_damping_at_stroke` is less).
 from __future__ import annotations
 
 from tvimdesign.device.core.heat.thermal_stack import quantities as shared
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
@@ -22,35 +23,18 @@ quantities.option(
 
 
 @quantities.output("W", per_point=True)
-def viscous_heating(
-    pcl_stiffness: Scalar,
-    pcl_damping: Scalar,
-    branch_stiffness: tuple[Scalar, Scalar],
-    joint_impedance: Scalar,
-    joint_impedance_at_hot: Scalar,
-    stroke: Scalar,
-    frequency: Scalar,
-) -> Scalar:
+def viscous_heating(m: Module) -> Scalar:
     """Heat in the PCL where the joint is turned by the torque that turns the hot joint by its stroke."""
-    pcl = (pcl_stiffness, layer.loss_stiffness(pcl_damping, frequency))
-    turned = stroke * joint_impedance_at_hot / joint_impedance
-    return layer.dissipation(pcl, branch_stiffness, turned, frequency)
+    pcl = (m.pcl_stiffness, layer.loss_stiffness(m.pcl_damping, m.frequency))
+    turned = m.stroke * m.joint_impedance_at_hot / m.joint_impedance
+    return layer.dissipation(pcl, m.branch_stiffness, turned, m.frequency)
 
 
 @quantities.helper(instant=True)
-def motion_heat(
-    motion: str,
-    slice_moduli: tuple[Scalar, Scalar],
-    layer_stiffness_now: tuple[Scalar, Scalar],
-    branch_now: tuple[Scalar, Scalar],
-    impedance_now: Scalar,
-    joint_impedance_at_hot: Scalar,
-    stroke: Scalar,
-    frequency_now: Scalar,
-) -> Scalar:
+def motion_heat(m: Module) -> Scalar:
     """Heat [W] the joint's motion makes in each slice of the PCL, most in those that are molten."""
-    if motion == "at_rest":
+    if m.motion == "at_rest":
         return 0.0
-    turned = stroke * joint_impedance_at_hot / impedance_now
-    heat = layer.dissipation(layer_stiffness_now, branch_now, turned, frequency_now)
-    return heat * layer.loss_shares(*slice_moduli)
+    turned = m.stroke * m.joint_impedance_at_hot / m.impedance_now
+    heat = layer.dissipation(m.layer_stiffness_now, m.branch_now, turned, m.frequency_now)
+    return heat * layer.loss_shares(*m.slice_moduli)

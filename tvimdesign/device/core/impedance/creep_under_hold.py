@@ -9,12 +9,11 @@ impedance, however much of its stress has relaxed. The springs turn such a joint
 
 from __future__ import annotations
 
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold
 from tvimdesign.physics.motions import one_sided
-from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.physics.motions.one_sided import Touching
 
 quantities = QuantityGroup("Hold")
 
@@ -22,55 +21,51 @@ quantities.inputs()
 
 
 @quantities.output("N*m")
-def hold_torque(hold_share: Scalar, spring_stiffness: Scalar, stroke: Scalar) -> Scalar:
+def hold_torque(m: Module) -> Scalar:
     """Load of the hold; at `hold_share` 1 it turns the springs alone by the stroke."""
-    return hold_share * spring_stiffness * stroke
+    return m.hold_share * m.spring_stiffness * m.stroke
 
 
 @quantities.helper(per_point=True)
-def held(
-    hold_torque: Scalar, hold_time: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
-) -> hold.Held:
+def held(m: Module) -> hold.Held:
     """Joint and PCL at the end of the hold."""
-    return hold.held(hold_torque, hold_time, spring_stiffness, elastic_support, pcl_modes)
+    return hold.held(m.hold_torque, m.hold_time, m.spring_stiffness, m.elastic_support, m.pcl_modes)
 
 
 @quantities.output("rad", per_point=True)
-def hold_angle(held: hold.Held) -> Scalar:
+def hold_angle(m: Module) -> Scalar:
     """Angle to which the load has turned the joint at the end of the hold."""
-    return held.angle
+    return m.held.angle
 
 
 @quantities.output("1", per_point=True)
-def pcl_relaxation(hold_time: Scalar, pcl_modes: Modes) -> Scalar:
+def pcl_relaxation(m: Module) -> Scalar:
     """Share of its stress that the PCL loses when it is held at an angle as long; not a share of the impedance."""
-    return block.relaxation_loss(hold_time, pcl_modes)
+    return block.relaxation_loss(m.hold_time, m.pcl_modes)
 
 
 @quantities.output("rad", per_point=True)
-def set_angle(held: hold.Held) -> Scalar:
+def set_angle(m: Module) -> Scalar:
     """Angle at which the PCL is free of stress right after the hold; before, that was at rest."""
-    return held.set_angle
+    return m.held.set_angle
 
 
 @quantities.output("rad", per_point=True, headline=True)
-def backlash(set_angle: Scalar, parting_share: Scalar) -> Scalar:
+def backlash(m: Module) -> Scalar:
     """Angle over which only the springs act right after the hold; none where the PCL is bonded to both its faces."""
-    return parting_share * set_angle
+    return m.parting_share * m.set_angle
 
 
 @quantities.output("1", per_point=True, headline=True)
-def relaxation_loss(
-    hold_angle: Scalar, backlash: Scalar, spring_stiffness: Scalar, elastic_support: Scalar, pcl_modes: Modes
-) -> Scalar:
+def relaxation_loss(m: Module) -> Scalar:
     """Share of the impedance lost in the hold: of the torque of a quick turn from rest to where the joint was held.
 
     A bonded layer that has relaxed takes the whole torque of such a turn: it starts from the stress it has.
     """
-    return hold.impedance_loss(hold_angle, backlash, spring_stiffness, elastic_support, pcl_modes)
+    return hold.impedance_loss(m.hold_angle, m.backlash, m.spring_stiffness, m.elastic_support, m.pcl_modes)
 
 
 @quantities.first_oscillation("1")
-def contact_lost(touching: Touching) -> Scalar:
+def contact_lost(m: Module) -> Scalar:
     """Share of the first swing of a released link, up to its second turn, in which no PCL is in contact."""
-    return one_sided.out_of_contact(touching)
+    return one_sided.out_of_contact(m.touching)

@@ -10,6 +10,7 @@ import numpy as np
 
 from tvimdesign.base.record import Record
 from tvimdesign.device.core.materials import CRYSTALLIZING, GLASS
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
@@ -23,48 +24,31 @@ quantities.inputs()
 
 
 @quantities.helper()
-def pcl_melting(
-    pcl_specific_heat_solid: Scalar,
-    pcl_specific_heat_melt: Scalar,
-    pcl_latent_heat: Scalar,
-    pcl_melting_start: Scalar,
-    pcl_melting_end: Scalar,
-    enthalpy_smoothing: Scalar,
-) -> polymer.Melting:
+def pcl_melting(m: Module) -> polymer.Melting:
     """Melting curve of the PCL."""
-    return polymer.Melting(pcl_specific_heat_solid, pcl_specific_heat_melt, pcl_latent_heat, pcl_melting_start,
-                           pcl_melting_end, enthalpy_smoothing)  # fmt: skip
+    return polymer.Melting(
+        m.pcl_specific_heat_solid, m.pcl_specific_heat_melt, m.pcl_latent_heat, m.pcl_melting_start, m.pcl_melting_end,
+        m.enthalpy_smoothing,
+    )  # fmt: skip
 
 
 @quantities.helper(requires=CRYSTALLIZING, default=None)
-def pcl_kinetics(
-    pcl_avrami_exponent: Scalar,
-    pcl_crystallization_half_time: Scalar,
-    pcl_crystallization_reference: Scalar,
-    pcl_nucleation_constant: Scalar,
-    pcl_equilibrium_melting_temperature: Scalar,
-    pcl_glass_transition: Scalar,
-    pcl_transport_energy: Scalar,
-    melting_time: Scalar,
-) -> crystallization.Kinetics:
+def pcl_kinetics(m: Module) -> crystallization.Kinetics:
     """Freezing and melting of the PCL in time; none where it freezes as it melts."""
-    return crystallization.Kinetics(pcl_avrami_exponent, pcl_crystallization_half_time, pcl_crystallization_reference,
-                                    pcl_nucleation_constant, pcl_equilibrium_melting_temperature, pcl_glass_transition,
-                                    pcl_transport_energy, melting_time)  # fmt: skip
+    return crystallization.Kinetics(
+        m.pcl_avrami_exponent, m.pcl_crystallization_half_time, m.pcl_crystallization_reference,
+        m.pcl_nucleation_constant, m.pcl_equilibrium_melting_temperature, m.pcl_glass_transition,
+        m.pcl_transport_energy, m.melting_time,
+    )  # fmt: skip
 
 
 @quantities.helper()
-def pcl_solid_modulus(
-    pcl_flexural_modulus: Scalar,
-    pcl_reference_temperature: Scalar,
-    pcl_softening_slope: Scalar,
-    pcl_softening_onset: Scalar,
-    pcl_softening_width: Scalar,
-    pcl_poissons_ratio: Scalar,
-) -> polymer.SolidModulus:
+def pcl_solid_modulus(m: Module) -> polymer.SolidModulus:
     """Modulus of the frozen PCL."""
-    return polymer.SolidModulus(pcl_flexural_modulus, pcl_reference_temperature, pcl_softening_slope,
-                                pcl_softening_onset, pcl_softening_width, pcl_poissons_ratio)  # fmt: skip
+    return polymer.SolidModulus(
+        m.pcl_flexural_modulus, m.pcl_reference_temperature, m.pcl_softening_slope, m.pcl_softening_onset,
+        m.pcl_softening_width, m.pcl_poissons_ratio,
+    )  # fmt: skip
 
 
 def melt_modes(pcl_grade: Record, viscosity: Scalar = None, plateau: Scalar = None) -> polymer.Modes:
@@ -87,177 +71,160 @@ def solid_modes(pcl_grade: Record) -> polymer.Modes:
 
 
 @quantities.helper(requires=GLASS, default=None)
-def pcl_glass(
-    pcl_solid_modulus: polymer.SolidModulus,
-    pcl_grade: Record,
-    pcl_glass_transition: Scalar,
-    pcl_wlf_c1: Scalar,
-    pcl_wlf_c2: Scalar,
-    pcl_glass_activation_energy: Scalar,
-) -> glass.Glass:
+def pcl_glass(m: Module) -> glass.Glass:
     """Relaxation spectrum of a layer that softens through a glass transition, at any temperature."""
-    at_reference = structure.shear_modulus(pcl_solid_modulus.reference_modulus, pcl_solid_modulus.poissons_ratio)
-    transition = glass.GlassTransition(pcl_glass_transition, pcl_wlf_c1, pcl_wlf_c2, pcl_glass_activation_energy)
-    return glass.Glass(at_reference, pcl_solid_modulus.reference_temperature, transition, solid_modes(pcl_grade))
+    at_reference = structure.shear_modulus(m.pcl_solid_modulus.reference_modulus, m.pcl_solid_modulus.poissons_ratio)
+    transition = glass.GlassTransition(
+        m.pcl_glass_transition, m.pcl_wlf_c1, m.pcl_wlf_c2, m.pcl_glass_activation_energy
+    )
+    return glass.Glass(at_reference, m.pcl_solid_modulus.reference_temperature, transition, solid_modes(m.pcl_grade))
 
 
 @quantities.helper()
-def pcl_rheology(
-    pcl_solid_modulus: polymer.SolidModulus,
-    pcl_glass: glass.Glass | None,
-    pcl_grade: Record,
-    pcl_zero_shear_viscosity: Scalar,
-    pcl_plateau_modulus: Scalar,
-    pcl_flow_activation_energy: Scalar,
-    pcl_melt_reference: Scalar,
-    melt_viscosity_factor: Scalar,
-) -> polymer.AnyRheology:
+def pcl_rheology(m: Module) -> polymer.AnyRheology:
     """Relaxation spectrum of the PCL at any temperature and solid fraction.
 
     Chains of another length relax sooner or later; the melt's plateau modulus is the same (Ferry, ch. 13).
     """
-    if pcl_glass is not None:
-        return pcl_glass
-    solid = solid_modes(pcl_grade)
-    modes = melt_modes(pcl_grade, pcl_zero_shear_viscosity, pcl_plateau_modulus)
-    melt = [(melt_viscosity_factor * time, modulus) for time, modulus in modes]
-    return polymer.Rheology(pcl_solid_modulus, solid, melt, pcl_flow_activation_energy, pcl_melt_reference)
+    if m.pcl_glass is not None:
+        return m.pcl_glass
+    solid = solid_modes(m.pcl_grade)
+    modes = melt_modes(m.pcl_grade, m.pcl_zero_shear_viscosity, m.pcl_plateau_modulus)
+    melt = [(m.melt_viscosity_factor * time, modulus) for time, modulus in modes]
+    return polymer.Rheology(m.pcl_solid_modulus, solid, melt, m.pcl_flow_activation_energy, m.pcl_melt_reference)
 
 
 @quantities.helper()
-def pcl_linear_range(pcl_linear_strain_solid: Scalar, pcl_linear_strain_melt: Scalar) -> polymer.LinearRange:
+def pcl_linear_range(m: Module) -> polymer.LinearRange:
     """Strains up to which the PCL's moduli do not depend on strain."""
-    return polymer.LinearRange(pcl_linear_strain_solid, pcl_linear_strain_melt)
+    return polymer.LinearRange(m.pcl_linear_strain_solid, m.pcl_linear_strain_melt)
 
 
 @quantities.output("1", per_point=True)
-def solid_fraction(temperature: Scalar, pcl_melting: polymer.Melting) -> Scalar:
+def solid_fraction(m: Module) -> Scalar:
     """Share of the PCL that is frozen, on the equilibrium melting curve."""
-    return polymer.solid_fraction(polymer.enthalpy(temperature, pcl_melting), pcl_melting)
+    return polymer.solid_fraction(polymer.enthalpy(m.temperature, m.pcl_melting), m.pcl_melting)
 
 
 @quantities.output("%", per_point=True)
-def linear_strain(solid_fraction: Scalar, pcl_linear_range: polymer.LinearRange) -> Scalar:
+def linear_strain(m: Module) -> Scalar:
     """Shear strain up to which the PCL's moduli do not depend on it: the storage modulus has fallen 5 % there."""
-    return polymer.linear_strain(solid_fraction, pcl_linear_range)
+    return polymer.linear_strain(m.solid_fraction, m.pcl_linear_range)
 
 
 @quantities.helper(per_point=True)
-def pcl_modes(
-    temperature: Scalar,
-    solid_fraction: Scalar,
-    pcl_rheology: polymer.AnyRheology,
-    pcl_moment: Scalar,
-    pcl_depth: Scalar,
-) -> motion.Modes:
+def pcl_modes(m: Module) -> motion.Modes:
     """Maxwell elements of the PCL as it loads the joint: relaxation times [s] and stiffnesses [N*m/rad]."""
-    return motion.layer_modes(polymer.spectrum(temperature, solid_fraction, pcl_rheology), pcl_moment, pcl_depth)
+    return motion.layer_modes(
+        polymer.spectrum(m.temperature, m.solid_fraction, m.pcl_rheology), m.pcl_moment, m.pcl_depth
+    )
 
 
 @quantities.helper(per_point=True)
-def pcl_moduli(
-    temperature: Scalar, frequency: Scalar, solid_fraction: Scalar, pcl_rheology: polymer.AnyRheology
-) -> tuple[Scalar, Scalar]:
+def pcl_moduli(m: Module) -> tuple[Scalar, Scalar]:
     """Storage and loss modulus of the PCL [Pa]."""
-    return polymer.moduli(temperature, solid_fraction, 2.0 * np.pi * frequency, pcl_rheology)
+    return polymer.moduli(m.temperature, m.solid_fraction, 2.0 * np.pi * m.frequency, m.pcl_rheology)
 
 
 @quantities.output("Pa", per_point=True)
-def storage_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+def storage_modulus(m: Module) -> Scalar:
     """Storage shear modulus of the PCL, G'."""
-    return pcl_moduli[0]
+    return m.pcl_moduli[0]
 
 
 @quantities.output("Pa", per_point=True)
-def loss_modulus(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+def loss_modulus(m: Module) -> Scalar:
     """Loss shear modulus of the PCL, G''."""
-    return pcl_moduli[1]
+    return m.pcl_moduli[1]
 
 
 @quantities.output("1", per_point=True)
-def loss_factor(pcl_moduli: tuple[Scalar, Scalar]) -> Scalar:
+def loss_factor(m: Module) -> Scalar:
     """Loss factor of the PCL, tan(delta)."""
-    return pcl_moduli[1] / pcl_moduli[0]
+    return m.pcl_moduli[1] / m.pcl_moduli[0]
 
 
 @quantities.helper()
-def structure_shear_modulus(structure_youngs_modulus: Scalar, structure_poissons_ratio: Scalar) -> Scalar:
+def structure_shear_modulus(m: Module) -> Scalar:
     """Shear modulus of the structure [Pa]."""
-    return structure.shear_modulus(structure_youngs_modulus, structure_poissons_ratio)
+    return structure.shear_modulus(m.structure_youngs_modulus, m.structure_poissons_ratio)
 
 
 @quantities.helper()
-def pcl_mean_radius(pcl_inner_radius: Scalar, pcl_outer_radius: Scalar) -> Scalar:
+def pcl_mean_radius(m: Module) -> Scalar:
     """Mean radius of the PCL [m]."""
-    return 0.5 * (pcl_inner_radius + pcl_outer_radius)
+    return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius)
 
 
 @quantities.helper(per_point=True)
-def branch_stiffness(
-    pcl_stiffness: Scalar, pcl_damping: Scalar, frequency: Scalar, warm_structure: tuple[Scalar, Scalar]
-) -> tuple[Scalar, Scalar]:
+def branch_stiffness(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of layer and structure in series [N*m/rad]."""
-    loss = layer.loss_stiffness(pcl_damping, frequency)
-    return layer.series_stiffness(pcl_stiffness, loss, *warm_structure)
+    loss = layer.loss_stiffness(m.pcl_damping, m.frequency)
+    return layer.series_stiffness(m.pcl_stiffness, loss, *m.warm_structure)
 
 
 @quantities.output("N*m/rad", per_point=True)
-def joint_impedance(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
+def joint_impedance(m: Module) -> Scalar:
     """Magnitude of the joint's dynamic stiffness, springs and damping together."""
-    return np.sqrt((spring_stiffness + branch_stiffness[0]) ** 2 + branch_stiffness[1] ** 2)
+    return impedance_beside(m.spring_stiffness, m.branch_stiffness)
+
+
+def impedance_beside(springs: Scalar, branch: tuple[Scalar, Scalar]) -> Scalar:
+    """Return the magnitude [N*m/rad] of springs beside a branch of real and imaginary stiffness."""
+    return np.sqrt((springs + branch[0]) ** 2 + branch[1] ** 2)
 
 
 @quantities.output("N*m/rad", per_point=True, headline=True)
-def joint_stiffness(spring_stiffness: Scalar, branch_stiffness: tuple[Scalar, Scalar]) -> Scalar:
+def joint_stiffness(m: Module) -> Scalar:
     """Stiffness of the joint: springs, parallel to the layer in series with the structure."""
-    return spring_stiffness + branch_stiffness[0]
+    return m.spring_stiffness + m.branch_stiffness[0]
 
 
 @quantities.output("N*m*s/rad", per_point=True, headline=True)
-def joint_damping(branch_stiffness: tuple[Scalar, Scalar], frequency: Scalar) -> Scalar:
+def joint_damping(m: Module) -> Scalar:
     """Damping of the joint: the losses of layer and structure in series."""
-    return branch_stiffness[1] / (2.0 * np.pi * frequency)
+    return m.branch_stiffness[1] / (2.0 * np.pi * m.frequency)
 
 
 @quantities.output("Hz", per_point=True, headline=True)
-def natural_frequency(joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+def natural_frequency(m: Module) -> Scalar:
     """Undamped natural frequency of the joint with its load."""
-    return dynamics.natural_frequency(joint_stiffness, moving_inertia)
+    return dynamics.natural_frequency(m.joint_stiffness, m.moving_inertia)
 
 
 @quantities.output("1", per_point=True, headline=True)
-def damping_ratio(joint_damping: Scalar, joint_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+def damping_ratio(m: Module) -> Scalar:
     """Damping ratio of the joint with its load; above one it creeps back without ringing."""
-    return dynamics.damping_ratio(joint_damping, joint_stiffness, moving_inertia)
+    return dynamics.damping_ratio(m.joint_damping, m.joint_stiffness, m.moving_inertia)
 
 
 @quantities.output("Hz")
-def spring_natural_frequency(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+def spring_natural_frequency(m: Module) -> Scalar:
     """Undamped natural frequency on the springs alone."""
-    return dynamics.natural_frequency(spring_stiffness, moving_inertia)
+    return dynamics.natural_frequency(m.spring_stiffness, m.moving_inertia)
 
 
 @quantities.output("N*m*s/rad")
-def critical_damping(spring_stiffness: Scalar, moving_inertia: Scalar) -> Scalar:
+def critical_damping(m: Module) -> Scalar:
     """Damping above which the joint on its springs no longer rings."""
-    return dynamics.critical_damping(spring_stiffness, moving_inertia)
+    return dynamics.critical_damping(m.spring_stiffness, m.moving_inertia)
 
 
 @quantities.output("1", headline=True)
-def impedance_range(joint_stiffness_at_cold: Scalar, joint_stiffness_at_hot: Scalar) -> Scalar:
+def impedance_range(m: Module) -> Scalar:
     """Stiffness of the joint cold over hot."""
-    return joint_stiffness_at_cold / joint_stiffness_at_hot
+    return m.joint_stiffness_at_cold / m.joint_stiffness_at_hot
 
 
 @quantities.output("1")
-def damping_range(joint_damping_at_cold: Scalar, joint_damping_at_hot: Scalar) -> Scalar:
+def damping_range(m: Module) -> Scalar:
     """Damping of the joint cold over hot."""
-    return joint_damping_at_cold / joint_damping_at_hot
+    return m.joint_damping_at_cold / m.joint_damping_at_hot
 
 
 @quantities.output(
     "kg*mm^2", advice=(Rule(sense=">=", value=0.0, reason="the module's own parts have more inertia than that"),)
 )
-def load_inertia(moving_inertia: Scalar, parts_inertia: Scalar) -> Scalar:
+def load_inertia(m: Module) -> Scalar:
     """Inertia that is left for the load: the moving inertia less that of the module's own parts."""
-    return moving_inertia - parts_inertia
+    return m.moving_inertia - m.parts_inertia

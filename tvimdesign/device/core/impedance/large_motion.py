@@ -15,11 +15,11 @@ import numpy as np
 
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.materials import CRYSTALLIZING
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import friction
-from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.physics.polymers import large_strain
 
 quantities = QuantityGroup(shared.group)
@@ -28,114 +28,90 @@ Strains = Sequence[tuple[Scalar, Scalar]]
 
 
 @quantities.helper()
-def stroke_branch(
-    stroke_strains: Strains,
-    frequency_at_hot: Scalar,
-    pcl_modes_at_hot: Modes,
-    linear_strain_at_hot: Scalar,
-    support_at_hot: tuple[Scalar, Scalar],
-) -> tuple[Scalar, Scalar]:
+def stroke_branch(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness [N*m/rad] of the molten PCL and what is in series, at full stroke."""
-    angular = 2.0 * np.pi * frequency_at_hot
+    angular = 2.0 * np.pi * m.frequency_at_hot
     softened = [
-        (share, large_strain.wagner_moduli(strain, angular, pcl_modes_at_hot, linear_strain_at_hot))
-        for strain, share in stroke_strains
+        (share, large_strain.wagner_moduli(strain, angular, m.pcl_modes_at_hot, m.linear_strain_at_hot))
+        for strain, share in m.stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
-    return layer.series_stiffness(storage, loss, *support_at_hot)
+    return layer.series_stiffness(storage, loss, *m.support_at_hot)
 
 
 @quantities.output("N*m/rad")
-def hot_stiffness_at_stroke(spring_stiffness: Scalar, stroke_branch: tuple[Scalar, Scalar]) -> Scalar:
+def hot_stiffness_at_stroke(m: Module) -> Scalar:
     """Stiffness of the hot joint that swings over its whole stroke; `joint_stiffness@hot` is that of small motions."""
-    return spring_stiffness + stroke_branch[0]
+    return m.spring_stiffness + m.stroke_branch[0]
 
 
 @quantities.output("N*m*s/rad")
-def hot_friction_damping(
-    pin_friction_torque: Scalar,
-    preload_friction_torque: Scalar,
-    bearing_friction_share: Scalar,
-    spring_stiffness: Scalar,
-    stroke_branch: tuple[Scalar, Scalar],
-    frequency_at_hot: Scalar,
-    stroke: Scalar,
-) -> Scalar:
+def hot_friction_damping(m: Module) -> Scalar:
     """Viscous damping that loses as much in a cycle of the whole stroke as all friction in the hot joint.
 
     Pins and wave spring rub with a constant torque T, 4 T/(pi omega theta); bearings or bore as a force at the link's
     end loads them.
     """
-    angular = 2.0 * np.pi * frequency_at_hot
-    constant = friction.equivalent_damping(pin_friction_torque + preload_friction_torque, angular, stroke)
-    stiffness = spring_stiffness + stroke_branch[0]
-    loaded = friction.loaded_damping(bearing_friction_share, stiffness, stroke_branch[1], angular)
+    angular = 2.0 * np.pi * m.frequency_at_hot
+    constant = friction.equivalent_damping(m.pin_friction_torque + m.preload_friction_torque, angular, m.stroke)
+    stiffness = m.spring_stiffness + m.stroke_branch[0]
+    loaded = friction.loaded_damping(m.bearing_friction_share, stiffness, m.stroke_branch[1], angular)
     return constant + loaded
 
 
 @quantities.output("N*m*s/rad")
-def hot_damping_at_stroke(
-    stroke_branch: tuple[Scalar, Scalar], hot_friction_damping: Scalar, frequency_at_hot: Scalar
-) -> Scalar:
+def hot_damping_at_stroke(m: Module) -> Scalar:
     """Damping of the hot joint that swings over its whole stroke, friction counted.
 
     `joint_damping@hot` is that of small motions, without friction.
     """
-    return stroke_branch[1] / (2.0 * np.pi * frequency_at_hot) + hot_friction_damping
+    return m.stroke_branch[1] / (2.0 * np.pi * m.frequency_at_hot) + m.hot_friction_damping
 
 
 @quantities.output("rad")
-def cold_stroke(stroke: Scalar, holding_torque: Scalar, joint_stiffness_at_cold: Scalar) -> Scalar:
+def cold_stroke(m: Module) -> Scalar:
     """Angle over which the cold joint swings: its stroke, or as far as the torque that it holds turns it."""
-    return np.fmin(stroke, holding_torque / joint_stiffness_at_cold)
+    return np.fmin(m.stroke, m.holding_torque / m.joint_stiffness_at_cold)
 
 
 @quantities.output("N*m*s/rad")
-def cold_friction_damping(
-    pin_friction_torque: Scalar, bearing_damping_at_cold: Scalar, frequency_at_cold: Scalar, cold_stroke: Scalar
-) -> Scalar:
+def cold_friction_damping(m: Module) -> Scalar:
     """Viscous damping that loses as much in a cycle as friction of pins, bearings or bore in the cold joint.
 
     The wave spring does not rub while the PCL is frozen and the rotor off its stop.
     """
-    angular = 2.0 * np.pi * frequency_at_cold
-    return friction.equivalent_damping(pin_friction_torque, angular, cold_stroke) + bearing_damping_at_cold
+    angular = 2.0 * np.pi * m.frequency_at_cold
+    return friction.equivalent_damping(m.pin_friction_torque, angular, m.cold_stroke) + m.bearing_damping_at_cold
 
 
 @quantities.output("N*m*s/rad")
-def cold_damping_at_stroke(joint_damping_at_cold: Scalar, cold_friction_damping: Scalar) -> Scalar:
+def cold_damping_at_stroke(m: Module) -> Scalar:
     """Damping of the cold joint that swings over `cold_stroke`, friction counted; `joint_damping@cold` is without."""
-    return joint_damping_at_cold + cold_friction_damping
+    return m.joint_damping_at_cold + m.cold_friction_damping
 
 
 @quantities.output("N*m*s/rad")
-def hot_damping_at_stroke_least(
-    stroke_strains: Strains,
-    frequency_at_hot: Scalar,
-    pcl_modes_at_hot: Modes,
-    linear_strain_at_hot: Scalar,
-    support_at_hot: tuple[Scalar, Scalar],
-) -> Scalar:
+def hot_damping_at_stroke_least(m: Module) -> Scalar:
     """Damping of the hot joint over its whole stroke if the melt remembered all of it: the least, without friction.
 
     Chains longer than the grade's mean remember longer than the record's spectrum says.
     """
-    angular = 2.0 * np.pi * frequency_at_hot
+    angular = 2.0 * np.pi * m.frequency_at_hot
     softened = [
-        (share, large_strain.unrelaxed_moduli(strain, angular, pcl_modes_at_hot, linear_strain_at_hot))
-        for strain, share in stroke_strains
+        (share, large_strain.unrelaxed_moduli(strain, angular, m.pcl_modes_at_hot, m.linear_strain_at_hot))
+        for strain, share in m.stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
-    return layer.series_stiffness(storage, loss, *support_at_hot)[1] / angular
+    return layer.series_stiffness(storage, loss, *m.support_at_hot)[1] / angular
 
 
 @quantities.output("kPa", headline=True)
-def melt_stress(largest_melt_strain: Scalar, storage_modulus_at_hot: Scalar, loss_modulus_at_hot: Scalar) -> Scalar:
+def melt_stress(m: Module) -> Scalar:
     """Largest shear stress in the melt at full stroke and the hot point's frequency, softening by strain left out.
 
     So it is the most the melt can resist with.
     """
-    return large_strain.shear_stress(largest_melt_strain, storage_modulus_at_hot, loss_modulus_at_hot)
+    return large_strain.shear_stress(m.largest_melt_strain, m.storage_modulus_at_hot, m.loss_modulus_at_hot)
 
 
 @quantities.output(
@@ -143,25 +119,18 @@ def melt_stress(largest_melt_strain: Scalar, storage_modulus_at_hot: Scalar, los
     Rule(sense=">=", value=1.0, reason="the melt breaks, or slips on its faces, at the hot point's frequency"),
     requires=CRYSTALLIZING,
 )
-def melt_stress_safety(pcl_melt_fracture_stress: Scalar, melt_stress: Scalar) -> Scalar:
+def melt_stress_safety(m: Module) -> Scalar:
     """Shear stress at which the flowing melt breaks over the largest it sees."""
-    return pcl_melt_fracture_stress / melt_stress
+    return m.pcl_melt_fracture_stress / m.melt_stress
 
 
 @quantities.output("mrad", requires=CRYSTALLIZING)
-def edge_fracture_angle(
-    stroke: Scalar,
-    largest_melt_strain: Scalar,
-    pcl_depth: Scalar,
-    pcl_melt_surface_tension: Scalar,
-    pcl_normal_stress_ratio: Scalar,
-    storage_modulus_at_hot: Scalar,
-) -> Scalar:
+def edge_fracture_angle(m: Module) -> Scalar:
     """Deflection beyond which surface tension alone does not hold the melt's free edge at the hot point's frequency.
 
     In order of magnitude. A layer that goes on to the stroke needs walls or time to close again.
     """
     largest = large_strain.edge_strain(
-        pcl_depth, pcl_melt_surface_tension, pcl_normal_stress_ratio, storage_modulus_at_hot
+        m.pcl_depth, m.pcl_melt_surface_tension, m.pcl_normal_stress_ratio, m.storage_modulus_at_hot
     )
-    return stroke * largest / largest_melt_strain
+    return m.stroke * largest / m.largest_melt_strain

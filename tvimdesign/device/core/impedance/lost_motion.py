@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.base.record import Record
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.motions.friction import sliding_torque
@@ -26,33 +26,25 @@ quantities.inputs()
 
 
 @quantities.output("N")
-def pin_force(held_spring_rate: Scalar, preload_angle: Scalar, leg_arm: Scalar) -> Scalar:
+def pin_force(m: Module) -> Scalar:
     """Force of a spring's leg on its pin at rest."""
-    return held_spring_rate * preload_angle / leg_arm
+    return m.held_spring_rate * m.preload_angle / m.leg_arm
 
 
 @quantities.output("N*m")
-def pin_friction_torque(
-    spring_count: Scalar,
-    pin_friction: Scalar,
-    pin_force: Scalar,
-    pin_radius: Scalar,
-    placement_radius: Scalar,
-    leg_offset: Scalar,
-    pin_diameter: Scalar,
-) -> Scalar:
+def pin_friction_torque(m: Module) -> Scalar:
     """Torque by which the friction of all legs on their pins resists the rotor.
 
     At rest; over the stroke one hand presses harder by as much as the other presses less.
     """
-    slip = pin_slip(pin_radius, placement_radius, leg_offset, pin_diameter)
-    return spring_count * sliding_torque(pin_friction, pin_force, slip)
+    slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
+    return m.spring_count * sliding_torque(m.pin_friction, m.pin_force, slip)
 
 
 @quantities.output("rad")
-def friction_play(pin_friction_torque: Scalar, spring_stiffness: Scalar) -> Scalar:
+def friction_play(m: Module) -> Scalar:
     """Angle from rest within which the springs do not overcome the friction on their pins, the PCL molten."""
-    return pin_friction_torque / spring_stiffness
+    return m.pin_friction_torque / m.spring_stiffness
 
 
 class Support(NamedTuple):
@@ -69,59 +61,44 @@ class Support(NamedTuple):
 
 
 @quantities.helper()
-def core_support(
-    bearing: Record | str,
-    axial_preload: Record | str,
-    running_clearance: Scalar,
-    stop_play: Scalar,
-    preload_way: Scalar,
-    seat_clearance: Scalar,
-    bearing_internal_clearance: Scalar,
-    hub_top_level: Scalar,
-    hub_bottom_level: Scalar,
-    bearing_width: Scalar,
-    hub_radius: Scalar,
-    plate_lean: Scalar,
-) -> Support:
+def core_support(m: Module) -> Support:
     """Play and distance of what guides the core: the bore's ends, or the middles of two bearings.
 
     In a plain bore the plate on the hub and the retainer below stop the lean, the latter a running clearance away.
     With a wave spring between plate and hub it is the flat spring and the retainer. What reaches down from the plate
     towards the floor may touch before (`plate_lean`).
     """
-    length = hub_top_level - hub_bottom_level
-    if isinstance(bearing, str):
-        free = running_clearance if isinstance(axial_preload, str) else stop_play + preload_way
-        lean = np.fmin(free / (2.0 * hub_radius), plate_lean)
-        return Support(running_clearance, length, hub_top_level, lean)
+    length = m.hub_top_level - m.hub_bottom_level
+    if isinstance(m.bearing, str):
+        free = m.running_clearance if isinstance(m.axial_preload, str) else m.stop_play + m.preload_way
+        lean = np.fmin(free / (2.0 * m.hub_radius), m.plate_lean)
+        return Support(m.running_clearance, length, m.hub_top_level, lean)
     # Loose in the seat outside, on the journal inside, and between the rings.
-    play = 2.0 * seat_clearance + 0.5 * bearing_internal_clearance
-    return Support(play, length - bearing_width, hub_top_level - 0.5 * bearing_width, np.inf)
+    play = 2.0 * m.seat_clearance + 0.5 * m.bearing_internal_clearance
+    return Support(play, length - m.bearing_width, m.hub_top_level - 0.5 * m.bearing_width, np.inf)
 
 
 @quantities.output("rad")
-def core_lean(core_support: Support) -> Scalar:
+def core_lean(m: Module) -> Scalar:
     """Angle by which the core can lean to one side in its bore or bearings."""
-    return np.fmin(2.0 * core_support.clearance / core_support.spread, core_support.tilt)
+    return np.fmin(2.0 * m.core_support.clearance / m.core_support.spread, m.core_support.tilt)
 
 
 @quantities.output("rad")
-def bearing_play(
-    core_support: Support, link_bottom_level: Scalar, link_thickness: Scalar, link_length: Scalar
-) -> Scalar:
+def bearing_play(m: Module) -> Scalar:
     """Angle a force at the link's end turns the link as the core moves aside in its bore or bearings.
 
     The core's shift at half the link's thickness, over the link's length.
     """
-    height = link_bottom_level + 0.5 * link_thickness - core_support.top
-    shift = overhung_shift(core_support.clearance, core_support.spread, height, core_support.tilt)
-    return joint_play(shift, link_length)
+    height = m.link_bottom_level + 0.5 * m.link_thickness - m.core_support.top
+    shift = overhung_shift(m.core_support.clearance, m.core_support.spread, height, m.core_support.tilt)
+    return joint_play(shift, m.link_length)
 
 
 @quantities.output("rad", headline=True)
-def lost_motion(friction_play: Scalar, link_play: Scalar, bearing_play: Scalar) -> Scalar:
+def lost_motion(m: Module) -> Scalar:
     """Angle the link's end moves to either side of rest without the joint taking notice, all sources at their largest.
 
     Friction on the pins, play of the link on the core, and play of the core in the hub.
     """
-    return friction_play + link_play + bearing_play
+    return m.friction_play + m.link_play + m.bearing_play

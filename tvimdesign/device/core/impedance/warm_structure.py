@@ -15,11 +15,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import heat, lumps
+from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
-from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.solids import warm
 from tvimdesign.physics.solids.warm import Softening
 
@@ -55,17 +55,12 @@ class PartTemperatures(NamedTuple):
 
 
 @quantities.helper()
-def structure_softening(
-    structure_modulus_slope: Scalar,
-    structure_softening_temperature: Scalar,
-    structure_softening_width: Scalar,
-    structure_softened_share: Scalar,
-    structure_loss_factor: Scalar,
-    structure_softening_loss_factor: Scalar,
-) -> Softening:
+def structure_softening(m: Module) -> Softening:
     """How modulus and loss of the structure change with temperature."""
-    return Softening(structure_modulus_slope, structure_softening_temperature, structure_softening_width,
-                     structure_softened_share, structure_loss_factor, structure_softening_loss_factor)  # fmt: skip
+    return Softening(
+        m.structure_modulus_slope, m.structure_softening_temperature, m.structure_softening_width,
+        m.structure_softened_share, m.structure_loss_factor, m.structure_softening_loss_factor,
+    )  # fmt: skip
 
 
 def in_series(
@@ -89,43 +84,30 @@ def in_series(
 
 
 @quantities.helper()
-def behind_pcl(
-    pcl_area: Scalar,
-    backing_depth: Scalar,
-    liner_sheet: Liner | None,
-    plate_outside: lumps.Surface,
-    structure_conductivity: Scalar,
-    ambient_temperature: Scalar,
-    rotor_beside: tuple[lumps.Lump, ...],
-    uneven_sideways: Scalar | None,
-    core_and_link: lumps.Lump,
-    plate_losses: tuple[lumps.Loss, ...],
-    link_length: Scalar,
-    link_half_width: Scalar,
-    rotor_coefficient: Scalar,
-    surface_emissivity: Scalar,
-) -> BehindPolymer:
+def behind_pcl(m: Module) -> BehindPolymer:
     """What the PCL heats, as in the stack; and both faces of the link lose heat, which a phase is too short to tell.
 
     What is beside the plate loses heat through `plate_losses` as well, such as the gap to the floor and the air there.
     """
-    faces = lumps.Surface(4.0 * link_length * link_half_width, rotor_coefficient, surface_emissivity)
-    cooled = list(rotor_beside)
-    for loss in plate_losses:
+    faces = lumps.Surface(4.0 * m.link_length * m.link_half_width, m.rotor_coefficient, m.surface_emissivity)
+    cooled = list(m.rotor_beside)
+    for loss in m.plate_losses:
         group, above = loss.link.first
         if group != "beside":
             continue
-        cooled[above] = lumps.cooled_through(loss, cooled[above], ambient_temperature)
-    return BehindPolymer(pcl_area, backing_depth, structure_conductivity, plate_outside, ambient_temperature,
-                         (*cooled, core_and_link._replace(surface=faces)), uneven_sideways, liner_sheet)  # fmt: skip
+        cooled[above] = lumps.cooled_through(loss, cooled[above], m.ambient_temperature)
+    return BehindPolymer(
+        m.pcl_area, m.backing_depth, m.structure_conductivity, m.plate_outside, m.ambient_temperature,
+        (*cooled, m.core_and_link._replace(surface=faces)), m.uneven_sideways, m.liner_sheet,
+    )  # fmt: skip
 
 
 @quantities.helper(per_point=True)
-def part_temperatures(temperature: Scalar, behind_pcl: BehindPolymer) -> PartTemperatures:
+def part_temperatures(m: Module) -> PartTemperatures:
     """Temperatures of the structure's parts with the PCL at the point's temperature for good."""
-    held = held_plate(behind_pcl, temperature)
-    walls = 0.5 * (temperature + behind_pcl.ambient)
-    return _parts(held.plate, held.beside, walls, behind_pcl.ambient)
+    held = held_plate(m.behind_pcl, m.temperature)
+    walls = 0.5 * (m.temperature + m.behind_pcl.ambient)
+    return _parts(held.plate, held.beside, walls, m.behind_pcl.ambient)
 
 
 def _parts(plate: Sequence[Scalar], beside: Sequence[Scalar], walls: Scalar, floor: Scalar) -> PartTemperatures:
@@ -134,107 +116,97 @@ def _parts(plate: Sequence[Scalar], beside: Sequence[Scalar], walls: Scalar, flo
 
 
 @quantities.output("degC", per_point=True)
-def plate_temperature(part_temperatures: PartTemperatures) -> Scalar:
+def plate_temperature(m: Module) -> Scalar:
     """Mean temperature of the plate, or of the rotor's vanes, on the PCL, which has been warm for long."""
-    return sum(part_temperatures.plate) / len(part_temperatures.plate)
+    return sum(m.part_temperatures.plate) / len(m.part_temperatures.plate)
 
 
 @quantities.output("degC", per_point=True)
-def core_temperature(part_temperatures: PartTemperatures) -> Scalar:
+def core_temperature(m: Module) -> Scalar:
     """Temperature of core and link with the PCL warm for long."""
-    return part_temperatures.core
+    return m.part_temperatures.core
 
 
 @quantities.helper(per_point=True)
-def warm_structure(
-    structure_compliances: Compliances,
-    part_temperatures: PartTemperatures,
-    structure_softening: Softening,
-    clamped_loss_factor: Scalar,
-) -> tuple[Scalar, Scalar]:
+def warm_structure(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of the structure at the point [N*m/rad]."""
-    return in_series(structure_compliances, part_temperatures, structure_softening, clamped_loss_factor)
+    return in_series(m.structure_compliances, m.part_temperatures, m.structure_softening, m.clamped_loss_factor)
 
 
 @quantities.output("N*m/rad", per_point=True)
-def warm_structure_stiffness(warm_structure: tuple[Scalar, Scalar]) -> Scalar:
+def warm_structure_stiffness(m: Module) -> Scalar:
     """Stiffness in series with the PCL, parts as warm as they get at the point; `structure_stiffness` at 23 degC."""
-    return warm_structure[0]
+    return m.warm_structure[0]
 
 
 @quantities.output("N*m/rad", per_point=True)
-def warm_structure_loss(warm_structure: tuple[Scalar, Scalar]) -> Scalar:
+def warm_structure_loss(m: Module) -> Scalar:
     """Loss stiffness of the structure at the point: of its material as warm as it gets, and of clamped joints."""
-    return warm_structure[1]
+    return m.warm_structure[1]
 
 
 _SOFT = "the hot part of the structure is soft: the hot joint is that soft only with its structure above its rating"
 
 
 @quantities.output("1", advice=(Rule(sense=">=", value=0.5, reason=_SOFT),))
-def hot_structure_share(warm_structure_stiffness_at_hot: Scalar, structure_stiffness: Scalar) -> Scalar:
+def hot_structure_share(m: Module) -> Scalar:
     """Stiffness of the structure at the hot point over that at 23 degC."""
-    return warm_structure_stiffness_at_hot / structure_stiffness
+    return m.warm_structure_stiffness_at_hot / m.structure_stiffness
 
 
 @quantities.helper(per_point=True)
-def support(
-    structure_compliances: Compliances,
-    part_temperatures: PartTemperatures,
-    structure_softening: Softening,
-    clamped_loss_factor: Scalar,
-    lossless_compliance: Scalar,
-) -> tuple[Scalar, Scalar]:
+def support(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness in series with the PCL's shear modes [N*m/rad]."""
-    return in_series(structure_compliances, part_temperatures, structure_softening, clamped_loss_factor,
-                     lossless_compliance)  # fmt: skip
+    return in_series(
+        m.structure_compliances,
+        m.part_temperatures,
+        m.structure_softening,
+        m.clamped_loss_factor,
+        m.lossless_compliance,
+    )
 
 
 @quantities.helper(per_point=True)
-def elastic_support(support: tuple[Scalar, Scalar]) -> Scalar:
+def elastic_support(m: Module) -> Scalar:
     """Real stiffness in series with the PCL's shear modes [N*m/rad]."""
-    return support[0]
+    return m.support[0]
 
 
 @quantities.helper()
-def cold_strength_share(temperature_at_cold: Scalar, structure_softening: Softening) -> Scalar:
+def cold_strength_share(m: Module) -> Scalar:
     """Yield strength at the cold point over that at 23 degC [1], as that of the modulus: all parts as warm as the PCL.
 
     Yield stress and modulus of glassy polymers fall together (N. Brown, Mater. Sci. Eng. 8 (1971) 69).
     """
-    return warm.modulus_share(temperature_at_cold, structure_softening)
+    return warm.modulus_share(m.temperature_at_cold, m.structure_softening)
 
 
 @quantities.helper()
-def cold_strength(structure_strength: Scalar, cold_strength_share: Scalar) -> Scalar:
+def cold_strength(m: Module) -> Scalar:
     """Yield strength of the structure at the cold point [Pa]."""
-    return structure_strength * cold_strength_share
+    return m.structure_strength * m.cold_strength_share
 
 
 @quantities.helper()
-def cold_layer_strength(structure_layer_strength: Scalar, cold_strength_share: Scalar) -> Scalar:
+def cold_layer_strength(m: Module) -> Scalar:
     """Yield strength across the layers of a print at the cold point [Pa]."""
-    return structure_layer_strength * cold_strength_share
+    return m.structure_layer_strength * m.cold_strength_share
 
 
 # --- at each instant --------------------------------------------------------------------------------------------------
 
 
 @quantities.helper(instant=True)
-def parts_now(stack_profile: heat.Profile) -> PartTemperatures:
+def parts_now(m: Module) -> PartTemperatures:
     """Temperatures of the structure's parts at an instant."""
-    now = stack_profile
+    now = m.stack_profile
     slices = [now.plate[i] for i in range(len(now.plate))]
     return _parts(slices, now.beside, 0.5 * (now.hot + now.cold), now.cold)
 
 
 @quantities.helper(instant=True)
-def support_now(
-    structure_compliances: Compliances,
-    parts_now: PartTemperatures,
-    structure_softening: Softening,
-    clamped_loss_factor: Scalar,
-    lossless_compliance: Scalar,
-) -> tuple[Scalar, Scalar]:
+def support_now(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness in series with the PCL's slices at an instant [N*m/rad]."""
-    return in_series(structure_compliances, parts_now, structure_softening, clamped_loss_factor, lossless_compliance)
+    return in_series(
+        m.structure_compliances, m.parts_now, m.structure_softening, m.clamped_loss_factor, m.lossless_compliance
+    )

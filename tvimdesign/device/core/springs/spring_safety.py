@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.springs import spring
@@ -16,45 +17,39 @@ quantities = QuantityGroup("Springs")
 
 
 @quantities.output("MPa")
-def spring_stress(coil_stress_per_angle: Scalar, tang_stress_per_angle: Scalar, spring_winding: Scalar) -> Scalar:
+def spring_stress(m: Module) -> Scalar:
     """Largest stress in the springs at full winding, at the coil's inner fibre or in the bend of the tang."""
-    return np.fmax(coil_stress_per_angle, tang_stress_per_angle) * spring_winding
+    return np.fmax(m.coil_stress_per_angle, m.tang_stress_per_angle) * m.spring_winding
 
 
 @quantities.helper()
-def spring_yield(spring_yield_ratio: Scalar, spring_tensile_strength: Scalar) -> Scalar:
+def spring_yield(m: Module) -> Scalar:
     """Stress at which the wire yields in bending [Pa]."""
-    return spring_yield_ratio * spring_tensile_strength
+    return m.spring_yield_ratio * m.spring_tensile_strength
 
 
-def template_static_safety(spring_yield: Scalar, template_stress_per_angle: Scalar, spring_winding: Scalar) -> Scalar:
+def template_static_safety(m: Module) -> Scalar:
     """Static safety of {it}: bending yield over the largest stress."""
-    return spring_yield / (template_stress_per_angle * spring_winding)
+    return m.spring_yield / (m.template_stress_per_angle * m.spring_winding)
 
 
-def template_assembly_safety(spring_yield: Scalar, template_stress_per_angle: Scalar, preload_angle: Scalar) -> Scalar:
+def template_assembly_safety(m: Module) -> Scalar:
     """Static safety of {it} while the module is put together: fitting one hand winds the other by twice the preload."""
-    return spring_yield / (template_stress_per_angle * 2.0 * np.fmax(preload_angle, 1e-6))
+    return m.spring_yield / (m.template_stress_per_angle * 2.0 * np.fmax(m.preload_angle, 1e-6))
 
 
 @quantities.helper()
-def least_winding(preload_margin: Scalar) -> Scalar:
+def least_winding(m: Module) -> Scalar:
     """Winding of a spring at the end of the stroke against it [rad]; without preload it lifts off, and has none."""
-    return np.fmax(preload_margin, 0.0)
+    return np.fmax(m.preload_margin, 0.0)
 
 
-def template_fatigue_safety(
-    template_stress_per_angle: Scalar,
-    spring_winding: Scalar,
-    least_winding: Scalar,
-    spring_tensile_strength: Scalar,
-    spring_fatigue_ratio: Scalar,
-) -> Scalar:
+def template_fatigue_safety(m: Module) -> Scalar:
     """Fatigue safety of {it} for 1e6 full strokes to both sides, Gerber."""
-    amplitude = 0.5 * template_stress_per_angle * (spring_winding - least_winding)
-    mean = 0.5 * template_stress_per_angle * (spring_winding + least_winding)
-    endurance = spring.endurance_strength(spring_tensile_strength, spring_fatigue_ratio)
-    return spring.gerber_safety(amplitude, mean, endurance, spring_tensile_strength)
+    amplitude = 0.5 * m.template_stress_per_angle * (m.spring_winding - m.least_winding)
+    mean = 0.5 * m.template_stress_per_angle * (m.spring_winding + m.least_winding)
+    endurance = spring.endurance_strength(m.spring_tensile_strength, m.spring_fatigue_ratio)
+    return spring.gerber_safety(amplitude, mean, endurance, m.spring_tensile_strength)
 
 
 for _place, _words in (("coil", "the springs' coils"), ("tang", "the springs where the tang is bent")):
@@ -67,15 +62,15 @@ for _place, _words in (("coil", "the springs' coils"), ("tang", "the springs whe
 
 
 @quantities.output("1", headline=True, least_of=("coil_static_safety", "tang_static_safety"))
-def spring_static_safety(coil_static_safety: Scalar, tang_static_safety: Scalar) -> Scalar:
+def spring_static_safety(m: Module) -> Scalar:
     """Static safety of the springs: bending yield over the largest stress."""
-    return np.fmin(coil_static_safety, tang_static_safety)
+    return np.fmin(m.coil_static_safety, m.tang_static_safety)
 
 
 @quantities.output("1", least_of=("coil_assembly_safety", "tang_assembly_safety"))
-def spring_assembly_safety(coil_assembly_safety: Scalar, tang_assembly_safety: Scalar) -> Scalar:
+def spring_assembly_safety(m: Module) -> Scalar:
     """Static safety of the springs while the module is put together."""
-    return np.fmin(coil_assembly_safety, tang_assembly_safety)
+    return np.fmin(m.coil_assembly_safety, m.tang_assembly_safety)
 
 
 @quantities.output(
@@ -84,6 +79,6 @@ def spring_assembly_safety(coil_assembly_safety: Scalar, tang_assembly_safety: S
     headline=True,
     least_of=("coil_fatigue_safety", "tang_fatigue_safety"),
 )
-def spring_fatigue_safety(coil_fatigue_safety: Scalar, tang_fatigue_safety: Scalar) -> Scalar:
+def spring_fatigue_safety(m: Module) -> Scalar:
     """Fatigue safety of the springs for 1e6 full strokes to both sides, Gerber."""
-    return np.fmin(coil_fatigue_safety, tang_fatigue_safety)
+    return np.fmin(m.coil_fatigue_safety, m.tang_fatigue_safety)

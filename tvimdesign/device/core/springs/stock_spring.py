@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.base.record import Record
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
@@ -18,18 +18,18 @@ quantities = QuantityGroup("Springs", FROM_STOCK)
 
 
 @quantities.output("mm", at_least(0.0, "the stock spring's leg does not reach the pin"))
-def stock_leg_margin(stock_spring: Record, leg_length: Scalar) -> Scalar:
+def stock_leg_margin(m: Module) -> Scalar:
     """Leg of the stock spring beyond what its pin asks for; what is over is cut off. Zero without."""
-    return stock_spring.value("leg_length") - leg_length
+    return m.stock_spring.value("leg_length") - m.leg_length
 
 
 @quantities.output("mm", at_least(0.0, "the stock spring's other leg is too short to be bent down into the floor"))
-def stock_tang_margin(stock_spring: Record, tang_length: Scalar, tang_bend_radius: Scalar) -> Scalar:
+def stock_tang_margin(m: Module) -> Scalar:
     """Other leg of the stock spring beyond its tang and the quarter bend above that. Zero without."""
-    return stock_spring.value("leg_length") - tang_length - 0.5 * np.pi * tang_bend_radius
+    return m.stock_spring.value("leg_length") - m.tang_length - 0.5 * np.pi * m.tang_bend_radius
 
 
 @quantities.output("N*m", at_least(0.0, "the springs are wound beyond the torque that their maker gives"))
-def stock_torque_margin(stock_spring: Record, spring_rate: Scalar, spring_winding: Scalar) -> Scalar:
+def stock_torque_margin(m: Module) -> Scalar:
     """Largest torque that the maker of the stock spring gives, less that at full winding. Zero without."""
-    return stock_spring.value("largest_torque") - spring_rate * spring_winding
+    return m.stock_spring.value("largest_torque") - m.spring_rate * m.spring_winding

@@ -1,6 +1,5 @@
 """The torsion springs in the module: their rate, what they are to the output, and what they bear.
 
-Each function is a quantity of the table; its parameters are the quantities it needs (see device/table/quantity.py).
 Kinematics are those of a right-hand spring, which winds up when the rotor turns in its negative sense; the other hand
 is its mirror image."""
 
@@ -8,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.base.record import Record
+from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids import structure
@@ -44,53 +43,41 @@ STROKE_SHARES = (0.5, 0.7, 6.0 / 7.0, 1.0)
 
 
 @quantities.output("N*m/rad", headline=True)
-def spring_rate(
-    spring_youngs_modulus: Scalar,
-    wire_diameter: Scalar,
-    coil_diameter: Scalar,
-    active_coils: Scalar,
-    rate_model: spring.RateModel,
-) -> Scalar:
+def spring_rate(m: Module) -> Scalar:
     """Rate of one torsion spring, k_torsion."""
-    return spring.rate(spring_youngs_modulus, wire_diameter, coil_diameter, active_coils, rate_model)
+    return spring.rate(m.spring_youngs_modulus, m.wire_diameter, m.coil_diameter, m.active_coils, m.rate_model)
 
 
 @quantities.output("1", Rule(sense=">=", value=4.0, reason="cold coiling, EN 13906-3", exists_above=1.2),
              Rule(sense="<=", value=20.0, reason="cold coiling, EN 13906-3"))  # fmt: skip
-def spring_index(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
+def spring_index(m: Module) -> Scalar:
     """Coil diameter over wire diameter, C."""
-    return spring.spring_index(wire_diameter, coil_diameter)
+    return spring.spring_index(m.wire_diameter, m.coil_diameter)
 
 
 @quantities.output("1")
-def transmission_ratio(pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str) -> Scalar:
+def transmission_ratio(m: Module) -> Scalar:
     """Winding of a spring per angle of the rotor at rest."""
-    if transmission == "unity":
+    if m.transmission == "unity":
         return 1.0
     # The leg turns against the rotor: the spring winds when the rotor turns the other way.
-    return -leg_ratio(pin_radius, placement_radius, 0.0, leg_offset)
+    return -leg_ratio(m.pin_radius, m.placement_radius, 0.0, m.leg_offset)
 
 
 @quantities.output("1/rad")
-def transmission_curvature(
-    pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
-) -> Scalar:
+def transmission_curvature(m: Module) -> Scalar:
     """Change of that ratio with the winding direction of the rotor, at rest."""
-    if transmission == "unity":
+    if m.transmission == "unity":
         return 0.0
-    return leg_curvature(pin_radius, placement_radius, 0.0, leg_offset)
+    return leg_curvature(m.pin_radius, m.placement_radius, 0.0, m.leg_offset)
 
 
 @quantities.output("N*m/rad", headline=True, also_limited=_OVER_STROKE[1:], parts_differ_with=_AS_DRAWN)
-def spring_stiffness(
-    spring_count: Scalar,
-    held_spring_rate: Scalar,
-    preload_angle: Scalar,
-    transmission_ratio: Scalar,
-    transmission_curvature: Scalar,
-) -> Scalar:
+def spring_stiffness(m: Module) -> Scalar:
     """Stiffness of all springs about the axis at rest, K_s; a limit on it holds over the whole stroke."""
-    return output_stiffness(spring_count, held_spring_rate, preload_angle, transmission_ratio, transmission_curvature)
+    return output_stiffness(
+        m.spring_count, m.held_spring_rate, m.preload_angle, m.transmission_ratio, m.transmission_curvature
+    )
 
 
 Wound = tuple[Scalar, Scalar]
@@ -98,67 +85,50 @@ Wound = tuple[Scalar, Scalar]
 
 
 @quantities.helper()
-def over_stroke(
-    stroke: Scalar,
-    preload_angle: Scalar,
-    pin_radius: Scalar,
-    placement_radius: Scalar,
-    leg_offset: Scalar,
-    transmission: str,
-) -> list[Wound]:
+def over_stroke(m: Module) -> list[Wound]:
     """A pair of springs at `STROKE_SHARES`."""
-    angles = [share * stroke for share in STROKE_SHARES]
-    if transmission == "unity":
+    angles = [share * m.stroke for share in STROKE_SHARES]
+    if m.transmission == "unity":
         return [(2.0 * angle, 2.0) for angle in angles]
-    return [pair_turned(angle, preload_angle, pin_radius, placement_radius, leg_offset) for angle in angles]
+    return [pair_turned(angle, m.preload_angle, m.pin_radius, m.placement_radius, m.leg_offset) for angle in angles]
 
 
 @quantities.output("N*m")
-def spring_torque_full_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+def spring_torque_full_stroke(m: Module) -> Scalar:
     """Torque of all springs about the axis at full stroke."""
-    return spring_pairs * held_spring_rate * over_stroke[3][0]
+    return m.spring_pairs * m.held_spring_rate * m.over_stroke[3][0]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_half_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+def spring_stiffness_half_stroke(m: Module) -> Scalar:
     """Stiffness of all springs about the axis at half the stroke, the slope of torque over angle."""
-    return spring_pairs * held_spring_rate * over_stroke[0][1]
+    return m.spring_pairs * m.held_spring_rate * m.over_stroke[0][1]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_seven_tenths_stroke(
-    spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]
-) -> Scalar:
+def spring_stiffness_seven_tenths_stroke(m: Module) -> Scalar:
     """Stiffness of all springs about the axis at seven tenths of the stroke, the slope of torque over angle."""
-    return spring_pairs * held_spring_rate * over_stroke[1][1]
+    return m.spring_pairs * m.held_spring_rate * m.over_stroke[1][1]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_six_sevenths_stroke(
-    spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]
-) -> Scalar:
+def spring_stiffness_six_sevenths_stroke(m: Module) -> Scalar:
     """Stiffness of all springs about the axis at six sevenths of the stroke, the slope of torque over angle."""
-    return spring_pairs * held_spring_rate * over_stroke[2][1]
+    return m.spring_pairs * m.held_spring_rate * m.over_stroke[2][1]
 
 
 @quantities.output("N*m/rad")
-def spring_stiffness_full_stroke(spring_pairs: Scalar, held_spring_rate: Scalar, over_stroke: list[Wound]) -> Scalar:
+def spring_stiffness_full_stroke(m: Module) -> Scalar:
     """Stiffness of all springs about the axis at full stroke, the slope of torque over angle."""
-    return spring_pairs * held_spring_rate * over_stroke[3][1]
+    return m.spring_pairs * m.held_spring_rate * m.over_stroke[3][1]
 
 
 @quantities.output("N*m/rad", headline=True, least_of=_OVER_STROKE, parts_differ_with=_AS_DRAWN)
-def least_spring_stiffness(
-    spring_stiffness: Scalar,
-    spring_stiffness_half_stroke: Scalar,
-    spring_stiffness_seven_tenths_stroke: Scalar,
-    spring_stiffness_six_sevenths_stroke: Scalar,
-    spring_stiffness_full_stroke: Scalar,
-) -> Scalar:
+def least_spring_stiffness(m: Module) -> Scalar:
     """Least stiffness of all springs about the axis over the stroke."""
-    inside = np.fmin(spring_stiffness_half_stroke, spring_stiffness_seven_tenths_stroke)
-    inside = np.fmin(inside, spring_stiffness_six_sevenths_stroke)
-    return np.fmin(np.fmin(spring_stiffness, inside), spring_stiffness_full_stroke)
+    inside = np.fmin(m.spring_stiffness_half_stroke, m.spring_stiffness_seven_tenths_stroke)
+    inside = np.fmin(inside, m.spring_stiffness_six_sevenths_stroke)
+    return np.fmin(np.fmin(m.spring_stiffness, inside), m.spring_stiffness_full_stroke)
 
 
 _BENT = "the springs' stiffness changes by more than a tenth over the stroke"
@@ -167,141 +137,122 @@ _BENT = "the springs' stiffness changes by more than a tenth over the stroke"
 @quantities.output(
     "1", advice=(Rule(sense=">=", value=0.9, reason=_BENT), Rule(sense="<=", value=1.1, reason=_BENT)), headline=True
 )
-def stiffness_over_stroke(spring_stiffness_full_stroke: Scalar, spring_stiffness: Scalar) -> Scalar:
+def stiffness_over_stroke(m: Module) -> Scalar:
     """Stiffness of the springs at full stroke over that at rest."""
-    return spring_stiffness_full_stroke / spring_stiffness
+    return m.spring_stiffness_full_stroke / m.spring_stiffness
 
 
 @quantities.output("rad")
-def spring_winding(
-    stroke: Scalar,
-    preload_angle: Scalar,
-    pin_radius: Scalar,
-    placement_radius: Scalar,
-    leg_offset: Scalar,
-    transmission: str,
-) -> Scalar:
+def spring_winding(m: Module) -> Scalar:
     """Largest winding of a spring: the preload and the full stroke in its winding direction."""
-    if transmission == "unity":
-        return preload_angle + stroke
-    return preload_angle + leg_turned(pin_radius, placement_radius, -stroke, leg_offset)
+    if m.transmission == "unity":
+        return m.preload_angle + m.stroke
+    return m.preload_angle + leg_turned(m.pin_radius, m.placement_radius, -m.stroke, m.leg_offset)
 
 
 @quantities.output("rad")
-def spring_unwinding(
-    stroke: Scalar, pin_radius: Scalar, placement_radius: Scalar, leg_offset: Scalar, transmission: str
-) -> Scalar:
+def spring_unwinding(m: Module) -> Scalar:
     """Unwinding of a spring from rest over the full stroke against its winding direction."""
-    if transmission == "unity":
-        return stroke
-    return -leg_turned(pin_radius, placement_radius, stroke, leg_offset)
+    if m.transmission == "unity":
+        return m.stroke
+    return -leg_turned(m.pin_radius, m.placement_radius, m.stroke, m.leg_offset)
 
 
 @quantities.output(
     "rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act")
 )
-def preload_margin(preload_angle: Scalar, spring_unwinding: Scalar, spring_play: Scalar) -> Scalar:
+def preload_margin(m: Module) -> Scalar:
     """Preload that is left at the end of the stroke of the opposing springs, less what a loose tang's play takes."""
-    return preload_angle - spring_unwinding - spring_play
+    return m.preload_angle - m.spring_unwinding - m.spring_play
 
 
 @quantities.output("MPa")
-def spring_tensile_strength(wire_diameter: Scalar, spring_material: Record) -> Scalar:
+def spring_tensile_strength(m: Module) -> Scalar:
     """Tensile strength of the wire at its diameter."""
-    quantities = spring_material.table("strength")
+    quantities = m.spring_material.table("strength")
     return spring.tensile_strength(
-        wire_diameter, [(quantity["coefficient"], quantity["exponent"]) for quantity in quantities]
+        m.wire_diameter, [(quantity["coefficient"], quantity["exponent"]) for quantity in quantities]
     )
 
 
 @quantities.output(
     "1", advice=(Rule(sense=">=", value=1.0, reason="the strength of this wire is extrapolated to its size"),)
 )
-def wire_range_margin(wire_diameter: Scalar, spring_material: Record) -> Scalar:
+def wire_range_margin(m: Module) -> Scalar:
     """Wire diameter against the nearer end of the range the material's strength is known for, above one inside."""
-    quantities = spring_material.table("strength")
+    quantities = m.spring_material.table("strength")
     thinnest = min(quantity["wire_diameter_from"] for quantity in quantities)
     thickest = max(quantity["wire_diameter_to"] for quantity in quantities)
-    return np.fmin(wire_diameter / thinnest, thickest / wire_diameter)
+    return np.fmin(m.wire_diameter / thinnest, thickest / m.wire_diameter)
 
 
 @quantities.output("mm")
-def spring_wound_diameter(coil_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar) -> Scalar:
+def spring_wound_diameter(m: Module) -> Scalar:
     """Mean coil diameter at full winding."""
-    return spring.loaded_coil_diameter(coil_diameter, coil_count, spring_winding)
+    return spring.loaded_coil_diameter(m.coil_diameter, m.coil_count, m.spring_winding)
 
 
 @quantities.output("mm")
-def winding_mandrel(
-    coil_diameter: Scalar, wire_diameter: Scalar, spring_tensile_strength: Scalar, spring_youngs_modulus: Scalar
-) -> Scalar:
+def winding_mandrel(m: Module) -> Scalar:
     """Diameter of the mandrel that a spring is wound on, from which it springs back to its size."""
-    wound = spring.wound_coil_diameter(coil_diameter, wire_diameter, spring_tensile_strength, spring_youngs_modulus)
-    return wound - wire_diameter
+    wound = spring.wound_coil_diameter(
+        m.coil_diameter, m.wire_diameter, m.spring_tensile_strength, m.spring_youngs_modulus
+    )
+    return wound - m.wire_diameter
 
 
 @quantities.output("mm")
-def spring_body_length(wire_diameter: Scalar, coil_count: Scalar, spring_winding: Scalar, coil_gap: Scalar) -> Scalar:
+def spring_body_length(m: Module) -> Scalar:
     """Axial length of the coils at full winding."""
-    return spring.body_length(wire_diameter, coil_count, spring_winding, coil_gap)
+    return spring.body_length(m.wire_diameter, m.coil_count, m.spring_winding, m.coil_gap)
 
 
 _GRADE_2 = 1.0  # the factor Q of DIN 2194 for its middle grade
 
 
 @quantities.output("mm")
-def coil_diameter_tolerance(wire_diameter: Scalar, coil_diameter: Scalar) -> Scalar:
+def coil_diameter_tolerance(m: Module) -> Scalar:
     """Tolerance of the coil diameter, DIN 2194 grade 2, to either side."""
-    return spring.diameter_tolerance(wire_diameter, coil_diameter, _GRADE_2)
+    return spring.diameter_tolerance(m.wire_diameter, m.coil_diameter, _GRADE_2)
 
 
 @quantities.output("deg")
-def free_angle_tolerance(coil_count: Scalar, spring_index: Scalar) -> Scalar:
+def free_angle_tolerance(m: Module) -> Scalar:
     """Tolerance of a spring's free angle, DIN 2194 grade 2, to either side."""
-    return spring.free_angle_tolerance(coil_count, spring_index, _GRADE_2)
+    return spring.free_angle_tolerance(m.coil_count, m.spring_index, _GRADE_2)
 
 
 _SPREAD = "springs as bought spread more than the preload that is left: make it adjustable"
 
 
 @quantities.output("1", advice=(Rule(sense="<=", value=1.0, reason=_SPREAD),))
-def free_angle_over_preload(free_angle_tolerance: Scalar, preload_adjustment: Scalar, preload_margin: Scalar) -> Scalar:
+def free_angle_over_preload(m: Module) -> Scalar:
     """Free-angle tolerance of a spring that no adjustment takes out, over the preload that is left at full stroke."""
-    left = np.fmax(free_angle_tolerance - 0.5 * preload_adjustment, 0.0)
-    return left / np.fmax(preload_margin, 1e-3)
+    left = np.fmax(m.free_angle_tolerance - 0.5 * m.preload_adjustment, 0.0)
+    return left / np.fmax(m.preload_margin, 1e-3)
 
 
 @quantities.output("1")
-def free_angle_over_stroke(free_angle_tolerance: Scalar, stroke: Scalar) -> Scalar:
+def free_angle_over_stroke(m: Module) -> Scalar:
     """Free-angle tolerance as a multiple of the stroke; above about one the preload must be adjustable."""
-    return free_angle_tolerance / np.abs(stroke)
+    return m.free_angle_tolerance / np.abs(m.stroke)
 
 
 @quantities.output(
     "1", Rule(sense=">=", value=1.0, reason="the rotor's pins would break off between two layers of the print")
 )
-def pin_safety(
-    held_spring_rate: Scalar,
-    spring_winding: Scalar,
-    leg_arm: Scalar,
-    coil_end_level: Scalar,
-    helix_slope: Scalar,
-    rotor_top_level: Scalar,
-    pin_diameter: Scalar,
-    wire_diameter: Scalar,
-    structure_layer_strength: Scalar,
-) -> Scalar:
+def pin_safety(m: Module) -> Scalar:
     """Bending strength of the rotor's pins, cold, over the stress under the leg at full winding."""
-    force = held_spring_rate * spring_winding / leg_arm
+    force = m.held_spring_rate * m.spring_winding / m.leg_arm
     # No leg lies lower than on the plate; without that, the search is lost beyond the pole at height zero.
-    height = np.fmax(coil_end_level + helix_slope * leg_arm - rotor_top_level, 0.5 * wire_diameter)
-    return structure_layer_strength / spring.bending_stress(force * height, pin_diameter, 1.0)
+    height = np.fmax(m.coil_end_level + m.helix_slope * m.leg_arm - m.rotor_top_level, 0.5 * m.wire_diameter)
+    return m.structure_layer_strength / spring.bending_stress(force * height, m.pin_diameter, 1.0)
 
 
 @quantities.output(
     "1",
     advice=(Rule(sense=">=", value=1.0, reason="pins may crack at their fillet: a thicker pin, or a larger fillet"),),
 )
-def pin_foot_safety(pin_safety: Scalar, pin_diameter: Scalar, foot_fillet: Scalar) -> Scalar:
+def pin_foot_safety(m: Module) -> Scalar:
     """Bending strength of the rotor's pins, cold, over the peak of the stress at their fillet at full winding."""
-    return pin_safety / structure.bent_at_fillet(pin_diameter, foot_fillet)
+    return m.pin_safety / structure.bent_at_fillet(m.pin_diameter, m.foot_fillet)

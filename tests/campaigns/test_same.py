@@ -1,0 +1,244 @@
+"""The frozen oracle: that a comparison sees what changed, was lost or was added."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import same
+from oracle import fits, frozen_files, messages, optima, study_outputs, subjects
+from oracle.compare import Renames, Value, base_name, differences, relative_difference
+from oracle.frozen_files import read_frozen, write_frozen
+
+import tvimdesign
+
+FROZEN: dict[str, Value] = {
+    "mass": 0.1,
+    "stiffness@hot": 5.0,
+    "choice:motor": "none",
+    "time": math.inf,
+    "nan": math.nan,
+}
+OPTIMUM = {"status": "optimal", "objective": 1.0, "reference": {"mass": 0.2}}
+
+
+def found(now: Mapping[str, Value], **options: Any) -> list[tuple[str, str, str]]:
+    return [(one.quantity, one.frozen, one.now) for one in differences("study", FROZEN, now, **options)]
+
+
+def test_same_values() -> None:
+    assert found(dict(FROZEN)) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "difference"),
+    [
+        ("mass", math.nextafter(0.1, 1.0), ("mass", "0.1", "0.10000000000000002")),
+        ("choice:motor", "small", ("choice:motor", "none", "small")),
+        ("choice:motor", 1.0, ("choice:motor", "none", "1.0")),
+        ("time", 7.0, ("time", "inf", "7.0")),
+        ("nan", 0.0, ("nan", "nan", "0.0")),
+        ("stiffness@hot", None, ("stiffness@hot", "5.0", "None")),
+    ],
+)
+def test_a_changed_value(name: str, value: Value, difference: tuple[str, str, str]) -> None:
+    assert found({**FROZEN, name: value}) == [difference]
+
+
+def test_a_lost_name() -> None:
+    assert found({name: value for name, value in FROZEN.items() if name != "mass"}) == [("mass", "0.1", "lost")]
+
+
+def test_an_added_name() -> None:
+    assert found({**FROZEN, "size": 3.0}) == [("size", "added", "3.0")]
+
+
+@pytest.mark.parametrize(("change", "count"), [(1e-10, 0), (1e-8, 1)])
+def test_tolerance(change: float, count: int) -> None:
+    assert len(found({**FROZEN, "stiffness@hot": 5.0 * (1.0 + change)}, tolerance=1e-9)) == count
+
+
+def test_margins_near_zero_are_absolute() -> None:
+    frozen, now = {"limit:mass <=": 1e-12, "mass": 1e-12}, {"limit:mass <=": 3e-12, "mass": 3e-12}
+    assert [one.quantity for one in differences("study", frozen, now, tolerance=1e-9)] == ["mass"]
+
+
+def test_relative_difference() -> None:
+    assert relative_difference(2.0, 1.0) == 0.5
+    assert relative_difference(-1.0, 1.0) == 2.0
+    assert relative_difference(math.inf, math.inf) == relative_difference(math.nan, math.nan) == 0.0
+    assert relative_difference(math.inf, 1.0) == relative_difference(1.0, math.nan) == math.inf
+
+
+def test_renames() -> None:
+    now = {**FROZEN, "rate@hot": 5.0, "size": 3.0}
+    del now["stiffness@hot"], now["mass"]
+    renames = Renames({"stiffness": "rate"}, frozenset({"mass"}), frozenset({"size"}))
+    assert found(now, renames=renames) == []
+    assert found({**now, "rate@hot": 5.1}, renames=renames) == [("rate@hot", "5.0", "5.1")]
+    assert found(now, renames=replace(renames, added=frozenset())) == [("size", "added", "3.0")]
+    assert found(now, renames=replace(renames, renamed={})) == [
+        ("stiffness@hot", "5.0", "lost"), ("rate@hot", "added", "5.0"),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["a", "limit:a >=", "limit:a@hot >= 2", "hidden:a[count]", "without motion:a@hot"])
+def test_base_name(name: str) -> None:
+    assert base_name(name) == "a"
+
+
+@pytest.mark.parametrize(
+    ("frozen", "now"),
+    [("limit:a >=", "limit:b >="), ("hidden:a[sum]", "hidden:b[sum]"), ("a@hot", "b@hot"), ("a_margin", "a_margin")],
+)
+def test_a_rename_keeps_group_and_point(frozen: str, now: str) -> None:
+    assert Renames({"a": "b"}).name_now(frozen) == now
+
+
+def test_a_renamed_input_is_set_by_its_name_of_today() -> None:
+    study = tvimdesign.example("paper_shear")
+    design = {"chosen": {"wire_size": 0.0018}, "units": {"wire_size": "m"}, "current_profiles": {}}
+    evaluated = study_outputs.evaluated_study(study, design, Renames({"wire_size": "wire_diameter"}))
+    assert "wire_diameter: 0.0018 m" in evaluated.text
+    assert "wire_size" not in evaluated.text
+
+
+def test_a_file_of_renames(tmp_path: Path) -> None:
+    assert Renames.read(tmp_path / "none.json").expected(FROZEN).keys() == FROZEN.keys()
+    path = tmp_path / "renames.json"
+    path.write_text(json.dumps({"renamed": {"a": "b"}, "removed": ["c"]}))
+    assert Renames.read(path).expected({"a@hot": 1.0, "c": 2.0}) == {"b@hot": 1.0}
+    path.write_text(json.dumps({"rename": {"a": "b"}}))
+    with pytest.raises(ValueError, match="unknown keys"):
+        Renames.read(path)
+
+
+def test_frozen_numbers_keep_every_bit(tmp_path: Path) -> None:
+    values = {"a": 0.1 + 0.2, "b": 5e-324, "c": math.inf, "d": -0.0, "e": 1.7976931348623157e308, "f": "\ud800"}
+    write_frozen(tmp_path / "x.json", values)
+    assert repr(read_frozen(tmp_path / "x.json")) == repr(dict(sorted(values.items())))
+    with pytest.raises(FileNotFoundError, match="is not frozen"):
+        read_frozen(tmp_path / "y.json")
+
+
+def test_a_digest_sees_each_number() -> None:
+    value = [(1.0, 2e-9), {"a": np.array([3e9, 0.0])}, "word", None]
+    assert study_outputs.digest("x", value) == study_outputs.digest("x", ({"b": 0.0}, 3e9, 1.0, 2e-9))
+    smallest = [(1.0, 2e-9 * (1.0 + 1e-6)), {"a": np.array([3e9, 0.0])}]
+    found = list(
+        differences("x", study_outputs.digest("x", value), study_outputs.digest("x", smallest), tolerance=1e-9)
+    )
+    assert [one.quantity for one in found] == ["x[log]"]
+    assert study_outputs.digest("x", 2) == {"x": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("change", "quantities"),
+    [
+        ({}, []),
+        ({"objective": 1.0 + 5e-7}, []),
+        ({"objective": 1.0 + 2e-6}, ["optimum:objective"]),
+        ({"objective": 0.9}, []),
+        ({"status": "below_yield"}, ["optimum:status"]),
+        ({"reference": {"mass": 0.21}}, ["reference:mass"]),
+    ],
+)
+def test_an_optimum(change: dict[str, Any], quantities: list[str]) -> None:
+    found = optima.optimum_differences("study", OPTIMUM, OPTIMUM | change)
+    assert [one.quantity for one in found] == quantities
+
+
+Answers = Callable[..., None]
+
+
+@pytest.fixture
+def answers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Answers:
+    """Put values of now and frozen ones in place of those of the fits."""
+    monkeypatch.setitem(subjects.FILES, "fit", tmp_path / "fits.json")
+    write_frozen(tmp_path / "fits.json", {"commit": "", "values": {"a": {"x": 1.0}, "b": {"x": 2.0}}})
+
+    def put(**now: Any) -> None:
+        def compute(value: Any) -> Callable[[], dict[str, Value]]:
+            return lambda: {"x": 1.0 / value["x"]} if value.get("x") == 0.0 else value
+
+        listed = [(name, compute(value)) for name, value in now.items()]
+        monkeypatch.setattr(same, "subjects", lambda *_: iter(listed))
+
+    return put
+
+
+@pytest.mark.parametrize(
+    ("now", "line"),
+    [
+        ({"a": {"x": 1.5}, "b": {"x": 2.0}}, "a  x  1.0  1.5  3.33e-01"),
+        ({"a": {"x": 1.0}}, "b  fit  1 values  lost  -"),
+        ({"a": {"x": 1.0}, "b": {"x": 2.0}, "c": {"x": 1.0}}, "c  fit  not frozen  1 values  -"),
+        ({"a": {"x": 1.0}, "b": {"x": 0.0}}, "b  fit  values  ZeroDivisionError: float division by zero  -"),
+    ],
+)
+def test_a_difference_is_a_line_and_exit_code_1(
+    answers: Answers, capsys: pytest.CaptureFixture[str], now: dict[str, Any], line: str
+) -> None:
+    answers(**now)
+    assert same.main(["--only", "fit"]) == 1
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[:-1] == [line]
+    assert printed[-1].startswith("DIFFERENT  fit: ")
+    assert printed[-1].endswith("values, 1 differ")
+
+
+def test_freeze_then_same(answers: Answers, capsys: pytest.CaptureFixture[str]) -> None:
+    answers(a={"x": 1.5}, c={"x": 3.0})
+    assert same.main(["--only", "fit"]) == 1
+    assert same.main(["--only", "fit", "--freeze"]) == 0
+    assert same.main(["--only", "fit"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "same  fit: 2 compared, 2 values, 0 differ"
+
+
+def test_an_unknown_study_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        same.main(["--studies", "nowhere"])
+    assert "no such study: nowhere" in capsys.readouterr().err
+
+
+def test_every_study_is_frozen() -> None:
+    frozen = {path.stem: read_frozen(path) for path in (frozen_files.FOLDER / "studies").glob("*.json")}
+    assert sorted(frozen) == study_outputs.study_names()
+    for name, data in frozen.items():
+        assert len(data["outputs"]) > 1000, name
+        assert set(data["chosen"]) >= set(data["units"]), name
+        assert ("objective" in data["optimum"]) == bool(data["optimum"]), name
+
+
+def test_message_places() -> None:
+    assert messages.message_places("mode: shear\nmodul: {}\n") == {"2:1 modul": 1.0}
+    assert messages.message_places("mode: shear\n") == {"accepted": 1.0}
+    assert messages.message_places("a: b: c")["1:5 "] == 1.0
+
+
+def test_a_fit_without_wording() -> None:
+    case = next(case for case in fits.fit_cases() if case.kind == "torque_angle")
+    once, again = fits.fit(case), fits.fit(case)
+    assert once == again
+    assert once["fit:kind"] == "torque_angle"
+    assert once["read:0.torque[count]"] == 25.0
+    assert "fit:parameters[stiffness].si.value" in once
+    assert not any("meaning" in name for name in once)
+    assert fits.fit(replace(case, data=b"nothing")) == {"read:refused": "InputError", "fit:refused": "InputError"}
+
+
+@pytest.mark.gate
+def test_a_frozen_design_has_the_frozen_names() -> None:
+    frozen = read_frozen(study_outputs.frozen_file("paper_shear"))
+    renames = Renames.read(same.RENAMES)
+    now = study_outputs.outputs(study_outputs.evaluate_frozen("paper_shear", renames))
+    found = list(differences("paper_shear", frozen["outputs"], now, tolerance=1e-3, renames=renames))
+    assert [str(one) for one in found if one.now == "lost" or one.frozen == "added"] == []
+    for name, value in frozen["chosen"].items():
+        assert now[name] == value
