@@ -31,7 +31,7 @@ ERROR = TABLEAU[2] - np.array([_FIRST, 1.0 - _FIRST, 0.0])
 """Weights of the stages in the difference from a solution of second order."""
 SAFETY, SHORTEST, LONGEST = 0.9, 0.2, 2.5
 """Of the length that the error allows next, the part that is taken; how far lengths change from one step to another."""
-MOST_ITERATIONS, EXACT = 15, 1e-6
+MOST_ITERATIONS, EXACT = 15, 1e-5
 """Newton's steps of a stage; the change of the scaled state below which one is the last: its square is left."""
 
 

@@ -19,6 +19,11 @@ _NAMES = [name for name in vars(interpreter) if name.isupper() and hasattr(ca, f
 _KNOWN = frozenset(getattr(interpreter, name) for name in _NAMES)
 if any(getattr(ca, f"OP_{name}") != getattr(interpreter, name) for name in _NAMES):
     raise ImportError(f"CasADi {ca.__version__} numbers its operations otherwise than tvimdesign.engine.interpreter")
+_COMMUTE = frozenset((interpreter.ADD, interpreter.MUL))
+_operation, _given, _to = (
+    getattr(ca._casadi, f"Function_instruction_{part}") for part in ("id", "input", "output")
+)
+"""CasADi's methods without their wrappers, which take half of the time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +42,9 @@ class Tape:
 
     @classmethod
     def of(cls, arguments: Sequence[Any], results: Sequence[Any]) -> Tape:
-        """Record expressions (SX) of symbols; what is written twice is computed once."""
-        shared = ca.cse([ca.SX(one) for one in results])
-        return cls.of_function(ca.Function("tape", list(arguments), shared, {"live_variables": False}))
+        """Record expressions (SX) of symbols."""
+        values = [ca.SX(one) for one in results]
+        return cls.of_function(ca.Function("tape", list(arguments), values, {"live_variables": False}))
 
     @classmethod
     def of_function(cls, function: Any) -> Tape:
@@ -49,12 +54,12 @@ class Tape:
         place: dict[int, int] = {}
         """Where the value of CasADi's work register is: an argument or constant (>= 0), or an operation (< 0)."""
         constants: dict[float, int] = {}
-        operations: list[tuple[int, int, int, int]] = []
-        """Level, operation, operands, in CasADi's order."""
+        operations: dict[tuple[int, int, int], int] = {}
+        """Operation and operands, in CasADi's order, with its place; what is written twice is computed once."""
         level: list[int] = []
         written: list[tuple[int, int, int]] = []
         for k in range(function.n_instructions()):
-            op, given, to = function.instruction_id(k), function.instruction_input(k), function.instruction_output(k)
+            op, given, to = _operation(function, k), _given(function, k), _to(function, k)
             if op == ca.OP_INPUT:
                 place[to[0]] = int(starts[given[0]]) + given[1]
             elif op == ca.OP_CONST:
@@ -63,14 +68,16 @@ class Tape:
                 written.append((to[0], to[1], place[given[0]]))
             elif op in _KNOWN:
                 one, other = place[given[0]], place[given[-1]]
-                here = 1 + max(level[-1 - one] if one < 0 else 0, level[-1 - other] if other < 0 else 0)
-                level.append(here)
-                operations.append((here, op, one, other))
-                place[to[0]] = -len(operations)
+                if op in _COMMUTE and one < other:
+                    one, other = other, one
+                known = operations.setdefault((op, one, other), len(level))
+                if known == len(level):
+                    level.append(1 + max(level[-1 - one] if one < 0 else 0, level[-1 - other] if other < 0 else 0))
+                place[to[0]] = -1 - known
             else:
                 raise ValueError(f"CasADi's operation {op} is not known to tvimdesign.engine.interpreter")
         base = int(starts[-1]) + len(constants)
-        table = np.array(operations, dtype=np.int64).reshape(-1, 4)
+        table = np.column_stack([np.array(level, np.int64), np.array(list(operations), np.int64).reshape(-1, 3)])
         order = np.lexsort((table[:, 1], table[:, 0]))
         changes = np.flatnonzero(np.any(np.diff(table[order, :2], axis=0) != 0, axis=1)) + 1
         starting = np.concatenate([[0], changes, [len(table)]]) if len(table) else np.zeros(1, np.int64)

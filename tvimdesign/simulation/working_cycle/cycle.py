@@ -14,7 +14,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_run import Found, Instant, PhaseRun
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle, Trajectory
 
-TOLERANCE = 2e-4
+TOLERANCE = 1e-4
 """Largest error of a step in the scaled state: values are within 2e-4 of what they converge to (test)."""
 SAMPLES = 200
 """Samples of a phase at least."""

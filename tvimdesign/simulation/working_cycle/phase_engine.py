@@ -6,7 +6,7 @@ A direction says how the inputs move: a column of `along`, a row an input. The p
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -84,7 +84,7 @@ class PhaseEngine:
         return self._tapes[names]
 
     @cached_property
-    def _together(self) -> dict[str, tuple[tuple[str, ...], int]]:
+    def together(self) -> dict[str, tuple[tuple[str, ...], int]]:
         """The quantities that each is recorded with, and its place among them.
 
         What needs the moduli of the layer's slices shares them; all else is a small part of the work.
@@ -96,12 +96,18 @@ class PhaseEngine:
 
     def value(self, name: str, state: Array, current: float, inputs: Array) -> float:
         """Return a quantity at an instant."""
-        group, place = self._together[name]
+        group, place = self.together[name]
         return float(self.tape(*group).values(state[: self.size], np.array([current]), inputs)[place][0])
+
+    def values(self, group: tuple[str, ...], passed: Sequence[Instant], inputs: Array) -> Array:
+        """Return quantities that are recorded together, a column each, at some instants, a row each."""
+        tape = self.tape(*group)
+        every = (tape.values(one.state[: self.size], np.array([one.current]), inputs) for one in passed)
+        return np.array([np.concatenate(one) for one in every])
 
     def slopes(self, name: str, now: Instant, inputs: Array, along: Array) -> tuple[float, Array]:
         """Return a quantity at an instant, and its slopes."""
-        group, place = self._together[name]
+        group, place = self.together[name]
         value, slopes = self.tape(*group).tangents(
             (now.state[: self.size], np.array([now.current]), inputs),
             (now.of_state[: self.size], now.of_current[None], along),
