@@ -10,7 +10,7 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tests.helpers.cvodes_phase import FIRST_STRETCH, PhaseSimulator
+from cvodes_phase import FIRST_STRETCH, PhaseSimulator
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle, Trajectory
 
 STEPS = 50  # samples of one stretch of time

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
-from tvimdesign.solve.nlp.transcription import guess, phase_block
+from collocation import guess, phase_block
 
 Array = NDArray[np.float64]
 ELEMENTS = 128

@@ -1,4 +1,4 @@
-"""Equations and integrators that models of the same words have alike, written once in a process for all tests.
+"""Equations and recordings that models of the same words have alike, written once in a process for all tests.
 
 A table's equations hang on its records, options and counts of cells, not on the numbers put in: two models that differ
 in numbers alone have the same. Writing them takes most of what it takes to evaluate a module, and hundreds of tests do.
@@ -13,13 +13,11 @@ from typing import Any
 
 import pytest
 
-from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_simulator import PhaseSimulator
 
 KEPT = 10
 """Kinds of model whose equations are kept, those used last: each is some ten megabytes."""
-EQUATIONS = ("_symbols", "_settled", "_known", "phases", "output_names", "every_output", "functions")
+EQUATIONS = ("_symbols", "_settled", "_known", "phases", "engines", "output_names", "every_output", "functions")
 
 _by_kind: OrderedDict[Hashable, DeviceFunctions] = OrderedDict()
 _begin, _outputs = DeviceFunctions.__init__, DeviceFunctions.outputs
@@ -53,21 +51,9 @@ def _shared_outputs(self: DeviceFunctions, wanted: Sequence[str], instead: Mappi
     return kept[asked]
 
 
-def _shared_phase(self: Simulator, name: str) -> PhaseSimulator:
-    """The integrator of a phase, built once for all simulators of one exactness."""
-    functions = self.model.phases[name]
-    kept = functions.__dict__.setdefault("integrators", {})
-    exactness = (self.tolerance, self.steps)
-    if exactness not in kept:
-        kept[exactness] = PhaseSimulator(self.model, functions, *exactness)
-    found: PhaseSimulator = kept[exactness]
-    return found
-
-
 @pytest.fixture(scope="session", autouse=True)
 def _shared_models() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(DeviceFunctions, "__init__", _like_the_last)
         patch.setattr(DeviceFunctions, "outputs", _shared_outputs)
-        patch.setattr(Simulator, "_phase", _shared_phase)
         yield

@@ -18,10 +18,10 @@ from unittest import mock
 
 import psutil
 
+from cvodes_cycle import CvodesSimulator
 from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.base.processor_time import LIMIT, communicate
 from tvimdesign.cli.main import main
-from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,9 +74,9 @@ def digits(name: str, usual: float) -> float:
     return 1e-9 if name.partition("@")[0] in TRANSFORMED else usual
 
 
-def fine(model: DeviceFunctions) -> Simulator:
-    """A simulator ten thousand times as exact as the product's, for what is differenced or held to many digits."""
-    return Simulator(model, tolerance=1e-9, steps=200)
+def fine(model: DeviceFunctions) -> CvodesSimulator:
+    """Another simulator, by CVODES at 1e-9, for what is differenced or held to many digits."""
+    return CvodesSimulator(model, tolerance=1e-9, steps=200)
 
 
 def environment(spread: str = "off") -> dict[str, str]:

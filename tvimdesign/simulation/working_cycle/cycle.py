@@ -9,7 +9,6 @@ import numpy as np
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_run import Found, Instant, PhaseRun
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle, Trajectory
@@ -24,13 +23,11 @@ class Simulator:
     """Simulates the working cycle of one model, with any current over time; values have no derivatives here."""
 
     def __init__(
-        self, model: DeviceFunctions, tolerance: float = TOLERANCE, samples: int = SAMPLES,
-        engine: CycleEngine | None = None,
-    ) -> None:  # fmt: skip
-        """Nothing is recorded yet; an `engine` of the same model saves recording it again."""
+        self, model: DeviceFunctions, tolerance: float = TOLERANCE, samples: int = SAMPLES
+    ) -> None:
+        """Take what the model's phases have recorded; `samples` is how many a trajectory has at least."""
         self.model = model
         self.tolerance, self.samples = tolerance, samples
-        self.engine = engine or CycleEngine(model)
 
     def run(
         self,
@@ -63,7 +60,7 @@ class Simulator:
             state = before.states[:, -1] if before else None
             events = [row.name for row in phase_functions.events]
             sought = [event for event in events if wanted is None or event in wanted or event == phase.ends]
-            engine = self.engine.phases[name]
+            engine = self.model.engines[name]
             run, moments, _ = engine.simulate(inputs, profile, state, sought, horizon, self.tolerance, deadline)
             found = Found(end=moments.get(phase.ends))
             run.add_paths(found, None)
@@ -90,7 +87,7 @@ class Simulator:
     def trace(self, name: str, inputs: Array, before: Array | None, end: float) -> Trajectory:
         """A phase at its constant current for `end` seconds, on beyond what ends it if that is longer."""
         profile = self.constant_drive(name, inputs)
-        engine = self.engine.phases[name]
+        engine = self.model.engines[name]
         run, _, _ = engine.simulate(inputs, profile, before, [], end, self.tolerance, throughout=True)
         return self._trajectory(run, None)
 

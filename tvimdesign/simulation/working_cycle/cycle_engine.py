@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from tvimdesign.engine.interpreter import Array
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid, Instant
 
 
@@ -28,14 +26,9 @@ class CycleEngine:
     """Steps the working cycle of one model."""
 
     def __init__(self, model: DeviceFunctions) -> None:
-        """Nothing is recorded yet."""
+        """Take what the model's phases have recorded."""
         self.model = model
         self._place = {name: i for i, name in enumerate(model.switch_names)}
-
-    @cached_property
-    def phases(self) -> dict[str, PhaseEngine]:
-        """Every phase by name."""
-        return {name: PhaseEngine(phase) for name, phase in self.model.phases.items()}
 
     def run(
         self,
@@ -56,7 +49,7 @@ class CycleEngine:
         ended: dict[str, Instant] = {}
         short: dict[str, tuple[float, Array]] = {}
         horizon = float(inputs[self.model.index["horizon"]])
-        for name, engine in self.phases.items():
+        for name, engine in self.model.engines.items():
             after = engine.phase.phase.after
             if not self._needed(name, wanted) or (after and after not in ended):
                 continue

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.casadi_setup import ca, lean_function
+from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
@@ -66,6 +67,11 @@ class DeviceFunctions:
         """Every phase of the working cycle by name, in the order they are gone through."""
         inputs, known = self._symbols[0], self._settled
         return {phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells, self.names) for phase in self.table.phases}
+
+    @cached_property
+    def engines(self) -> dict[str, PhaseEngine]:
+        """The engine of every phase by name; what one records serves all who step this device."""
+        return {name: PhaseEngine(phase) for name, phase in self.phases.items()}
 
     @cached_property
     def either_way(self) -> PhaseFunctions:
