@@ -106,7 +106,7 @@ def stage(m: System, v: Array, y: Array, base: Array, u: float, h: float, entrie
             y[m.pattern.order[p]] += right[p]
             change = max(change, abs(right[p]))
         if not change > EXACT:
-            return change == change
+            return not np.isnan(change)
     return False
 
 
@@ -227,10 +227,7 @@ def advance(
     last = lengths.size
     for k in range(first, last):
         states[k + 1], tangents[k + 1] = states[k], tangents[k]
-        if k > 0:
-            scaled = ahead * (lengths[k] / lengths[k - 1])
-        else:
-            scaled = ahead.copy()
+        scaled = ahead * (lengths[k] / lengths[k - 1] if k > 0 else 1.0)
         if not step(m, w, d, v, states[k + 1], tangents[k + 1], u[k], du[k], lengths[k], of_lengths[k], scaled):
             return k
         ahead[:] = scaled

@@ -1,8 +1,8 @@
 """Run a tape of operations: values alone, or values with tangents along directions.
 
 A tape is what `tape.Tape` makes of a CasADi function: operations in groups of one kind, none of which needs another of
-its group. Registers `w` hold its arguments, then constants, then results. So the program below is compiled once, whatever the
-function is, and takes about two nanoseconds for an operation.
+its group. Registers `w` hold its arguments, then constants, then results. So the program below is compiled once,
+whatever the function is, and takes about two nanoseconds for an operation.
 """
 
 from __future__ import annotations
@@ -75,9 +75,9 @@ def slopes_of(op: int, x: float, y: float) -> tuple[float, float, float]:
     if op == FABS:
         return abs(x), (1.0 if x > 0.0 else -1.0 if x < 0.0 else 0.0), 0.0
     if op == FMIN:
-        return (x, 1.0, 0.0) if x <= y else (y, 0.0, 1.0)
+        return (x, 1.0, 0.0) if x <= y or math.isnan(y) else (y, 0.0, 1.0)
     if op == FMAX:
-        return (x, 1.0, 0.0) if x >= y else (y, 0.0, 1.0)
+        return (x, 1.0, 0.0) if x >= y or math.isnan(y) else (y, 0.0, 1.0)
     if op == IF_ELSE_ZERO:
         return (y, 0.0, 1.0) if x != 0.0 else (0.0, 0.0, 0.0)
     if op <= ATAN and op >= SIN:
@@ -128,7 +128,7 @@ def _hyperbolic(op: int, x: float, y: float) -> tuple[float, float, float]:
     if op == ACOSH:
         return (math.acosh(x), 1.0 / math.sqrt(x * x - 1.0), 0.0) if x >= 1.0 else (math.nan, math.nan, 0.0)
     if op == ATANH:
-        return (math.atanh(x), 1.0 / (1.0 - x * x), 0.0) if abs(x) < 1.0 else (math.nan, math.nan, 0.0)
+        return (math.atanh(x), 1.0 / (1.0 - x * x), 0.0) if abs(x) <= 1.0 else (math.nan, math.nan, 0.0)
     square = x * x + y * y
     return math.atan2(x, y), y / square, -x / square
 
@@ -151,11 +151,11 @@ def _stepped(op: int, x: float, y: float) -> float:
     if op == OR:
         return 1.0 if x != 0.0 or y != 0.0 else 0.0
     if op == FLOOR:
-        return math.floor(x)
+        return float(np.floor(x))
     if op == CEIL:
-        return math.ceil(x)
+        return float(np.ceil(x))
     if op == SIGN:
-        return 1.0 if x > 0.0 else -1.0 if x < 0.0 else 0.0
+        return 1.0 if x > 0.0 else -1.0 if x < 0.0 else x
     return math.nan
 
 

@@ -20,9 +20,7 @@ _KNOWN = frozenset(getattr(interpreter, name) for name in _NAMES)
 if any(getattr(ca, f"OP_{name}") != getattr(interpreter, name) for name in _NAMES):
     raise ImportError(f"CasADi {ca.__version__} numbers its operations otherwise than tvimdesign.engine.interpreter")
 _COMMUTE = frozenset((interpreter.ADD, interpreter.MUL))
-_operation, _given, _to = (
-    getattr(ca._casadi, f"Function_instruction_{part}") for part in ("id", "input", "output")
-)
+_operation, _given, _to = (getattr(ca._casadi, f"Function_instruction_{part}") for part in ("id", "input", "output"))
 """CasADi's methods without their wrappers, which take half of the time."""
 
 

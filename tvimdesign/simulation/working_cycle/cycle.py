@@ -22,9 +22,7 @@ SAMPLES = 200
 class Simulator:
     """Simulates the working cycle of one model, with any current over time; values have no derivatives here."""
 
-    def __init__(
-        self, model: DeviceFunctions, tolerance: float = TOLERANCE, samples: int = SAMPLES
-    ) -> None:
+    def __init__(self, model: DeviceFunctions, tolerance: float = TOLERANCE, samples: int = SAMPLES) -> None:
         """Take what the model's phases have recorded; `samples` is how many a trajectory has at least."""
         self.model = model
         self.tolerance, self.samples = tolerance, samples
@@ -74,9 +72,7 @@ class Simulator:
                 values |= {one: engine.value(one, state, standing.current, inputs) for one in stays}
         return Cycle(values, trajectories, balances)
 
-    def run_to_show(
-        self, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None
-    ) -> Cycle:
+    def run_to_show(self, inputs: Array, current_profiles: Mapping[str, CurrentProfile] | None = None) -> Cycle:
         """Simulate all phases; the same inputs have the same values and samples, whoever asks."""
         return self.run(inputs, current_profiles)
 

@@ -66,7 +66,10 @@ class DeviceFunctions:
     def phases(self) -> dict[str, PhaseFunctions]:
         """Every phase of the working cycle by name, in the order they are gone through."""
         inputs, known = self._symbols[0], self._settled
-        return {phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells, self.names) for phase in self.table.phases}
+        return {
+            phase.name: PhaseFunctions(self.table, phase, inputs, known, self.cells, self.names)
+            for phase in self.table.phases
+        }
 
     @cached_property
     def engines(self) -> dict[str, PhaseEngine]:

@@ -115,8 +115,14 @@ class PhaseEngine:
         return float(value[0]), slopes[0]
 
     def run(
-        self, inputs: Array, along: Array, before: Instant | None, wanted: Collection[str] | None, horizon: float,
-        grid: Grid | None, drive: Drive | None = None,
+        self,
+        inputs: Array,
+        along: Array,
+        before: Instant | None,
+        wanted: Collection[str] | None,
+        horizon: float,
+        grid: Grid | None,
+        drive: Drive | None = None,
     ) -> tuple[Found, Grid]:
         """Step until every wanted event has happened, and evaluate all that is wanted.
 
@@ -145,9 +151,7 @@ class PhaseEngine:
             run.add_steadies(found, wanted)
         return found.without_length(), grid or Grid()
 
-    def _begin(
-        self, inputs: Array, along: Array, before: Instant | None
-    ) -> tuple[PhaseRun, Instant, float, Array]:
+    def _begin(self, inputs: Array, along: Array, before: Instant | None) -> tuple[PhaseRun, Instant, float, Array]:
         """A run with its constants in place, where it starts, and the unit of its steps with its slopes."""
         motion, given = self.recorded
         along = np.column_stack([along, np.zeros(len(along))])  # the length of a phase's last step

@@ -172,9 +172,7 @@ class PhaseRun:
             one = other
         return found, settled
 
-    def search(
-        self, start: Instant, pace: float, dpace: Array, sought: list[str], grid: Grid
-    ) -> dict[str, Instant]:
+    def search(self, start: Instant, pace: float, dpace: Array, sought: list[str], grid: Grid) -> dict[str, Instant]:
         """Step along a grid to where each event first is due."""
         shares = np.array(grid.shares)
         if len(shares):
@@ -383,7 +381,8 @@ class PhaseRun:
     def _moving(self, now: Instant) -> tuple[Array, Array]:
         """Rates at an instant, and their tangents."""
         (pair,) = self.motion.rates.tangents(
-            (now.state, np.array([now.current]), self._constants), (now.of_state, now.of_current[None], self._of_constants)
+            (now.state, np.array([now.current]), self._constants),
+            (now.of_state, now.of_current[None], self._of_constants),
         )
         return pair
 
