@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import hand_module
 import numpy as np
 import pytest
-from by_hand import PUBLISHED, ByHand, by_hand, evaluate
+from as_plain_python import by_hand, hand_module
 from contenders import Once, by_tvimdesign, lsoda
 from front import ManyDesigns
 from optimum import exact
@@ -46,7 +45,7 @@ def test_our_own_row_is_an_optimum_to_an_independent_integrator(reference: Refer
 def equations_by_hand(design: np.ndarray, sensitive: bool = False) -> tuple[np.ndarray, np.ndarray]:
     count = hand_module.OUTPUTS + hand_module.RESIDUALS
     rows, slopes = np.zeros(count), np.zeros((count, len(design)))
-    evaluate(np.log(design), rows, slopes, sensitive)
+    by_hand.evaluate(np.log(design), rows, slopes, sensitive)
     return rows, slopes
 
 
@@ -66,8 +65,8 @@ def test_the_arithmetic_written_by_hand_is_the_tables(reference: Reference) -> N
         assert rows[:2] == pytest.approx(expected, rel=1e-12)
         residuals = reference.rows(design, 100.0)[kept]
         assert rows[hand_module.OUTPUTS :] == pytest.approx(residuals, rel=1e-9, abs=1e-12)
-    assert pytest.approx(reference.begin, rel=1e-12) == PUBLISHED
-    assert ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
+    assert pytest.approx(reference.begin, rel=1e-12) == by_hand.PUBLISHED
+    assert by_hand.ByHand().objective(np.log(reference.begin)) == pytest.approx(3.0)
 
 
 def test_the_switch_written_by_hand_is_the_tables(reference: Reference) -> None:
@@ -77,7 +76,7 @@ def test_the_switch_written_by_hand_is_the_tables(reference: Reference) -> None:
 
 @pytest.mark.slow
 def test_the_optimum_by_hand_is_ours(reference: Reference) -> None:
-    design, _ = by_hand(reference.begin, reference.lower, reference.upper)
+    design, _ = by_hand.by_hand(reference.begin, reference.lower, reference.upper)
     ours = exact(reference, by_tvimdesign(reference, reference.begin).design)
     objective, broken = exact(reference, design)
     assert objective == pytest.approx(ours[0], rel=1e-6)
