@@ -78,8 +78,8 @@ def design(optimizer: Optimizer) -> Array:
 
 def broken(optimizer: Optimizer, inputs: Array) -> float:
     """The most by which a design, simulated, breaks a limit."""
-    cycle = optimizer.problem.simulated(optimizer.simulator, inputs)
-    values = optimizer.model.values(inputs, cycle.values)
+    cycle = optimizer.problem.simulated(inputs)
+    values = optimizer.model.values(inputs, cycle)
     return max(float(limit.residual(values[limit.output])) for limit in optimizer.problem.limits)
 
 
@@ -88,11 +88,11 @@ def test_boxes_lead_from_a_design_to_an_optimum_that_ipopt_does_not_find_from_it
     optimizer: Optimizer, design: Array
 ) -> None:
     assert broken(optimizer, design) <= 0.0
-    assert not optimizer.solve(begin=design, unknowns=optimizer.simulated_guess(design)).start.converged
+    assert not optimizer.solve(begin=design).start.converged
     found = BoxSearch(optimizer).run(design)
     assert found.start.converged
     assert broken(optimizer, found.inputs) <= CYCLE_TOLERANCE
-    heights = [optimizer.model.values(x, optimizer.multistart.cycle.values)["envelope_height"]
+    heights = [optimizer.model.values(x, optimizer.multistart.cycle)["envelope_height"]
                for x in (design, found.inputs)]  # fmt: skip
     assert heights[1] < 0.95 * heights[0]
     assert not found.within  # an optimum of the whole problem, no side of a box holds it

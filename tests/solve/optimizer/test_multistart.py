@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.nlp.problem import Free
 from tvimdesign.solve.optimizer.multistart import MAX_DRAWS, Multistart
 from tvimdesign.study import SolverOptions
@@ -32,13 +31,13 @@ def searches(
     )
     model.values = lambda inputs, _: {"mass": mass(inputs[0]), "time": np.nan}
 
-    def simulated(_: Any, inputs: np.ndarray, **_given: object) -> Cycle:
-        return Cycle({"time": takes(float(inputs[0]))}, {}, {})
+    def simulated(inputs: np.ndarray) -> dict[str, float]:
+        return {"time": takes(float(inputs[0]))}
 
     free = (Free("size", LOWER, UPPER, 2.0),)
-    problem = SimpleNamespace(free=free, events=("time",), simulated=simulated, blocks=())
+    problem = SimpleNamespace(free=free, events=("time",), simulated=simulated, phases=())
     options = SolverOptions(starts=starts, seed=SEED)
-    return Multistart(cast(Any, problem), model, cast(Any, None), options, said.append), said
+    return Multistart(cast(Any, problem), model, options, said.append), said
 
 
 def sizes(found: Multistart) -> list[float]:
@@ -114,7 +113,7 @@ def test_a_point_that_can_be_simulated_takes_the_place_of_a_start_that_cannot() 
     assert 10.0 <= first < 40.0
     assert second == pytest.approx(next(size for size in drawn(50) if 10.0 <= size < 40.0))
     assert found.model.start[0] == first
-    assert found.cycle.values["time"] == first
+    assert found.cycle["time"] == first
     assert said == ["the study's own start cannot be simulated: starting elsewhere"]
 
 
