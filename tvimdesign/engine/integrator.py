@@ -93,6 +93,12 @@ def newton_matrix(m: System, v: Array, y: Array, u: float, share: float, h: floa
 
 
 @njit(cache=True, error_model="numpy")
+def largest(size: float, other: float) -> float:
+    """Return the larger size of two; infinity where one is no number, which a maximum would pass over."""
+    return max(size, abs(other)) if not np.isnan(other) else np.inf
+
+
+@njit(cache=True, error_model="numpy")
 def stage(m: System, v: Array, y: Array, base: Array, u: float, h: float, entries: Array, right: Array) -> bool:
     """Solve `mass (y - base) = h f(y)` from y."""
     for _ in range(MOST_ITERATIONS):
@@ -104,9 +110,11 @@ def stage(m: System, v: Array, y: Array, base: Array, u: float, h: float, entrie
         change = 0.0
         for p in range(y.size):
             y[m.pattern.order[p]] += right[p]
-            change = max(change, abs(right[p]))
-        if not change > EXACT:
-            return not np.isnan(change)
+            change = largest(change, right[p])
+        if change <= EXACT:
+            return True
+        if change == np.inf:
+            break
     return False
 
 
@@ -187,7 +195,7 @@ def step_error(m: System, v: Array, y: Array, current: float, slope: float, h: f
     solve(m.pattern, entries, right)
     worst = 0.0
     for p in range(size):
-        worst = max(worst, abs(right[p]))
+        worst = largest(worst, right[p])
     return worst
 
 

@@ -402,13 +402,16 @@ class PhaseRun:
     def standing(self, end: Instant) -> Instant | None:
         """State and current that stay, with their tangents; None where there are none.
 
-        The current is sought at which the event that ends the phase stays due; at each, the state that stays.
+        The current is sought at which the event that ends the phase stays due; at each, the state that stays. Newton's
+        method is kept between currents that are too small and too large, and they are halved where it gains little: what
+        stays may change steeply where a part of the layer melts.
         """
         ends, size = self.of.phase.phase.ends, self.of.size
         y, current = end.state.copy(), end.current
         of_current = np.append(np.zeros(self.lanes), 1.0)
         along = np.column_stack([self.along, np.zeros(len(self.along))])
-        for _ in range(30):
+        too_small, too_large, before = np.nan, np.nan, np.inf
+        for _ in range(60):
             settled = self._settle(y, current)
             if settled is None:
                 return None
@@ -422,8 +425,13 @@ class PhaseRun:
             if abs(change) < 1e-9 * max(1.0, abs(current)):
                 moved = -slopes[:-1] / slopes[-1]
                 return Instant(0.0, moved, y, s[:, :-1] + s[:, -1:] * moved, current, moved)
+            too_small, too_large = (current, too_large) if gap < 0.0 else (too_small, current)
+            inside = min(too_small, too_large) < current + change < max(too_small, too_large)
+            if abs(change) > 0.5 * before or not inside:
+                middle = 0.5 * (too_small + too_large) - current
+                change = change if np.isnan(middle) else middle
             y[:size] += change * s[:size, -1]
-            current += change
+            current, before = current + change, abs(change)
         return None
 
     def _settle(self, y: Array, current: float) -> tuple[Array, Array] | None:
