@@ -403,8 +403,8 @@ class PhaseRun:
         """State and current that stay, with their tangents; None where there are none.
 
         The current is sought at which the event that ends the phase stays due; at each, the state that stays. Newton's
-        method is kept between currents that are too small and too large, and they are halved where it gains little: what
-        stays may change steeply where a part of the layer melts.
+        method is kept between currents that are too small and too large, and their middle is taken where it gains
+        little: what stays may change steeply where a part of the layer melts.
         """
         ends, size = self.of.phase.phase.ends, self.of.size
         y, current = end.state.copy(), end.current

@@ -1,0 +1,131 @@
+"""A CasADi function as data: computed as CasADi does, once, in registers that are used again, or refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tvimdesign.engine import interpreter
+from tvimdesign.engine.tape import Tape
+
+Array = NDArray[np.float64]
+STEPS = (
+    lambda a, b: a + b, lambda a, b: a - b, lambda a, b: a * b, lambda a, b: a / (1.0 + b * b), lambda a, _: ca.sin(a),
+    lambda a, _: ca.exp(-a * a), lambda a, b: ca.fmin(a, b + 0.123), lambda a, b: ca.if_else(a < b, a, 0.3 * b),
+)  # fmt: skip
+steps = st.lists(
+    st.tuples(st.integers(0, len(STEPS) - 1), st.integers(0, 10**6), st.integers(0, 10**6)), min_size=1, max_size=60
+)
+
+
+def grown(taken: list[tuple[int, int, int]]) -> tuple[Any, Any, Any]:
+    """An expression that grows by an operation of two earlier values at a time, and two of its values."""
+    x = ca.SX.sym("x", 3)
+    values = [x[0], x[1], x[2], ca.SX(0.7)]
+    for kind, one, other in taken:
+        values.append(STEPS[kind](values[one % len(values)], values[other % len(values)]))
+    return x, ca.vertcat(*values[-5:]), values[len(values) // 2]
+
+
+def operations(tape: Tape) -> int:
+    return int(tape.code.groups[-1, 1])
+
+
+@settings(max_examples=200)
+@given(taken=steps, at=st.lists(st.floats(-2.0, 2.0), min_size=3, max_size=3))
+def test_registers_that_are_used_again_never_lose_what_is_still_read(
+    taken: list[tuple[int, int, int]], at: list[float]
+) -> None:
+    x, many, one = grown(taken)
+    tape, function = Tape.of([x], [many, one]), ca.Function("f", [x], [many, one])
+    expected = [np.asarray(ca.densify(part)).ravel() for part in function(at)]
+    for part, other in zip(tape.values(np.array(at)), function(at), strict=True):
+        assert part.tolist() == np.array(other.nonzeros()).tolist()
+    moved = ca.Function("g", [x], [ca.jacobian(ca.vertcat(many, one), x)])
+    tangents = np.concatenate([slope for _, slope in tape.tangents((np.array(at),), (np.eye(3),))])
+    assert tangents == pytest.approx(np.asarray(moved(at)), rel=1e-10, abs=1e-10)
+    assert len(expected[0]) == 5
+
+
+@given(taken=steps)
+def test_no_operation_writes_where_its_own_group_reads(taken: list[tuple[int, int, int]]) -> None:
+    x, many, one = grown(taken)
+    code = Tape.of([x], [many, one]).code
+    for (_, start), (_, end) in zip(code.groups[:-1], code.groups[1:], strict=True):
+        written = code.to[start:end].tolist()
+        assert len(set(written)) == len(written)
+        assert not set(written) & {*code.first[start:end].tolist(), *code.second[start:end].tolist()}
+
+
+def test_a_long_chain_needs_few_registers() -> None:
+    x = ca.SX.sym("x", 2)
+    value = x[0]
+    for _ in range(500):
+        value = ca.sin(value) + x[1]
+    tape = Tape.of([x], [value])
+    assert operations(tape) == 1000
+    assert tape.registers.size <= 2 + 4
+
+
+def test_what_is_written_twice_is_computed_once() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    twice = ca.exp(x * y) + ca.exp(y * x) * ca.sin(x + y) - ca.sin(y + x)
+    tape = Tape.of([x, y], [twice, ca.exp(x * y)])
+    # x y, its exponential, x + y, its sine, their product, the sum, the difference
+    assert operations(tape) == 7
+    values = tape.values(np.array([0.3]), np.array([0.9]))
+    assert values[0][0] == pytest.approx(float(ca.Function("f", [x, y], [twice])(0.3, 0.9)), rel=1e-15)
+    assert values[1][0] == pytest.approx(np.exp(0.27), rel=1e-15)
+
+
+def test_operands_that_may_not_change_places_are_not_taken_for_the_same() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    tape = Tape.of([x, y], [x - y, y - x, x / y, y / x])
+    assert operations(tape) == 4
+    assert [float(part[0]) for part in tape.values(np.array([3.0]), np.array([2.0]))] == [1.0, -1.0, 1.5, 2.0 / 3.0]
+
+
+def test_results_may_be_arguments_constants_or_empty_and_have_zeros() -> None:
+    x = ca.SX.sym("x", 2)
+    sparse = ca.diag(x)
+    tape = Tape.of([x], [x, ca.SX(4.0), ca.SX(0, 1), sparse])
+    whole, number, nothing, entries = tape.values(np.array([1.5, -2.0]))
+    assert whole.tolist() == entries.tolist() == [1.5, -2.0]
+    assert number.tolist() == [4.0]
+    assert nothing.size == 0
+    ((_, of_whole), (_, of_number), *_) = tape.tangents((np.zeros(2),), (np.array([[1.0, 2.0], [3.0, 4.0]]),))
+    assert of_whole.tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    assert of_number.tolist() == [[0.0, 0.0]]
+
+
+def test_arguments_lie_one_below_the_other() -> None:
+    x, y, z = ca.SX.sym("x", 2), ca.SX.sym("y", 0), ca.SX.sym("z", 3)
+    tape = Tape.of([x, y, z], [ca.sum1(x) * ca.vertcat(z)])
+    assert tape.arguments.tolist() == [0, 2, 2, 5]
+    (found,) = tape.values(np.array([1.0, 2.0]), np.zeros(0), np.array([1.0, 10.0, 100.0]))
+    assert found.tolist() == [3.0, 30.0, 300.0]
+
+
+def test_a_run_leaves_nothing_to_the_next() -> None:
+    x = ca.SX.sym("x", 2)
+    tape = Tape.of([x], [ca.sqrt(x[0]) * x[1], 3.0 * x[1]])
+    first = [part.tolist() for part in tape.values(np.array([4.0, 5.0]))]
+    tape.values(np.array([np.nan, np.inf]))
+    tape.tangents((np.array([-1.0, 0.0]),), (np.full((2, 2), np.nan),))
+    assert [part.tolist() for part in tape.values(np.array([4.0, 5.0]))] == first == [[10.0], [15.0]]
+
+
+def test_an_operation_that_is_not_known_is_refused() -> None:
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    with pytest.raises(ValueError, match=rf"operation {ca.OP_FMOD} is not known"):
+        Tape.of([x, y], [ca.fmod(x, y) + 1.0])
+
+
+def test_an_operation_the_program_does_not_know_gives_no_number() -> None:
+    assert np.isnan(interpreter.slopes_of(90, 1.0, 2.0)[0])
