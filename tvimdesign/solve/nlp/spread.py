@@ -151,9 +151,7 @@ def drawn_values(
     function: Columns, contributors: Sequence[Contributor], samples: int, seed: int, first: int = 0
 ) -> Array:
     """Outputs of `samples` modules from the `first` on, a column each; the same however they are parted."""
-    from scipy.stats import qmc
-
-    points = qmc.Sobol(len(contributors), rng=np.random.default_rng(seed))
+    points = _sobol(len(contributors), seed)
     if first:
         points.fast_forward(first)
     found = []
@@ -161,6 +159,17 @@ def drawn_values(
         drawn = points.random(min(CHUNK, samples - done)).T
         found.append(function(inputs_at(contributors, drawn)))
     return np.concatenate(found, axis=1)
+
+
+def _sobol(count: int, seed: int) -> Any:
+    from scipy.stats import qmc
+
+    return qmc.Sobol(count, rng=np.random.default_rng(seed))
+
+
+def sobol_points(count: int, samples: int, seed: int) -> Array:
+    """The points of the unit cube that modules are drawn at, a row an input, a column a module."""
+    return np.ascontiguousarray(_sobol(count, seed).random(samples).T)
 
 
 def moments_of(values: Array) -> MonteCarlo:

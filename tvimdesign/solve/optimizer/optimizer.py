@@ -29,7 +29,7 @@ from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
-SETTLED = 1e-5
+SETTLED = 1e-4
 """Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
 MOST_GRIDS = 4
 """Times the steps are placed anew for one run."""

@@ -61,24 +61,46 @@ def output_sensitivities(
     names = [n for n in wanted if not isinstance(resolved.table.quantity(n), FirstOscillation)]
     variables = by or [row.name for row in resolved.table.inputs if _is_variable(resolved, model, row.name)]
     variables = [name for name in variables if name not in resolved.replaced]
-    place = [model.index[name] for name in variables]
-    along = np.zeros((len(model.names), len(place)))
-    along[place, range(len(place))] = 1.0
-    supplied = {name: _supplied_behind(model, name) for name in names}
-    needed = {one for name in names for one in supplied[name]}
-    cycle, of_cycle = np.full(len(model.switch_names), np.inf), np.zeros((len(model.switch_names), len(place)))
-    if needed:
-        cycle, of_cycle, _ = CycleEngine(model).run(model.start, along, needed)
-    never = {name for name, value in zip(model.switch_names, cycle, strict=True) if not np.isfinite(value)}
+    derivatives = OutputDerivatives(model, names)
+    values, slopes, never = derivatives.at(model.start, variables)
     lost = never | behind_profiles(model.table, set(resolved.current_profiles))
-    kept = [name for name in names if not supplied[name] & lost]
-    inputs, seen = ca.SX.sym("inputs", len(model.names)), ca.SX.sym("cycle", len(model.switch_names))
-    outputs = Tape.of([inputs, seen], [ca.densify(model.outputs(kept).call([inputs, seen], True, False)[0])])
-    # What nothing wanted depends on may be infinite; it is never read.
-    numbers = np.where(np.isfinite(cycle), cycle, 1.0)
-    ((values, derivatives),) = outputs.tangents([model.start, numbers], [along, of_cycle])
-    left_out = tuple(name for name in names if name not in kept)
-    return OutputSensitivities(tuple(kept), tuple(variables), values, model.start[place], derivatives, left_out)
+    kept = [i for i, name in enumerate(names) if not derivatives.supplied[name] & lost]
+    left_out = tuple(name for i, name in enumerate(names) if i not in kept)
+    at = model.start[[model.index[name] for name in variables]]
+    return OutputSensitivities(
+        tuple(names[i] for i in kept), tuple(variables), values[kept], at, slopes[kept], left_out
+    )  # fmt: skip
+
+
+class OutputDerivatives:
+    """Outputs of one model with their derivatives by some inputs, at any design."""
+
+    def __init__(self, model: DeviceFunctions, outputs: Sequence[str]) -> None:
+        """Record the outputs."""
+        self.model, self.outputs = model, tuple(outputs)
+        self.supplied = {name: _supplied_behind(model, name) for name in outputs}
+        """What each output needs of the cycle."""
+        inputs, cycle = ca.SX.sym("inputs", len(model.names)), ca.SX.sym("cycle", len(model.switch_names))
+        values = model.outputs(self.outputs).call([inputs, cycle], True, False)[0]
+        self._tape, self._engine = Tape.of([inputs, cycle], [ca.densify(values)]), CycleEngine(model)
+
+    def at(self, inputs: Array, by: Sequence[str]) -> tuple[Array, Array, set[str]]:
+        """Return values, derivatives (a column an input), and what the cycle does not supply at a design's inputs.
+
+        Raises SimulationError.
+        """
+        place = [self.model.index[name] for name in by]
+        along = np.zeros((len(inputs), len(place)))
+        along[place, range(len(place))] = 1.0
+        needed = set().union(*self.supplied.values())
+        cycle, of_cycle = np.full(len(self.model.switch_names), np.inf), np.zeros((len(self.model.switch_names), len(place)))
+        if needed:
+            cycle, of_cycle, _ = self._engine.run(inputs, along, needed)
+        never = {name for name, value in zip(self.model.switch_names, cycle, strict=True) if not np.isfinite(value)}
+        # What nothing wanted depends on may be infinite; it is never read.
+        numbers = np.where(np.isfinite(cycle), cycle, 1.0)
+        ((values, slopes),) = self._tape.tangents([inputs, numbers], [along, of_cycle])
+        return values, slopes, never
 
 
 def entries(found: OutputSensitivities, resolved: ResolvedModule) -> list[OutputSensitivity]:

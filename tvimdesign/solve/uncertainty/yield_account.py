@@ -19,7 +19,7 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
     deadline = optimizer.deadline.late
     yields, seed = yields_of(optimizer, deadline), optimizer.study.solver.seed
     drawn = yields.at(run.inputs, seed + 1, deadline)
-    without = yields.at(nominal.inputs, seed + 1, deadline).together.share
+    without = yields.at(nominal.inputs, deadline=deadline).together.share
     table, points = optimizer.table, tuple(optimizer.study.operating_points)
     cycle = optimizer.simulator.run_to_show(nominal.inputs, nominal.current_profiles)
     values = optimizer.model.values(nominal.inputs, cycle.values)

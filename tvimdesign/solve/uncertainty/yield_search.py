@@ -1,6 +1,7 @@
 """The best design of which so many modules keep every limit: margins from modules drawn at random, in rounds.
 
-At a design, modules are drawn from the tolerances. Each limit that holds the design, or that too many modules break,
+At a design, modules are drawn from the tolerances. What they come to at a design nearby follows from the first order
+of both, so that few designs are drawn. Each limit that holds the design, or that too many modules break,
 is tightened by one and the same quantile of its own residual, the least with which the share asked for would keep all
 limits together if residuals moved as a whole. The optimum is then sought again, warm, and modules are drawn anew.
 """
@@ -13,15 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.errors import TimeOverError
+from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import MARGINS
-from tvimdesign.solve.uncertainty.yields import Drawn, yields_of
+from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
 
-ROUNDS = 8
+ROUNDS, PREDICTIONS = 4, 5
+"""Designs of which modules are drawn, and at most how many between two of them are predicted from the last one's."""
 _SETTLED, _SHORT = 0.05, 0.005
 """Change of a margin, in standard deviations of what it is for, below which it is settled: where the yield is reached,
 and where it is short of that.
@@ -58,9 +60,10 @@ def reach_yield(
     Raises TimeOverError where the time is over before modules are drawn of the first.
     """
     found: list[Robust] = []
+    yields, aim = yields_of(optimizer, optimizer.deadline), share + _AIM * (1.0 - share)
     for _ in range(ROUNDS):
         try:
-            drawn = yields_of(optimizer, optimizer.deadline).at(run.inputs, deadline=optimizer.deadline)
+            drawn = yields.at(run.inputs, deadline=optimizer.deadline)
         except TimeOverError:
             if not found:
                 raise
@@ -68,12 +71,12 @@ def reach_yield(
             break
         margins = dict(optimizer.margins)
         found.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
-        moves = _moves(drawn, share + _AIM * (1.0 - share), margins, _pressing(optimizer, run))
+        moves = _moves(drawn, aim, margins, _pressing(optimizer, run))
         if not moves or _no_better(found):
             break
-        optimizer.progress(f"{drawn.together.share:.1%} of the modules keep every limit: moving the margins")
-        following = _tightened(optimizer, run, within, objective, margins, moves)
-        if following is None:
+        optimizer.progress(f"yield {drawn.together.share:.1%} (target {share:.0%}): adding tolerance margins")
+        following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves)
+        if following is run:
             if optimizer.deadline.passed:
                 optimizer.deadline.leave_out(MARGINS)
             break
@@ -81,6 +84,29 @@ def reach_yield(
     best = min(found, key=lambda one: (not one.reached, one.run.start.objective if one.reached else -one.kept))
     optimizer.margins = best.margins
     return best
+
+
+def _settled(
+    optimizer: Optimizer, yields: Yields, run: Run, drawn: Drawn, within: Mapping[str, Ends], aim: float,
+    objective: Objective | None, moves: Mapping[str, float],
+) -> Run:  # fmt: skip
+    """The optimum whose margins hold for the modules that are predicted of it; the run itself where none is found."""
+    begun = run
+    for _ in range(PREDICTIONS):
+        margins = dict(optimizer.margins)
+        following = _tightened(optimizer, run, within, objective, margins, moves)
+        if following is None:
+            optimizer.margins = margins
+            break
+        run = following
+        try:
+            predicted = yields.beside(run.inputs, begun.inputs, drawn)
+        except SimulationError:
+            break
+        moves = _moves(predicted, aim, optimizer.margins, _pressing(optimizer, run))
+        if not moves:
+            break
+    return run
 
 
 def _no_better(found: Sequence[Robust]) -> bool:

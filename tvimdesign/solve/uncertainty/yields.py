@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -16,6 +17,7 @@ from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.sensitivity.output_sensitivity import OutputDerivatives
 from tvimdesign.solve.uncertainty.contributors import contributors_of
 
 Array = NDArray[np.float64]
@@ -83,6 +85,8 @@ class Yields:
         )  # fmt: skip
         self._outputs = list(dict.fromkeys(limit.output for limit in self.limits))
         start = dict(zip(optimizer.model.names, optimizer.model.start, strict=True))
+        self._drawn: dict[tuple[bytes, int | None], Drawn] = {}
+        self._first_orders: dict[bytes, Array] = {}
         self._many = BatchModel(self._rig(start), self._moving, self._outputs, (), deadline) if self._outputs else None
 
     def _rig(self, values: Mapping[str, Any]) -> ResolvedModule:
@@ -92,8 +96,45 @@ class Yields:
     def at(self, inputs: Array, seed: int | None = None, deadline: Deadline = NEVER) -> Drawn:
         """Draw modules of the design with these inputs, from the study's seed unless another is given.
 
-        Raises TimeOverError at the deadline.
+        What was drawn before is not drawn again. Raises TimeOverError at the deadline.
         """
+        key = (inputs.tobytes(), seed)
+        if key not in self._drawn:
+            self._drawn[key] = self._draw(inputs, seed, deadline)
+        return self._drawn[key]
+
+    def beside(self, inputs: Array, other: Array, drawn: Drawn) -> Drawn:
+        """Predict what modules of a design come to from those that were `drawn` of `other` inputs.
+
+        The same modules are moved by the difference of both designs' first order, so that what is not linear stays as
+        drawn; what never happened in them follows from the first order alone. Raises SimulationError.
+        """
+        if not drawn.limits:
+            return drawn
+        linear = self._linear(inputs)
+        moved = drawn.residuals + np.nan_to_num(linear - self._linear(other))
+        return replace(drawn, residuals=np.where(np.isfinite(drawn.residuals), moved, linear))
+
+    def _linear(self, inputs: Array) -> Array:
+        """The limits' residuals in the modules of a design, to first order."""
+        key = inputs.tobytes()
+        if key not in self._first_orders:
+            model = self._model
+            contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
+            names = [contributor.name for contributor in contributors]
+            values, slopes, _ = self._derivatives.at(inputs, names)
+            points = spread.sobol_points(len(names), MODULES, self._study.solver.seed)
+            off = spread.inputs_at(contributors, points) - inputs[[model.index[name] for name in names]][:, None]
+            every = values[:, None] + slopes @ off
+            residuals = [limit.residual(every[self._outputs.index(limit.output)]) for limit in self.limits]
+            self._first_orders[key] = np.array(residuals)
+        return self._first_orders[key]
+
+    @cached_property
+    def _derivatives(self) -> OutputDerivatives:
+        return OutputDerivatives(self._model, self._outputs)
+
+    def _draw(self, inputs: Array, seed: int | None, deadline: Deadline) -> Drawn:
         model = self._model
         contributors = contributors_of(self._rig(dict(zip(model.names, inputs, strict=True))))
         if self._many is None or not contributors:  # nothing moves any limit
