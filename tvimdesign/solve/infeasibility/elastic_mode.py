@@ -89,10 +89,10 @@ class ElasticMode:
             x0=np.concatenate([x, slacks]),
             lbx=np.concatenate([lower, np.zeros(self.count)]),
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
-            lbg=np.concatenate([no_equations, np.full(len(each) + objectives + problem.slope_count, -np.inf)]),
+            lbg=np.concatenate([no_equations, np.full(len(each) + objectives + problem.own_count, -np.inf)]),
             ubg=np.concatenate([
                 no_equations, np.where(counts[each], 0.0, np.inf), np.full(objectives, np.inf),
-                np.zeros(problem.slope_count),
+                np.zeros(problem.own_count),
             ]),
         )  # fmt: skip
         return self._settled(answer, begin, parameters, time.perf_counter() - clock)

@@ -19,4 +19,5 @@ def row_names(problem: Problem) -> list[str]:
     names += [f"shares of {mixture.name}" for mixture in problem.mixtures]
     names += [limit.name for limit in problem.limits]
     names += [f"bound {i + 1} on what is traded" for i in range(len(problem.objectives))]
-    return names + ["slew of the supply"] * problem.slope_count
+    names += ["slew of the supply"] * problem.slope_count
+    return names + [f"{event} within the horizon" for event in problem.unlimited]

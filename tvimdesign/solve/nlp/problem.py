@@ -31,6 +31,11 @@ Array = NDArray[np.float64]
 
 STEPS, FREEZING_STEPS, LEAST_STEPS = 40, 60, 3
 """Steps of a phase whose current follows a profile, of one in which the layer freezes, and of a piece at least."""
+LATEST = 0.98
+"""Share of the horizon at which an event must have come: times of the problem are some thousandths off those simulated.
+"""
+REMEMBERED = 2
+"""Points that are remembered with their steps: the one where a solver ended, and the same with steps placed anew."""
 UNIT = 1.0
 """Unit of the time that a profile takes [s]; its unknown is the logarithm."""
 
@@ -106,8 +111,9 @@ class Problem:
 
     x: the free numbers; for each free current its nodes and the logarithm of the time its pieces take.
     Rows: equations, zero: what ends each driven phase, and the sums of mixtures' shares less one; the limits'
-    residuals, in their order, satisfied where <= 0; sums of what is traded, below what the caller says; the currents'
-    slopes.
+    residuals, in their order, satisfied where <= 0; sums of what is traded, below what the caller says; then the
+    problem's own, satisfied where <= 0: the currents' slopes, and that events come within the horizon which no limit
+    has come earlier. Beyond it nothing is simulated, and an event that never comes has no derivatives.
     """
 
     def __init__(
@@ -140,9 +146,9 @@ class Problem:
         self.unknown_count = len(self.free) + sum(one.nodes + 1 for one in self.free_currents)
         self.equation_count = len(self.free_currents) + len(self.mixtures)
         self.slope_count = sum(2 * one.pieces for one in self.free_currents)
-        self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.slope_count
-        self._last: tuple[bytes, int, Point] | None = None
-        self._version = 0
+        self.own_count = self.slope_count + len(self.unlimited)
+        self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
+        self._last: list[tuple[bytes, dict[str, Grid], Point]] = []
 
     # --- evaluation ---
 
@@ -155,8 +161,7 @@ class Problem:
 
     def place_grids(self, x: Array, parameters: Parameters) -> None:
         """Choose the steps of each phase by their errors at a point; they stay until they are placed again."""
-        self.grids, self._last = {}, None
-        self._version += 1
+        self.grids = {}
         inputs, _ = self.inputs_at(x, parameters.inputs)
         try:
             self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed, self.grids, self._drives(x, 0))
@@ -164,15 +169,18 @@ class Problem:
             self.grids = {}
 
     def forget(self) -> None:
-        """Forget the last point."""
-        self._last = None
+        """Forget the last points."""
+        self._last = []
 
     def at(self, x: Array, parameters: Parameters) -> Point:
-        """Evaluate the problem at a point; NaN where the cycle has no end. The last point is remembered."""
+        """Evaluate the problem at a point; NaN where the cycle has no end. The last points are remembered."""
         key = x.tobytes() + b"".join(part.tobytes() for part in vars(parameters).values())
-        if self._last is None or self._last[:2] != (key, self._version):
-            self._last = (key, self._version, self._evaluated(x, parameters))
-        return self._last[2]
+        for known, grids, point in self._last:
+            if known == key and grids is self.grids:
+                return point
+        grids, point = self.grids, self._evaluated(x, parameters)
+        self._last = [*self._last[1 - REMEMBERED :], (key, grids, point)]
+        return point
 
     def _evaluated(self, x: Array, parameters: Parameters) -> Point:
         inputs, along = self.inputs_at(x, parameters.inputs)
@@ -202,13 +210,14 @@ class Problem:
             rows += list(parameters.factors @ values[traded])
             jacobian += list(parameters.factors @ slopes[traded])
         steep, of_steep = self._slopes(x, inputs, along)
+        late, of_late = self._lateness(inputs, cycle, of_cycle)
         weights = parameters.weights
         events = dict(zip(self.model.switch_names, cycle, strict=True))
         times = {name: float(events[name]) for name in self.events}
         times |= {self.model.phases[one.phase].phase.ends: self.pieces_time(x, i) for i, one in enumerate(self.free_currents)}
         return Point(
-            float(weights @ values[chosen]), weights @ slopes[chosen], np.concatenate([np.array(rows), steep]),
-            np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep]),
+            float(weights @ values[chosen]), weights @ slopes[chosen], np.concatenate([np.array(rows), steep, late]),
+            np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep, of_late]),
             dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
         )  # fmt: skip
 
@@ -290,7 +299,23 @@ class Problem:
             jacobian += [by, -by]
         return (np.concatenate(rows), np.concatenate(jacobian)) if rows else (np.zeros(0), np.zeros((0, len(x))))
 
+    def _lateness(self, inputs: Array, cycle: Array, of_cycle: Array) -> tuple[Array, Array]:
+        """How much later than may be the events come whose time is not limited, as a share of that."""
+        place = [self.model.switch_names.index(name) for name in self.unlimited]
+        latest = self._latest(inputs)
+        return cycle[place] / latest - 1.0, of_cycle[place] / latest
+
     # --- what the problem needs of the cycle ---
+
+    def _latest(self, inputs: Array) -> float:
+        return LATEST * float(inputs[self.model.index["horizon"]])
+
+    @cached_property
+    def unlimited(self) -> list[str]:
+        """The events the problem needs that no limit has come within the horizon."""
+        latest = self._latest(self.model.start)
+        limited = {one.output for one in self.limits if one.sense == "<=" and one.limit <= latest}
+        return [name for name in self.events if name not in limited]
 
     @cached_property
     def events(self) -> list[str]:

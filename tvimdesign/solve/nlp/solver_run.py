@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.phase_run import Grid
 from tvimdesign.solve.nlp.solution import Start
 
 Array = NDArray[np.float64]
@@ -43,6 +44,8 @@ class Run:
     """Time [s] of each event the problem needs."""
     within: Mapping[str, Ends] = field(default_factory=dict)
     """Ends of their own that some numbers were kept within."""
+    grids: dict[str, Grid] = field(default_factory=dict)
+    """The steps of each phase at which it was run."""
 
     @property
     def trace(self) -> Trace:

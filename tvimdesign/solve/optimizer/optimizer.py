@@ -226,8 +226,9 @@ class Optimizer:
             answer, stats = self._checked(x, parameters, ends["ubg"])
             return self.record(answer, stats, inputs, time.perf_counter() - clock, parameters)
         iterations = 0
+        self.problem.place_grids(x, parameters)
         for _ in range(MOST_GRIDS):
-            self.problem.place_grids(x, parameters)
+            grids = self.problem.grids
             solver = self._solver(beginning)
             answer = solver(_WithParameters(self.problem, parameters), self.deadline, x0=x, **multipliers, **ends)
             stats = solver.stats()
@@ -239,6 +240,7 @@ class Optimizer:
             beginning = "warm"
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
+        self.problem.grids = grids
         run = self.record(answer, {**stats, "iter_count": iterations}, inputs, seconds, parameters)
         return replace(run, within=within or {})
 
@@ -269,8 +271,8 @@ class Optimizer:
         """Ends of the unknowns and of the rows for one run, as nlpsol names them."""
         lower, upper = self.vector.bounds(within)
         equations = np.zeros(self.problem.equation_count)
-        room, rest = objective.room(self.problem.objectives), np.zeros(self.problem.slope_count)
-        most = np.concatenate([self._limits_less_margins(), room, rest])
+        room, own = objective.room(self.problem.objectives), np.zeros(self.problem.own_count)
+        most = np.concatenate([self._limits_less_margins(), room, own])
         least, largest = self.with_room_where_decided(equations, within)
         return {
             "lbx": lower, "ubx": upper,
@@ -308,7 +310,8 @@ class Optimizer:
         multipliers, of_bounds = (np.asarray(answer[name]).ravel() for name in ("lam_g", "lam_x"))
         times = self.problem.at(unknowns, parameters).times
         ends = {phase.name: times[phase.ends] for phase in self.table.phases if phase.ends in times}
-        return Run(start, end, current_profiles, ends, unknowns, multipliers, of_bounds, times)
+        grids = self.problem.grids
+        return Run(start, end, current_profiles, ends, unknowns, multipliers, of_bounds, times, grids=grids)
 
     def _limits_less_margins(self) -> Array:
         """What the limits' residuals may come to: zero, or so far within as their margins say."""
@@ -325,7 +328,7 @@ class Optimizer:
         Second derivatives of the Lagrangian are differences of its gradients.
         """
         parameters, x = self.parameters(Objective(self.study.minimize)), run.unknowns
-        self.problem.place_grids(x, parameters)
+        self.problem.grids = run.grids  # multipliers are those of an optimum with these steps
         here = self.problem.at(x, parameters)
         lower, upper = self.vector.bounds(run.within)
 

@@ -172,6 +172,7 @@ def _price_of_slew(optimizer: Optimizer, run: Run, slew: float) -> float:
     for share in (1.0 - _SLEW_STEP, 1.0 + _SLEW_STEP):
         other = copy(problem)
         other.free_currents = tuple(replace(one, slew=slew * share) for one in problem.free_currents)
+        other.grids = run.grids
         other.forget()
         point = other.at(run.unknowns, parameters)
         found.append(point.objective + run.multipliers @ point.rows)
