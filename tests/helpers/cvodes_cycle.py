@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 import numpy as np
+from cvodes_phase import FIRST_STRETCH, PhaseSimulator
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from cvodes_phase import FIRST_STRETCH, PhaseSimulator
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle, Trajectory
 
 STEPS = 50  # samples of one stretch of time

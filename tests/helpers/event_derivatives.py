@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from collocation import guess, phase_block
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
-from collocation import guess, phase_block
 
 Array = NDArray[np.float64]
 ELEMENTS = 128

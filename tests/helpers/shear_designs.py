@@ -5,7 +5,7 @@ from functools import cache
 from typing import Any
 
 import pytest
-from support import fine
+from support import tight
 
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -49,6 +49,6 @@ def switch_of(build: Build) -> Callable[[str], Cycle]:
     @cache
     def run(design: str) -> Cycle:
         model = build(design)
-        return fine(model).run(model.start)
+        return tight(model).run(model.start)
 
     return run

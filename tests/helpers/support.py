@@ -17,11 +17,12 @@ from typing import Any
 from unittest import mock
 
 import psutil
-
 from cvodes_cycle import CvodesSimulator
+
 from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.base.processor_time import LIMIT, communicate
 from tvimdesign.cli.main import main
+from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -75,8 +76,13 @@ def digits(name: str, usual: float) -> float:
 
 
 def fine(model: DeviceFunctions) -> CvodesSimulator:
-    """Another simulator, by CVODES at 1e-9, for what is differenced or held to many digits."""
+    """Another simulator, by CVODES at 1e-9, that judges the product's."""
     return CvodesSimulator(model, tolerance=1e-9, steps=200)
+
+
+def tight(model: DeviceFunctions) -> Simulator:
+    """The product's simulator at a tenth of its error: values are within 1e-5 of what they converge to."""
+    return Simulator(model, tolerance=1e-5)
 
 
 def environment(spread: str = "off") -> dict[str, str]:

@@ -9,7 +9,7 @@ from another_stack import AnotherStack, value_of
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
-from support import fine
+from support import tight
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -91,7 +91,7 @@ def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., DeviceF
         (0.0, 600.0), another.everywhere(22.0), method="BDF", rtol=1e-6, atol=1e-4, max_step=5.0,
         jac_sparsity=another.neighbours(), events=[reached], dense_output=True,
     )  # fmt: skip
-    cycle = fine(model).run(model.start, {"softening": profile}, phases=["softening"])
+    cycle = tight(model).run(model.start, {"softening": profile}, phases=["softening"])
     time = float(found.t_events[0][0])
     assert cycle.values["far_face_time"] == pytest.approx(time, rel=0.01)
     sampled = np.linspace(0.0, time, 2001)
@@ -101,14 +101,14 @@ def test_a_switch_under_a_profile_agrees_with_scipy(build: Callable[..., DeviceF
     assert cycle.values["peak_power"] == pytest.approx(max(power), rel=0.01)
     assert cycle.values["peak_current"] == pytest.approx(2.4, rel=1e-6)
     assert cycle.trajectory.currents == pytest.approx(profile.at(cycle.trajectory.times))
-    constant = fine(model).run(model.start, phases=["softening"]).values["far_face_time"]
+    constant = tight(model).run(model.start, phases=["softening"]).values["far_face_time"]
     assert abs(constant - time) > 0.05 * time  # the profile is what made it
 
 
 def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., DeviceFunctions]) -> None:
     model = build()
-    flat = fine(model).run(model.start, {"softening": evenly(80.0, (1.5,) * 5)}).values
-    constant = fine(model).run(model.start).values
+    flat = tight(model).run(model.start, {"softening": evenly(80.0, (1.5,) * 5)}).values
+    constant = tight(model).run(model.start).values
     for name in ("response_time", "switch_energy", "peak_pcl_temperature", "stiffening_time", "hold_power"):
         assert flat[name] == pytest.approx(constant[name], rel=1e-6), name
 
@@ -117,7 +117,7 @@ def test_the_end_of_a_switch_within_a_profile_does_not_depend_on_what_comes_late
     build: Callable[..., DeviceFunctions],
 ) -> None:
     model = build()
-    simulator = fine(model)
+    simulator = tight(model)
     early = simulator.run(model.start, {"softening": evenly(400.0, (2.0,) * 5)}).values["response_time"]
     late = simulator.run(model.start, {"softening": evenly(400.0, (2.0, 2.0, 2.0, 0.1, 0.1))}).values["response_time"]
     assert early < 200.0

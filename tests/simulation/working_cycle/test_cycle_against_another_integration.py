@@ -7,7 +7,7 @@ import pytest
 from another_stack import AnotherStack, value_of
 from numpy.typing import NDArray
 from scipy.integrate import simpson, solve_ivp
-from support import fine
+from support import tight
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
@@ -55,7 +55,7 @@ def pair(request: pytest.FixtureRequest, build: Callable[..., DeviceFunctions]) 
         "rotor_face": max(reference.rotor_face(column) for column in states.T[::20]) + 273.15,
         "peak_pcl_temperature": max(reference.faces(column)[0] for column in states.T[::20]) + 273.15,
     }
-    return fine(model).run(model.start), values
+    return tight(model).run(model.start), values
 
 
 @pytest.mark.gate
@@ -119,7 +119,7 @@ def test_a_switch_that_stalls_has_no_response_time(build: Callable[..., DeviceFu
     model = build()
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4
-    cycle = fine(model).run(inputs)
+    cycle = tight(model).run(inputs)
     assert cycle.values["far_face_time"] == np.inf
     assert cycle.values["response_time"] == np.inf
 
@@ -128,7 +128,7 @@ def test_times_converge_with_the_square_of_the_cell(build: Callable[..., DeviceF
     found = []
     for cells in (6, 12, 24, 48):
         model = build("as it is", cells, 8)
-        found.append(fine(model).run(model.start, phases=["softening"]).values["far_face_time"])
+        found.append(tight(model).run(model.start, phases=["softening"]).values["far_face_time"])
     changes = np.abs(np.diff(found))
     # Melting passes cell after cell, so the order is uneven; it must not be less than one on the whole.
     assert changes[-1] < 0.5 * changes[0]

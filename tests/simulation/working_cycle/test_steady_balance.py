@@ -8,7 +8,7 @@ import pytest
 from another_stack import FLOOR, AnotherStack, value_of
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from support import fine
+from support import tight
 
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -101,7 +101,7 @@ def test_a_switch_that_never_ends_has_no_hold_power(build: Callable[..., DeviceF
     model = build()
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4
-    assert fine(model).run(inputs).values["hold_power"] == np.inf
+    assert tight(model).run(inputs).values["hold_power"] == np.inf
 
 
 @pytest.mark.parametrize("design", ["as it is", "sink"])
@@ -109,7 +109,7 @@ def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
     design: str, build: Callable[..., DeviceFunctions], switch_of: Callable[[str], Cycle]
 ) -> None:
     model = build(design)
-    simulator, place = fine(model), model.index["current"]
+    simulator, place = tight(model), model.index["current"]
     for amps in (1.8, 4.0, 12.0):
         inputs = model.start.copy()
         inputs[place] = amps

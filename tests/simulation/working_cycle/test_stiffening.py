@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from stiff_when_warm import STIFF_WHEN_WARM
-from support import fine
+from support import tight
 
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -89,7 +89,7 @@ def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cel
     # Eight cells in the rotor leave 1.05 % in the sooner time of the thin layer, 16 leave 0.29 %, 32 leave 0.10 %;
     # more than twelve in the layer change less than 0.02 %.
     model = build(design, rotor_cells=16, **STIFF_WHEN_WARM)
-    values, another = fine(model).run(model.start).values, another_cycle(model)
+    values, another = tight(model).run(model.start).values, another_cycle(model)
     assert 10 * model.cells == CELLS
     assert values["response_time"] == pytest.approx(another.heated, rel=0.01)
     assert values["stiffening_time"] == pytest.approx(another.kinetic, rel=0.01)
@@ -106,7 +106,7 @@ def changes_by_cells(build: Callable[..., DeviceFunctions], design: str, **input
     found = []
     for cells in (6, 12, 24, 48):
         model = build(design, cells, **inputs)
-        values = fine(model).run(model.start).values
+        values = tight(model).run(model.start).values
         found.append([values[name] for name in NAMES])
     return np.abs(np.diff(found, axis=0)), np.array(found[-1])
 
@@ -149,10 +149,10 @@ def test_a_layer_with_kinetics_never_stiffens_sooner_than_its_melting_curve_clai
 
 def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., DeviceFunctions]) -> None:
     model = build("equilibrium")
-    values = fine(model).run(model.start).values
+    values = tight(model).run(model.start).values
     assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-8)
     kinetic = build()
-    other = fine(kinetic).run(kinetic.start).values
+    other = tight(kinetic).run(kinetic.start).values
     assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-8)
 
 
@@ -182,7 +182,7 @@ def changed(model: DeviceFunctions, **inputs: float) -> Array:
 
 @pytest.fixture(scope="module")
 def simulators(build: Callable[..., DeviceFunctions]) -> dict[str, Simulator]:
-    return {design: fine(build(design)) for design in ("as it is", "sink")}
+    return {design: tight(build(design)) for design in ("as it is", "sink")}
 
 
 @pytest.mark.parametrize("cooling", [1.0, 3.0, 20.0])

@@ -14,9 +14,10 @@ from tvimdesign.device import Input
 from tvimdesign.solve.nlp.problem import Free
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.optimizer import neighboring_optima
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.study import Range, Study, read_study
+from tvimdesign.study import Range, SolverOptions, Study, read_study
 
 WIDE_ARCS = {
     "placement_radius": 33.2e-3, "core_radius": 9.25e-3, "link_thickness": 5.25e-3, "pcl_inner_radius": 13.65e-3,
@@ -85,24 +86,49 @@ def _ended_at(turns: float) -> Run:
     return Run(start, np.array([turns]), {}, {}, np.array([turns / 5.0]), none, none, none)
 
 
-def test_no_neighbor_is_tried_twice() -> None:
-    """One start ends in the fifth turn and is led to the third; another in the sixth is led to the fifth, and on."""
-    tried: list[float] = []
+def _of_coils(period: float | None, tried: list[float]) -> Any:
+    """An optimizer of nothing but coils, which notes where it begins; it ends in the middle of that turn."""
 
-    def solve(*, unknowns: np.ndarray, **_: Any) -> Run:
+    def solve(*_: Any, unknowns: np.ndarray, **_more: Any) -> Run:
         tried.append(5.0 * float(unknowns[0]))
         return _ended_at(np.floor(tried[-1]) + 0.5)
 
-    coils = Input(name="coil_count", unit="1", description="", group="", period=1.0)
-    optimizer: Any = SimpleNamespace(
-        free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(by_name={"coil_count": coils}), solve=solve,
-        model=SimpleNamespace(index={"coil_count": 0}), vector=SimpleNamespace(places_of_currents=list),
-        deadline=Deadline(),
+    coils = Input(name="coil_count", unit="1", description="", group="", period=period)
+    vector = SimpleNamespace(
+        places_of_currents=list, inputs=lambda unknowns: 5.0 * unknowns,
+        bounds=lambda _: (np.array([0.0]), np.array([1.8])),
     )  # fmt: skip
-    led = NeighboringOptima(optimizer).improve([_ended_at(5.5), _ended_at(6.5)])
+    return SimpleNamespace(
+        free=[Free("coil_count", 0.0, 9.0, 5.0)], table=SimpleNamespace(by_name={"coil_count": coils}), solve=solve,
+        model=SimpleNamespace(index={"coil_count": 0}), vector=vector, deadline=Deadline(), mixtures=(),
+        study=SimpleNamespace(solver=SolverOptions()),
+    )  # fmt: skip
+
+
+def test_no_neighbor_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One start ends in the fifth turn and is led to the third; another in the sixth is led to the fifth, and on."""
+    monkeypatch.setattr(neighboring_optima, "SHAKES", 0)
+    tried: list[float] = []
+    led = NeighboringOptima(_of_coils(1.0, tried)).improve([_ended_at(5.5), _ended_at(6.5)])
     assert [run.start.objective for run in led] == [1.0, 1.0]
     assert all(run.start.by_neighbor for run in led)
     assert tried == pytest.approx([4.5, 3.5, 2.5, 5.5])
+
+
+def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Within a tenth of the range, 0.9 of a coil; each from the best so far, and what is no better leaves no trace."""
+    monkeypatch.setattr(neighboring_optima, "SHAKES", 12)
+    tried: list[float] = []
+    worse, best = _ended_at(6.5), _ended_at(5.5)
+    *same, shaken = NeighboringOptima(_of_coils(None, tried)).improve([worse, best])
+    assert same == [worse, best]
+    assert len(tried) == 12
+    assert abs(tried[0] - 5.5) <= 0.9
+    assert shaken.start.objective == 1.0
+    assert shaken.start.by_neighbor
+    tried.clear()
+    assert NeighboringOptima(_of_coils(None, tried)).improve([shaken]) == [shaken]
+    assert all(abs(one - 3.5) <= 0.9 for one in tried)
 
 
 def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> None:

@@ -56,7 +56,7 @@ _SETTINGS: dict[Beginning, dict[str, Any]] = {
 }  # fmt: skip
 _SHARP = 1e-11
 """Tolerance at which a limit that hardly presses is told from one that does not."""
-_MOST_ITERATIONS = {"near": 100, "warm": 60, "sharp": 60}
+_MOST_ITERATIONS = {"near": 60, "warm": 25, "sharp": 60}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""
 

@@ -19,7 +19,7 @@ from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import MARGINS
+from tvimdesign.solve.optimizer.statuses import MARGINS, NO_DESIGN
 from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
 
 ROUNDS, PREDICTIONS = 4, 5
@@ -155,7 +155,7 @@ def _tightened(
             name: margins.get(name, 0.0) + step * moves.get(name, 0.0) for name in {**margins, **moves}
         }
         found = optimizer.solve(within, warm=run, objective=objective)
-        if not found.start.converged:
+        if not found.start.converged and found.start.status != NO_DESIGN:
             found = optimizer.solve(within, begin=run.inputs, objective=objective)
         if found.start.converged or optimizer.deadline.passed:
             break

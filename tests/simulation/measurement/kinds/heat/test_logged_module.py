@@ -9,6 +9,7 @@ from pathlib import Path
 import casadi as ca
 import numpy as np
 import pytest
+from cvodes_cycle import CvodesSimulator
 from measured_files import csv, found, measured
 from support import ROOT
 
@@ -16,7 +17,6 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.kinds.heat.logged_module import Course, LoggedModule
 from tvimdesign.simulation.measurement.record_file import write_record
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
@@ -39,7 +39,7 @@ def simulated() -> Mapping[str, np.ndarray]:
     rows = {"hot_temperature": 1, "far_face_temperature": 31, "rotor_temperature": 39}
     seen, before = [], None
     for phase, seconds, current in (("softening", HEATED, 1.5), ("stiffening", COOLED, 0.0)):
-        simulator = Simulator(model, 1e-8, int(seconds / EVERY))._phase(phase)
+        simulator = CvodesSimulator(model, 1e-8, int(seconds / EVERY))._phase(phase)
         course = simulator.trace(model.start, CurrentProfile.constant(current), before, seconds)
         before, count = course.states[:, -1], len(course.times)
         inputs = np.repeat(model.start[:, None], count, axis=1)
