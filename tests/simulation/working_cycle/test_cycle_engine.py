@@ -1,0 +1,157 @@
+"""The cycle with derivatives: smooth along every direction, within a part in five hundred of CVODES, in few steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from support import ROOT, fine
+
+from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid
+from tvimdesign.simulation.working_cycle.trajectory import Array
+from tvimdesign.study import drawn, given, read_study
+
+MOVED = ("current", "pcl_thickness", "rotor_thickness", "cooling_current", "ambient_temperature")
+MOST = {"softening": 60, "stiffening": 60, "equilibrium_stiffening": 25}
+"""Steps of a phase of the shear module as it is: a guard of how fast it is, without a clock."""
+
+
+def directions(model: DeviceFunctions) -> Array:
+    """One input a column, by its own size (temperatures by 100 K), and one in which all of them move."""
+    columns = []
+    for name in MOVED:
+        column, i = np.zeros(len(model.start)), model.index[name]
+        column[i] = 100.0 if name.endswith("temperature") else model.start[i]
+        columns.append(column)
+    return np.column_stack([*columns, np.sum(columns, axis=0)])
+
+
+def compare(model: DeviceFunctions, value_at: Callable[[Array, Array], Supplied], names: list[str]) -> None:
+    """Hold derivatives of all that is finite against a stencil of fourth order."""
+    along, by = directions(model), 1e-3
+    begin = value_at(model.start, along)
+    known = np.isfinite(begin.values)
+    assert {name for name, here in zip(model.switch_names, known, strict=True) if here} >= set(names)
+    nothing = np.zeros((len(model.start), 0))
+    for j in range(along.shape[1]):
+        far_below, below, above, far_above = (
+            value_at(model.start + times * by * along[:, j], nothing).values[known] for times in (-2, -1, 1, 2)
+        )
+        found = (far_below - 8.0 * below + 8.0 * above - far_above) / (12.0 * by)
+        largest = np.max(np.abs(begin.slopes[known]), axis=1) + 1e-3 * np.abs(begin.values[known])
+        gap = np.abs(found - begin.slopes[known, j]) / largest
+        assert np.max(gap) < 1e-5, (j, np.array(model.switch_names)[known][np.argmax(gap)], np.max(gap))
+
+
+@pytest.mark.parametrize("design", ["as it is", "sink"])
+def test_derivatives_of_all_values_are_those_of_the_values(design: str, build: Callable[..., DeviceFunctions]) -> None:
+    model = build(design)
+    grids: dict[str, Grid] = {}
+    compare(
+        model, lambda inputs, along: CycleEngine(model).run(inputs, along, None, grids),
+        ["response_time", "switch_energy", "stiffening_time", "hold_power", "peak_power", "peak_pcl_temperature"],
+    )  # fmt: skip
+    assert set(grids) == set(model.phases)
+
+
+def drive(model: DeviceFunctions, inputs: Array, along: Array) -> Drive:
+    """A current of three pieces over a time that both follow the current of the inputs, with tangents."""
+    i = model.index["current"]
+    shares, moments = np.array([0.5, 1.5, 0.9, 1.1]), np.array([0.0, 20.0, 60.0, 150.0])
+    size = inputs[i] / model.start[i]
+    return Drive(
+        moments * size, moments[:, None] * along[i] / model.start[i], shares * inputs[i], shares[:, None] * along[i], 8
+    )
+
+
+def test_derivatives_under_a_current_that_follows_a_profile(build: Callable[..., DeviceFunctions]) -> None:
+    model = build()
+    grids: dict[str, Grid] = {}
+
+    def value_at(inputs: Array, along: Array) -> Supplied:
+        return CycleEngine(model).run(inputs, along, None, grids, {"softening": drive(model, inputs, along)})
+
+    begin = value_at(model.start, directions(model))
+    place = model.switch_names.index("response_time")
+    assert begin.values[place] == pytest.approx(150.0, rel=1e-12)
+    value, slopes = begin.short["softening"]
+    by, one = 1e-3, directions(model)[:, -1]
+    nothing = np.zeros((len(one), 0))
+    shorts = [value_at(model.start + times * by * one, nothing).short["softening"][0] for times in (-2, -1, 1, 2)]
+    found = (shorts[0] - 8.0 * shorts[1] + 8.0 * shorts[2] - shorts[3]) / (12.0 * by)
+    assert slopes[-1] == pytest.approx(found, rel=1e-5)
+    assert abs(value) > 1e-3  # it need not be over
+    compare(model, value_at, ["response_time", "switch_energy", "peak_power"])
+
+
+@pytest.mark.parametrize("design", ["as it is", "thin", "thick", "aluminium", "sink"])
+def test_the_optimizer_s_values_are_within_a_five_hundredth_of_cvodes(
+    design: str, build: Callable[..., DeviceFunctions]
+) -> None:
+    model = build(design)
+    found = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0))).values
+    judge = fine(model).run(model.start).values
+    for i, name in enumerate(model.switch_names):
+        assert found[i] == pytest.approx(judge[name], rel=2e-3), name
+
+
+def test_the_same_steps_give_the_same_values_with_any_number_of_directions(
+    build: Callable[..., DeviceFunctions],
+) -> None:
+    model = build()
+    grids: dict[str, Grid] = {}
+    along = directions(model)
+    many = CycleEngine(model).run(model.start, along, None, grids)
+    one = CycleEngine(model).run(model.start, along[:, :1], None, grids)
+    assert many.values == pytest.approx(one.values, rel=1e-9)
+    assert many.slopes[:, 0] == pytest.approx(one.slopes[:, 0], rel=1e-7, abs=1e-12)
+
+
+def test_only_the_phases_that_are_needed_are_stepped(build: Callable[..., DeviceFunctions]) -> None:
+    model = build()
+    grids: dict[str, Grid] = {}
+    along = np.zeros((len(model.start), 1))
+    found = CycleEngine(model).run(model.start, along, {"response_time", "peak_power"}, grids)
+    assert set(grids) == {"softening"}
+    known = {name for name, value in zip(model.switch_names, found.values, strict=True) if np.isfinite(value)}
+    assert known == {"response_time", "peak_power"}
+
+
+def test_an_event_that_comes_later_than_the_steps_were_made_for_is_found(build: Callable[..., DeviceFunctions]) -> None:
+    model = build()
+    grids: dict[str, Grid] = {}
+    engine, nothing = CycleEngine(model), np.zeros((len(model.start), 0))
+    engine.run(model.start, nothing, None, grids)
+    for factor in (0.8, 1.3):
+        inputs = model.start.copy()
+        inputs[model.index["pcl_thickness"]] *= factor
+        judge = fine(model).run(inputs).values
+        found = engine.run(inputs, nothing, None, grids).values
+        for name in ("response_time", "stiffening_time", "switch_energy"):
+            assert found[model.switch_names.index(name)] == pytest.approx(judge[name], rel=2e-3), (factor, name)
+
+
+def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunctions]) -> None:
+    model = build()
+    grids: dict[str, Grid] = {}
+    CycleEngine(model).run(model.start, np.zeros((len(model.start), 0)), None, grids)
+    for name, most in MOST.items():
+        assert 2 < len(grids[name].shares) <= most, name
+
+
+@pytest.mark.parametrize("study", ["elbow_printed", "paper_shear"])
+def test_a_steady_state_is_found_where_it_changes_steeply_with_the_current(study: str) -> None:
+    # Newton's method alone goes to and fro between currents that melt a part of the elbow's layer and that do not.
+    read = drawn(read_study(ROOT / "studies" / f"{study}.yaml"))
+    model = DeviceFunctions(read.table, given(read), tuple(read.operating_points), read.solver.cells)
+    engine, along = CycleEngine(model), np.zeros((len(model.start), 1))
+    along[model.index["ambient_temperature"]] = 1.0
+    found = engine.run(model.start, along, {"hold_current", "hold_power"})
+    judge = fine(model).run(model.start, phases=["softening"]).values
+    for name in ("hold_current", "hold_power"):
+        place = model.switch_names.index(name)
+        assert found.values[place] == pytest.approx(judge[name], rel=1e-6)
+        assert found.slopes[place, 0] < 0.0
