@@ -118,7 +118,7 @@ def test_a_phase_goes_on_beyond_its_end_where_it_is_traced(build: Callable[..., 
     time = ended.values["response_time"]
     traced = simulator.trace("softening", model.start, None, 3.0 * time)
     assert traced.times[-1] == pytest.approx(3.0 * time, rel=1e-12)
-    at_end = traced.at(np.array([time]))[:, 0]
+    at_end = traced.at(np.array([1.0 / 3.0]))[:, 0]
     assert at_end == pytest.approx(ended.trajectory.states[:, -1], abs=5e-3)
     judge = fine(model).trace("softening", model.start, None, 3.0 * time)
     assert traced.states[:, -1] == pytest.approx(judge.states[:, -1], rel=1e-4, abs=1e-4)

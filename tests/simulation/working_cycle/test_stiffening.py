@@ -153,7 +153,7 @@ def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., D
     assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-8)
     kinetic = build()
     other = tight(kinetic).run(kinetic.start).values
-    assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-8)
+    assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-5)
 
 
 def test_the_layer_starts_to_stiffen_where_the_switch_left_it(

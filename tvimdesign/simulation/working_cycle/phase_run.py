@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 TOLERANCE = 3e-3
 """Largest error of a step of second order in the scaled state, a third of a kelvin; steps are of third order. Event
-times are within 1e-3 of CVODES's at 1e-9 (tests)."""
+times are within 3e-3 of CVODES's at 1e-9 (tests)."""
 FIRST = 0.02
 """The first step, in times that the pads would need to heat the layer."""
 MOST_STEPS, EXTRA, GROWTH = 2000, 40, 1.3
@@ -413,8 +413,12 @@ class PhaseRun:
         too_small, too_large, before = np.nan, np.nan, np.inf
         for _ in range(60):
             settled = self._settle(y, current)
-            if settled is None:
-                return None
+            if settled is None:  # with so much current it never stops heating up
+                least = 0.0 if np.isnan(too_small) else too_small
+                if abs(current - least) < 1e-3:
+                    return None
+                too_large, current = current, 0.5 * (least + current)
+                continue
             y, s = settled
             now = Instant(0.0, of_current, y, s, current, of_current)
             gap, slopes = self.of.slopes(ends, now, self.inputs, along)
