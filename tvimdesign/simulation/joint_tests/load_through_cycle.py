@@ -19,7 +19,6 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6
-SAMPLES = 100  # of each stretch of the simulated cycle
 NEVER = 1e15
 """Relaxation time of what does not relax [s]."""
 ABSENT = (1.0, 1e-12, 0.0)
@@ -63,7 +62,7 @@ class Carried:
 def slice_histories(resolved: ResolvedModule) -> SliceHistory:
     """Temperatures and solid fractions of the layer's cells over the working cycle: softening, then stiffening."""
     model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
-    cycle = Simulator(model, steps=SAMPLES).run(model.start, resolved.current_profiles, ["stiffening"])
+    cycle = Simulator(model).run(model.start, resolved.current_profiles, ["stiffening"])
     begins = 0.0
     pieces: list[tuple[Array, Array, Array]] = []
     for name, trajectory in cycle.trajectories.items():
