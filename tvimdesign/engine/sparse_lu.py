@@ -7,6 +7,7 @@ Source: Davis, Direct Methods for Sparse Linear Systems (2006), ch. 6 and 7.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -65,18 +66,18 @@ def pattern_of(size: int, rows: Integers, columns: Integers) -> tuple[Pattern, I
         one, other = (part.ravel() for part in np.meshgrid(i, j, indexing="ij"))
         updates.append((entry[one, other], entry[one, k], entry[k, other]))
     lower, upper = np.tril(filled, -1), np.triu(filled, 1)
+    target, left, upper_of = (np.concatenate([part[i] for part in updates]) for i in range(3))
     pattern = Pattern(
         order, int(np.count_nonzero(filled)), np.ascontiguousarray(np.diagonal(entry)),
         np.concatenate(below), _starts([len(part) for part in below]),
-        *(np.concatenate([part[i] for part in updates]) for i in range(3)),
-        _starts([len(part[0]) for part in updates]),
-        entry[lower], np.nonzero(lower)[1], _starts(lower.sum(axis=1)),
-        entry[upper], np.nonzero(upper)[1], _starts(upper.sum(axis=1)),
+        target, left, upper_of, _starts([len(part[0]) for part in updates]),
+        entry[lower], np.nonzero(lower)[1], _starts(lower.sum(axis=1).tolist()),
+        entry[upper], np.nonzero(upper)[1], _starts(upper.sum(axis=1).tolist()),
     )  # fmt: skip
     return pattern, entry[place[rows], place[columns]], entry[place, place]
 
 
-def _starts(counts: object) -> Integers:
+def _starts(counts: Sequence[int]) -> Integers:
     return np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
 
 

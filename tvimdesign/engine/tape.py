@@ -18,9 +18,12 @@ Integers = NDArray[np.int64]
 _NAMES = [name for name in vars(interpreter) if name.isupper() and hasattr(ca, f"OP_{name}")]
 _KNOWN = frozenset(getattr(interpreter, name) for name in _NAMES)
 if any(getattr(ca, f"OP_{name}") != getattr(interpreter, name) for name in _NAMES):
-    raise ImportError(f"CasADi {ca.__version__} numbers its operations otherwise than tvimdesign.engine.interpreter")
+    raise ImportError(
+        f"CasADi {vars(ca)['__version__']} numbers its operations otherwise than tvimdesign.engine.interpreter"
+    )
 _COMMUTE = frozenset((interpreter.ADD, interpreter.MUL))
-_operation, _given, _to = (getattr(ca._casadi, f"Function_instruction_{part}") for part in ("id", "input", "output"))
+_wrapped: Any = vars(ca)["_casadi"]
+_operation, _given, _to = (getattr(_wrapped, f"Function_instruction_{part}") for part in ("id", "input", "output"))
 """CasADi's methods without their wrappers, which take half of the time."""
 
 
@@ -85,10 +88,9 @@ class Tape:
             return np.where(places < 0, register[np.maximum(-1 - places, 0)], places)
 
         kinds = np.append(table[order[starting[:-1]], 1], 0)
-        code = Code(
-            *(resolved(table[order, i]).astype(np.uint32) for i in (2, 3)), register[order].astype(np.uint32),
-            np.column_stack([kinds, starting]).astype(np.int64),
-        )  # fmt: skip
+        first, second = (resolved(table[order, side]).astype(np.uint32) for side in (2, 3))
+        groups = np.column_stack([kinds, starting]).astype(np.int64)
+        code = Code(first, second, register[order].astype(np.uint32), groups)
         registers = np.zeros(size)
         registers[int(starts[-1]) : base] = list(constants)
         for result, entry, at in written:
