@@ -205,7 +205,7 @@ def test_a_simulation_ends_with_the_time() -> None:
     optimizer = Optimizer(read_study_text(SEARCHED))
     over = Deadline(0.0, lambda: 0.0)
     with pytest.raises(TimeOverError, match="before the working cycle of a design was simulated"):
-        optimizer.problem.simulated(optimizer.simulator, optimizer.model.start, deadline=over)
+        optimizer.simulator.run(optimizer.model.start, deadline=over)
 
 
 def test_a_run_of_the_solver_ends_between_two_iterations() -> None:

@@ -55,21 +55,27 @@ def test_a_wrong_derivative_is_found_and_named() -> None:
 def test_rows_and_unknowns_are_named_in_full(inspection: Inspection) -> None:
     problem = inspection.problem
     assert len(inspection._columns) == problem.unknown_count
-    assert len(inspection._rows) == problem.function["g"].numel() + 1
+    assert len(inspection._rows) == problem.row_count + 1
     rows, columns = inspection.scaling()
     assert rows.ratio >= 1.0
     assert columns.ratio >= 1.0
 
 
-def test_the_condition_number_is_that_of_the_dense_matrix(inspection: Inspection) -> None:
-    problem = inspection.problem
-    count = problem.equation_count
-    follow = range(len(problem.free), len(problem.free) + count)
-    tied = inspection._tied_peaks()
-    rows, columns = [*range(count), *tied], [*follow, *range(problem.unknown_count - len(tied), problem.unknown_count)]
-    dense = inspection._jacobian[rows, columns].full()
-    dense = dense / np.abs(dense).max(axis=1, keepdims=True)
-    assert inspection.conditioning().equations == pytest.approx(np.linalg.cond(dense, 1), rel=0.5)
+def test_without_a_current_profile_there_is_no_equation_to_condition(inspection: Inspection) -> None:
+    assert inspection.problem.equation_count == 0
+    assert inspection.conditioning().equations == 1.0
+
+
+def test_a_driven_phase_s_time_follows_from_its_current_and_the_free_numbers() -> None:
+    """Conditioning is by the free numbers alone: the time of the pieces is what the equation makes it."""
+    text = TIMED.replace("minimize:", "profile: {softening: 3}\nminimize:")
+    driven = Inspection(Optimizer(_study(text)))
+    decided, along, equations = driven._along()
+    assert len(decided) == len(driven.problem.free) == 3
+    assert equations == 1.0  # one time, one equation
+    assert driven._jacobian[0] @ along == pytest.approx(np.zeros(3), abs=1e-9)
+    assert np.all(along[-1] != 0.0)
+    assert driven.derivatives().right
 
 
 def test_numbers_that_only_count_together_are_named() -> None:

@@ -1,4 +1,4 @@
-"""Searches in boxes come to a design where IPOPT, begun at one that keeps every limit, comes to none."""
+"""Searches in boxes lead from a design that keeps every limit to an optimum of the whole problem."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tvimdesign.solve.infeasibility.wide_search import designs_all_over
 from tvimdesign.solve.nlp.solution import SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.box_search import BoxSearch
-from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import read_study_text
 
@@ -84,17 +84,16 @@ def broken(optimizer: Optimizer, inputs: Array) -> float:
 
 
 @pytest.mark.gate
-def test_boxes_lead_from_a_design_to_an_optimum_that_ipopt_does_not_find_from_it(
-    optimizer: Optimizer, design: Array
-) -> None:
+def test_boxes_lead_from_a_design_to_an_optimum(optimizer: Optimizer, design: Array) -> None:
     assert broken(optimizer, design) <= 0.0
-    assert not optimizer.solve(begin=design).start.converged
     found = BoxSearch(optimizer).run(design)
     assert found.start.converged
     assert broken(optimizer, found.inputs) <= CYCLE_TOLERANCE
     heights = [optimizer.model.values(x, optimizer.multistart.cycle)["envelope_height"]
                for x in (design, found.inputs)]  # fmt: skip
     assert heights[1] < 0.95 * heights[0]
+    # IPOPT alone went astray from here while states were unknowns.
+    assert found.start.objective <= optimizer.solve(begin=design).start.objective * (1.0 + SETTLED)
     assert not found.within  # an optimum of the whole problem, no side of a box holds it
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from explored import SMALL
 
-from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
 from tvimdesign.solve.optimizer.parametric_optimizer import ParametricOptimizer
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.reader import read_study_text
@@ -40,9 +40,10 @@ def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built: ParametricOp
     moved = built.solve(study, first.run)
     fresh = Optimizer(study, built.optimizer.reference).solve()
     assert moved.converged
-    assert moved.run.start.objective == pytest.approx(fresh.start.objective, rel=1e-6)
+    # Both are optima, each with the steps that were placed on its way.
+    assert moved.run.start.objective == pytest.approx(fresh.start.objective, rel=SETTLED)
     for variable, value in fresh.start.end.items():
-        assert moved.run.start.end[variable] == pytest.approx(value, rel=1e-4)
+        assert moved.run.start.end[variable] == pytest.approx(value, rel=10.0 * SETTLED)
         assert abs(value / first.run.start.end[variable] - 1.0) > 1e-6 or name != "all of them"
 
 

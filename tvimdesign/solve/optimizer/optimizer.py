@@ -205,8 +205,8 @@ class Optimizer:
 
         `unknowns` stand in place of `begin`; `beginning` says what is neither cold nor warm. An `objective` stands in
         place of the study's weights and bounds what is traded. Steps in time are placed where the run begins, and anew
-        where it ends, until that moves the optimum no more. Raises KeyboardInterrupt where an interrupt came, also one
-        that CasADi has swallowed. The run ends at the deadline.
+        where it ends, until that moves the optimum no more; an optimum that is sharpened keeps its own. Raises
+        KeyboardInterrupt where an interrupt came, also one that CasADi has swallowed. The run ends at the deadline.
         """
         raise_pending()
         inputs = self.model.start if begin is None else begin
@@ -226,7 +226,11 @@ class Optimizer:
             answer, stats = self._checked(x, parameters, ends["ubg"])
             return self.record(answer, stats, inputs, time.perf_counter() - clock, parameters)
         iterations = 0
-        self.problem.place_grids(x, parameters)
+        sharp = warm.grids if isinstance(warm, Run) and beginning == "sharp" else {}
+        if sharp:
+            self.problem.grids = sharp
+        else:
+            self.problem.place_grids(x, parameters)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
             solver = self._solver(beginning)
@@ -234,7 +238,7 @@ class Optimizer:
             stats = solver.stats()
             iterations += int(stats["iter_count"])
             x = np.asarray(answer["x"]).ravel()
-            if not stats["success"] or not self.problem.events or self._settled(x, parameters):
+            if sharp or not stats["success"] or not self.problem.events or self._settled(x, parameters):
                 break
             multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
             beginning = "warm"
