@@ -18,13 +18,13 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.base.deadline import NEVER
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.derivatives import derivatives_of
-from tvimdesign.solve.nlp.ipopt import NLP
+from tvimdesign.solve.nlp.ipopt import ProgrammeSolver
 from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem import Parameters, Point, Problem
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -32,7 +32,7 @@ from tvimdesign.study import Study
 
 _OPTIONS = {
     "algorithm": "B-BB", "bb_log_level": 0, "print_level": 0, "sb": "yes",
-    "linear_solver": "mumps", "mumps_pivtol": 1e-2, "mu_init": 1e-3, "tol": 1e-8,
+    "linear_solver": "mumps", "mu_init": 1e-3, "tol": 1e-8, "hessian_approximation": "limited-memory",
 }  # fmt: skip
 
 
@@ -70,35 +70,59 @@ def _alone(study: Study, reference: dict[str, float]) -> Chosen:
 
 
 def _search(optimizer: Optimizer, sizes: Sizes, near: Run) -> Chosen:
-    whole, places = optimizer.problem.function, {free.name: i for i, free in enumerate(optimizer.free)}
-    count, begin = whole["x"].numel(), [near.unknowns]
-    shares, rows = [], []
-    for name, listed in zip(sizes.names, sizes.sizes, strict=True):
-        place = places[name]
-        values = np.array([optimizer.free[place].to_unknown(size) for size in listed])
-        share = ca.MX.sym(name, len(listed))
-        shares.append(share)
-        rows += [whole["x"][place] - ca.dot(share, values), ca.sum1(share) - 1.0]
-        begin.append(_shares_at(near.unknowns[place], values))
-    x = ca.vertcat(whole["x"], *shares)
-    function = ca.Function("listed", [x, whole["p"]], [whole["f"], ca.vertcat(whole["g"], *rows)], *NLP)
-    binaries = x.numel() - count
-    options: dict[str, Any] = {
-        "bonmin": _OPTIONS, "print_time": False,
-        "discrete": [False] * count + [True] * binaries, "show_eval_warnings": False, **derivatives_of(function),
-    }  # fmt: skip
-    solver = ca.nlpsol("bonmin", "bonmin", function, options)
+    places = {free.name: i for i, free in enumerate(optimizer.free)}
+    chosen = [places[name] for name in sizes.names]
+    values = [
+        np.array([optimizer.free[place].to_unknown(size) for size in listed])
+        for place, listed in zip(chosen, sizes.sizes, strict=True)
+    ]
     objective = Objective(optimizer.study.minimize)
-    ends, zeros = optimizer.ends({}, objective), np.zeros(len(rows))
+    listed = _Listed(optimizer.problem, optimizer.parameters(objective), chosen, values)
+    count, binaries = optimizer.problem.unknown_count, sum(map(len, values))
+    settings = {
+        "bonmin": _OPTIONS, "print_time": False, "show_eval_warnings": False,
+        "discrete": [False] * count + [True] * binaries,
+    }  # fmt: skip
+    solver = ProgrammeSolver(listed.unknown_count, listed.row_count, settings, "bonmin")
+    begin = [near.unknowns, *(_shares_at(near.unknowns[place], one) for place, one in zip(chosen, values, strict=True))]
+    ends, zeros = optimizer.ends({}, objective), np.zeros(2 * len(chosen))
+    optimizer.problem.grids = near.grids
     clock = time.process_time()
     found = solver(
-        x0=np.concatenate(begin), p=optimizer.parameters(objective),
+        listed, NEVER, x0=np.concatenate(begin),
         lbx=np.append(ends["lbx"], np.zeros(binaries)), ubx=np.append(ends["ubx"], np.ones(binaries)),
         lbg=np.append(ends["lbg"], zeros), ubg=np.append(ends["ubg"], zeros),
     )  # fmt: skip
     unknowns = np.asarray(found["x"]).ravel()
     choices = {name: float(optimizer.free[places[name]].to_value(unknowns[places[name]])) for name in sizes.names}
     return Chosen(bool(solver.stats()["success"]), float(found["f"]), choices, time.process_time() - clock)
+
+
+class _Listed:
+    """A problem with its listed numbers as sums of their sizes times unknowns between zero and one, which come last."""
+
+    def __init__(
+        self, problem: Problem, parameters: Parameters, chosen: list[int], values: list[np.ndarray[Any, Any]]
+    ) -> None:
+        self._problem, self._parameters = problem, parameters
+        count = problem.unknown_count
+        self.unknown_count, self.row_count = count + sum(map(len, values)), problem.row_count + 2 * len(values)
+        self._sums = np.zeros((2 * len(values), self.unknown_count))
+        last = count
+        for i, (place, listed) in enumerate(zip(chosen, values, strict=True)):
+            shares = slice(last, last + len(listed))
+            self._sums[2 * i, place], self._sums[2 * i, shares], self._sums[2 * i + 1, shares] = 1.0, -listed, 1.0
+            last = shares.stop
+
+    def at(self, x: np.ndarray[Any, Any]) -> Point:
+        more = self.unknown_count - self._problem.unknown_count
+        point = self._problem.at(x[: self._problem.unknown_count], self._parameters)
+        sums = self._sums @ x
+        sums[1::2] -= 1.0
+        return point._replace(
+            gradient=np.append(point.gradient, np.zeros(more)), rows=np.append(point.rows, sums),
+            jacobian=np.vstack([np.pad(point.jacobian, ((0, 0), (0, more))), self._sums]),
+        )  # fmt: skip
 
 
 def _shares_at(value: float, values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

@@ -39,6 +39,10 @@ NEAR, MOST_TRIALS = 1e-4, 12
 """Part of a step by which the last one may miss an event: what is left, its square, is made up by slopes."""
 
 
+NARROW = 0.003
+"""Share of a step between the samples of a peak's second parabola."""
+
+
 @dataclass
 class Grid:
     """The steps of a phase, by what its first run needed: each in times that the pads would need to heat the layer."""
@@ -517,14 +521,21 @@ def _root(function: Callable[[float], float]) -> float:
 
 
 def _peak(function: Callable[[float], float]) -> tuple[float, float]:
-    """Where a function of a share of a step is highest, and how high: by samples and a parabola."""
+    """Where a function of a share of a step is highest, and how high: by samples and two parabolas.
+
+    The second is narrow: the function hardly changes with the share there, so that a slope at that share is the peak's.
+    """
     shares = np.linspace(0.0, 1.0, 9)
     values = np.array([function(one) for one in shares])
     k = int(np.argmax(values))
+    share, value, width = float(shares[k]), float(values[k]), 0.125
     if 0 < k < 8:
-        less, more = values[k] - values[k - 1], values[k + 1] - values[k]
-        share = float(shares[k] + 0.125 * 0.5 * (less + more) / (less - more))
-        value = function(share)
+        below, above = float(values[k - 1]), float(values[k + 1])
+        for narrow in (NARROW, 0.0):
+            share += 0.5 * width * (above - below) / (2.0 * value - below - above)
+            value, width = function(share), narrow
+            if narrow:
+                below, above = function(share - narrow), function(share + narrow)
         if value > values[k]:
             return share, value
     return float(shares[k]), float(values[k])
