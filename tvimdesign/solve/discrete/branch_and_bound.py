@@ -60,6 +60,10 @@ class Division:
         return (*before, (first, self.after), *behind), (*before, (self.after + 1, last), *behind)
 
 
+_AFRESH = 2
+"""Combinations, the best first, that are solved again from all else there is."""
+
+
 @dataclass
 class BranchAndBound:
     """One search over the trees of all records; `found` are the runs of single combinations, by tree and box."""
@@ -120,7 +124,7 @@ class BranchAndBound:
 
     def _begin_afresh(self) -> None:
         """Solve the best combinations again from all else there is: their boxes may have led to a worse optimum."""
-        best = sorted(self.found, key=lambda key: (order(self.found[key]), key))[: self.keep]
+        best = sorted(self.found, key=lambda key: (order(self.found[key]), key))[:_AFRESH]
         for key, again in zip(best, self._answers([Task(*key, None, "thoroughly") for key in best]), strict=False):
             before = self.found[key]
             if again.run is not None and order(again.run) < order(before):
