@@ -9,7 +9,7 @@ import numpy as np
 
 from tvimdesign.engine.interpreter import Array
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid, Instant
+from tvimdesign.simulation.working_cycle.phase_run import TOLERANCE, Drive, Grid, Instant
 
 
 class Supplied(NamedTuple):
@@ -25,9 +25,9 @@ class Supplied(NamedTuple):
 class CycleEngine:
     """Steps the working cycle of one model."""
 
-    def __init__(self, model: DeviceFunctions) -> None:
-        """Take what the model's phases have recorded."""
-        self.model = model
+    def __init__(self, model: DeviceFunctions, fineness: float = 1.0) -> None:
+        """Take what the model's phases have recorded; with twice the `fineness`, errors in time are an eighth."""
+        self.model, self._tolerance = model, TOLERANCE / fineness**3
         self._place = {name: i for i, name in enumerate(model.switch_names)}
 
     def run(
@@ -54,7 +54,9 @@ class CycleEngine:
             if not self._needed(name, wanted) or (after and after not in ended):
                 continue
             before = ended[after] if after else None
-            found, grid = engine.run(inputs, along, before, wanted, horizon, grids.get(name), drives.get(name))
+            found, grid = engine.run(
+                inputs, along, before, wanted, horizon, self._tolerance, grids.get(name), drives.get(name)
+            )
             if name not in drives:
                 grids[name] = grid
             for row, value in found.values.items():

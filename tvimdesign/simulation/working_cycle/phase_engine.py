@@ -121,12 +121,13 @@ class PhaseEngine:
         before: Instant | None,
         wanted: Collection[str] | None,
         horizon: float,
+        tolerance: float,
         grid: Grid | None,
         drive: Drive | None = None,
     ) -> tuple[Found, Grid]:
         """Step until every wanted event has happened, and evaluate all that is wanted.
 
-        Steps are those of a `grid`, or as long as the error allows. With a `drive`, whose length is given, the phase
+        Steps are those of a `grid`, or as long as their errors are within the `tolerance`. With a `drive`, whose length is given, the phase
         ends there, whatever the event that ends it still waits for. Returns the grid, too. Raises SimulationError where
         not even the first step can be taken.
         """
@@ -140,7 +141,7 @@ class PhaseEngine:
                 found.add(ends, found.end.time, found.end.of_time)
                 found.short, found.of_short = self.slopes(ends, found.end, inputs, run.along)
         else:
-            grid = grid or run.first(start, pace, sought, horizon)
+            grid = grid or run.first(start, pace, sought, horizon, tolerance)
             events = [name for name in sought if name in grid.events]
             moments = run.search(start, pace, dpace, events, grid)
             for name, moment in moments.items():

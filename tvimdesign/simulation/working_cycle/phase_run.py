@@ -127,10 +127,10 @@ class PhaseRun:
 
     # --- steps ---
 
-    def first(self, start: Instant, pace: float, sought: list[str], horizon: float) -> Grid:
+    def first(self, start: Instant, pace: float, sought: list[str], horizon: float, tolerance: float) -> Grid:
         """Step as far as the events that are sought, each step as long as its error allows."""
         constant = CurrentProfile.constant(start.current)
-        found, _ = self.simulate(start, pace, sought, horizon, constant, TOLERANCE, seek=False)
+        found, _ = self.simulate(start, pace, sought, horizon, constant, tolerance, seek=False)
         times = np.array([one.time for one in self.instants])
         return Grid((np.diff(times) / pace).tolist(), {name: one.step for name, one in found.items()})
 

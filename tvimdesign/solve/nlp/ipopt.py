@@ -103,10 +103,12 @@ class Evaluated(Protocol):
 class Solver:
     """IPOPT for one problem, ended between two iterations when the deadline of the run has passed."""
 
-    def __init__(self, name: str, problem: Any, settings: Mapping[str, Any], sizes: tuple[int, int]) -> None:
+    def __init__(
+        self, name: str, problem: Any, settings: Mapping[str, Any], sizes: tuple[int, int], plugin: str = "ipopt"
+    ) -> None:
         """Build it from what nlpsol takes; `sizes` are the counts of unknowns and rows."""
         self._stop = _Stop((*sizes, 0))
-        self._nlp = ca.nlpsol(name, "ipopt", problem, {**settings, "iteration_callback": self._stop})
+        self._nlp = ca.nlpsol(name, plugin, problem, {**settings, "iteration_callback": self._stop})
         self.unknown_count = sizes[0]
 
     def __call__(self, deadline: Deadline, **arguments: Any) -> dict[str, Any]:
@@ -122,9 +124,9 @@ class Solver:
 
 
 class ProgrammeSolver:
-    """IPOPT for programmes of so many unknowns and rows, each given with its run."""
+    """IPOPT, or another solver of CasADi's, for programmes of so many unknowns and rows, each given with its run."""
 
-    def __init__(self, unknowns: int, rows: int, settings: Mapping[str, Any]) -> None:
+    def __init__(self, unknowns: int, rows: int, settings: Mapping[str, Any], plugin: str = "ipopt") -> None:
         """Build it."""
         self._held = _Held()
         x, p = ca.MX.sym("x", unknowns), ca.MX.sym("p", 0)
@@ -140,7 +142,7 @@ class ProgrammeSolver:
             "no_nlp_grad": True, "calc_lam_p": False,
         }  # fmt: skip
         problem: Any = {"x": x, "p": p, "f": f, "g": g}
-        self._solver = Solver("design", problem, {**settings, **derivatives}, (unknowns, rows))
+        self._solver = Solver("design", problem, {**settings, **derivatives}, (unknowns, rows), plugin)
         self.stats = self._solver.stats
 
     def __call__(self, programme: Programme, deadline: Deadline, **arguments: Any) -> dict[str, Any]:

@@ -8,6 +8,7 @@ end an equation.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -125,8 +126,9 @@ class Problem:
         currents: Sequence[FreeCurrent] = (),
         objectives: Sequence[str] = (),
         mixtures: Sequence[Mixture] = (),
+        fineness: float = 1.0,
     ) -> None:
-        """Nothing is recorded yet.
+        """Nothing is recorded yet; with twice the `fineness`, errors of the steps in time are an eighth.
 
         `minimize` names the outputs whose weighted sum is least. Those among the `objectives` get a row each that
         bounds a sum of them. The shares of records in a mixture are free numbers that add up to one.
@@ -140,7 +142,7 @@ class Problem:
         self.mixtures = tuple(mixtures)
         self.wanted = list(dict.fromkeys([*(limit.output for limit in self.limits), *self.minimize]))
         self._check()
-        self.engine = CycleEngine(model)
+        self.engine, self._fineness = CycleEngine(model, fineness), fineness
         self.grids: dict[str, Grid] = {}
         """The steps of each phase; see `place_grids`."""
         self.unknown_count = len(self.free) + sum(one.nodes + 1 for one in self.free_currents)
@@ -282,8 +284,8 @@ class Problem:
                 of_moments = of_moments + of_values[0] / current.slew
                 moments, of_moments = np.append(0.0, moments), np.vstack([np.zeros((1, lanes)), of_moments])
                 values, of_values = np.append(0.0, values), np.vstack([np.zeros((1, lanes)), of_values])
-            steps = max(-(-(FREEZING_STEPS if phase.history else STEPS) // current.pieces), LEAST_STEPS)
-            found[current.phase] = Drive(moments, of_moments, phase.sign * values, phase.sign * of_values, steps)
+            steps = self._fineness * (FREEZING_STEPS if phase.history else STEPS) / current.pieces
+            found[current.phase] = Drive(moments, of_moments, phase.sign * values, phase.sign * of_values, max(math.ceil(steps), LEAST_STEPS))
         return found
 
     def _slopes(self, x: Array, inputs: Array, along: Array) -> tuple[Array, Array]:

@@ -21,6 +21,8 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
 
+FINER = 2.0
+"""Fineness of the steps in time where derivatives are reported."""
 _NOTHING = 1e-4
 """Value, in the unit people read it in, below which a share of it means nothing: a gap that is closed."""
 
@@ -82,7 +84,7 @@ class OutputDerivatives:
         """What each output needs of the cycle."""
         inputs, cycle = ca.SX.sym("inputs", len(model.names)), ca.SX.sym("cycle", len(model.switch_names))
         values = model.outputs(self.outputs).call([inputs, cycle], True, False)[0]
-        self._tape, self._engine = Tape.of([inputs, cycle], [ca.densify(values)]), CycleEngine(model)
+        self._tape, self._engine = Tape.of([inputs, cycle], [ca.densify(values)]), CycleEngine(model, FINER)
 
     def at(self, inputs: Array, by: Sequence[str]) -> tuple[Array, Array, set[str]]:
         """Return values, derivatives (a column an input), and what the cycle does not supply at a design's inputs.
