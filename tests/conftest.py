@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -19,8 +18,6 @@ from tvimdesign.base.processor_time import LIMIT
 
 pytest_plugins = ["shared_models", "shear_designs"]
 
-# What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else.
-os.environ["NUMBA_DISABLE_JIT"] = "1"
 # As the command line does: tests make many objects and keep most, and looking for garbage among them takes its time.
 gc.set_threshold(200_000, 20, 20)
 

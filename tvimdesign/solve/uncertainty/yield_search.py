@@ -61,7 +61,7 @@ def reach_yield(
     found: list[Robust] = []
     for _ in range(ROUNDS):
         try:
-            drawn = yields_of(optimizer, optimizer.deadline).at(run.inputs, deadline=optimizer.deadline)
+            drawn = yields_of(optimizer).at(run.inputs, deadline=optimizer.deadline)
         except TimeOverError:
             if not found:
                 raise
