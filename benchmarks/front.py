@@ -24,7 +24,7 @@ from quick import Quick
 from reference_problem import LONGEST, Reference, study
 
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
-from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
+from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, trace_front
@@ -61,7 +61,7 @@ class ManyDesigns:
     def __call__(self, designs: Array) -> tuple[Array, Array]:
         """Outputs and residuals; a switch that never ends takes as long as is simulated, and breaks a limit by one."""
         times = self._switch(designs, self._pace)
-        rows = self._arithmetic(stacked(designs, np.minimum(times, LONGEST)))
+        rows = self._arithmetic(np.concatenate([designs, np.minimum(times, LONGEST)]))
         residuals = [limit.residual(row) for limit, row in zip(self._limits, rows[self.count :], strict=True)]
         residuals.append(np.where(np.isfinite(times[0]), -1.0, 1.0))
         return rows[: self.count], np.nan_to_num(np.array(residuals), nan=10.0, posinf=10.0)

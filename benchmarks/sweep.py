@@ -1,8 +1,8 @@
 """Many designs through the one set of equations: designs a second by each way there is to do it, and how exact.
 
 The algebraic rows a study limits, as functions of a dozen inputs: the table's floats in a Python loop, the table on
-numpy arrays, CasADi's `Function.map`, and the compiled kernel. The softening switch with its full heat model: the
-product's simulator one by one, and the compiled one, with the largest difference between the two. CPU seconds, so that
+numpy arrays, CasADi's `Function.map`, and the tape. The softening switch with its full heat model: the
+product's simulator one by one, and many at once, with the largest difference between the two. CPU seconds, so that
 what else the machine does counts less; with several threads wall seconds beside them.
 """
 
@@ -82,10 +82,9 @@ def arithmetic(model: DeviceFunctions, count: int) -> None:
     _told("the table on numpy arrays", some.shape[1], arrays)
     mapped = function.map(some.shape[1])
     _told("Function.map", some.shape[1], lambda: np.asarray(mapped(some)))
-    out = np.empty((len(OUTPUTS), count))
-    kernel(columns, out=out)
-    _told("compiled kernel, one thread", count, lambda: kernel(columns, out=out))
-    _told("compiled kernel, two threads", count, lambda: kernel(columns, workers=2, out=out))
+    out = kernel(columns)
+    _told("tape, one thread", count, lambda: kernel(columns))
+    _told("tape, two threads", count, lambda: kernel(columns, workers=2))
     expected = np.asarray(function(ca.DM(few)))
     print(f"{'largest difference from CasADi':56s} {np.max(np.abs(out[:, :500] / expected - 1.0)):14.1e}")
 
@@ -95,10 +94,11 @@ def cycle(model: DeviceFunctions, event: str, count: int) -> None:
     simulator = Simulator(model)
     began = time.perf_counter()
     kernel = CycleKernel(model, OF_SWITCH, [event])
-    print(f"\n{event}, {model.cells} cells in the layer; compiled in {time.perf_counter() - began:.2f} s")
+    print(f"\n{event}, {model.cells} cells in the layer; recorded in {time.perf_counter() - began:.2f} s")
     nominal = simulator.run(model.start)
     ends = {name: nominal.values[phase.phase.ends] for name, phase in model.phases.items()}
     pace = Pace({**ends, "softening": nominal.values[event]}, nominal.balances)
+    pace = kernel.fitted(pace, model.start[[model.index[name] for name in OF_SWITCH]])
     columns = _columns(model, OF_SWITCH, count, 0.02)
     found = kernel(columns, pace)[0]
     few = 20
@@ -111,8 +111,8 @@ def cycle(model: DeviceFunctions, event: str, count: int) -> None:
             times[i] = simulator.run(inputs, phases=["softening"]).values[event]
 
     _told("the simulator, one by one", few, one_by_one)
-    _told("compiled steps, one thread", count, lambda: kernel(columns, pace))
-    _told("compiled steps, two threads", count, lambda: kernel(columns, pace, workers=2))
+    _told("steps, one thread", count, lambda: kernel(columns, pace))
+    _told("steps, two threads", count, lambda: kernel(columns, pace, workers=2))
     print(f"{'largest difference from the simulator':56s} {100.0 * np.max(np.abs(found[:few] / times - 1.0)):13.3f} %")
 
 

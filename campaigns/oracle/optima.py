@@ -68,4 +68,4 @@ def objective_change(frozen: Mapping[str, Any], now: Mapping[str, Any]) -> float
     if frozen["objective"] is None or now["objective"] is None:
         return 0.0
     change = relative_difference(frozen["objective"], now["objective"])
-    return change if now["objective"] > frozen["objective"] else -change
+    return -change if now["objective"] < frozen["objective"] else change

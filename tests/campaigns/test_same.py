@@ -154,6 +154,11 @@ def test_an_optimum(change: dict[str, Any], quantities: list[str]) -> None:
     assert [one.quantity for one in found] == quantities
 
 
+def test_a_better_objective_is_a_negative_change() -> None:
+    changes = [optima.objective_change(OPTIMUM, OPTIMUM | {"objective": value}) for value in (0.9, 1.0, 1.25, None)]
+    assert changes == pytest.approx([-0.1, 0.0, 0.2, 0.0])
+
+
 Answers = Callable[..., None]
 
 

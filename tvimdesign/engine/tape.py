@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -42,14 +43,17 @@ class Tape:
     """Registers of tangents, by the count of directions."""
 
     @classmethod
-    def of(cls, arguments: Sequence[Any], results: Sequence[Any]) -> Tape:
+    def of(cls, arguments: Sequence[Any], results: Sequence[Any], *, inverses: bool = False) -> Tape:
         """Record expressions (SX) of symbols."""
         values = [ca.SX(one) for one in results]
-        return cls.of_function(ca.Function("tape", list(arguments), values, {"live_variables": False}))
+        return cls.of_function(ca.Function("tape", list(arguments), values, {"live_variables": False}), inverses)
 
     @classmethod
-    def of_function(cls, function: Any) -> Tape:
-        """Record a function of SX. Raises ValueError for an operation that the interpreter does not know."""
+    def of_function(cls, function: Any, inverses: bool = False) -> Tape:
+        """Record a function of SX. Raises ValueError for an operation that the interpreter does not know.
+
+        With `inverses`, what several quotients are divided by is inverted once, which may change their last bits.
+        """
         starts = np.concatenate([[0], np.cumsum([function.nnz_in(i) for i in range(function.n_in())])]).astype(np.int64)
         results = tuple(np.zeros(function.nnz_out(i), np.int64) for i in range(function.n_out()))
         place: dict[int, int] = {}
@@ -57,7 +61,6 @@ class Tape:
         constants: dict[float, int] = {}
         operations: dict[tuple[int, int, int], int] = {}
         """Operation and operands, in CasADi's order, with its place; what is written twice is computed once."""
-        level: list[int] = []
         written: list[tuple[int, int, int]] = []
         for k in range(function.n_instructions()):
             op, given, to = _operation(function, k), _given(function, k), _to(function, k)
@@ -71,14 +74,14 @@ class Tape:
                 one, other = place[given[0]], place[given[-1]]
                 if op in _COMMUTE and one < other:
                     one, other = other, one
-                known = operations.setdefault((op, one, other), len(level))
-                if known == len(level):
-                    level.append(1 + max(level[-1 - one] if one < 0 else 0, level[-1 - other] if other < 0 else 0))
-                place[to[0]] = -1 - known
+                place[to[0]] = -1 - operations.setdefault((op, one, other), len(operations))
             else:
                 raise ValueError(f"CasADi's operation {op} is not known to tvimdesign.engine.interpreter")
-        base = int(starts[-1]) + len(constants)
-        table = np.column_stack([np.array(level, np.int64), np.array(list(operations), np.int64).reshape(-1, 3)])
+        base, listed = int(starts[-1]) + len(constants), list(operations)
+        if inverses:
+            listed, moved = _with_inverses(listed)
+            written = [(result, entry, moved[-1 - one] if one < 0 else one) for result, entry, one in written]
+        table = np.column_stack([_levels(listed), np.array(listed, dtype=np.int64).reshape(-1, 3)])
         order = np.lexsort((table[:, 1], table[:, 0]))
         changes = np.flatnonzero(np.any(np.diff(table[order, :2], axis=0) != 0, axis=1)) + 1
         starting = np.concatenate([[0], changes, [len(table)]]) if len(table) else np.zeros(1, np.int64)
@@ -120,6 +123,36 @@ class Tape:
         w[:count], d[:count] = np.concatenate(arguments), np.concatenate(moved)
         push(self.code, w, d)
         return [(w[places], d[places]) for places in self.results]
+
+
+def _with_inverses(operations: list[tuple[int, int, int]]) -> tuple[list[tuple[int, int, int]], list[int]]:
+    """Return operations in which products with an inverse replace quotients that share a divisor.
+
+    Then the place of the value of each that was given.
+    """
+    uses = Counter(other for op, _, other in operations if op == interpreter.DIV)
+    found: list[tuple[int, int, int]] = []
+    at: list[int] = []
+    inverse: dict[int, int] = {}
+    for op, *operands in operations:
+        one, other = (at[-1 - operand] if operand < 0 else operand for operand in operands)
+        if op == interpreter.DIV and uses[operands[1]] > 1:
+            if other not in inverse:
+                found.append((interpreter.INV, other, other))
+                inverse[other] = -len(found)
+            found.append((interpreter.MUL, one, inverse[other]))
+        else:
+            found.append((op, one, other))
+        at.append(-len(found))
+    return found, at
+
+
+def _levels(operations: list[tuple[int, int, int]]) -> Integers:
+    """Return how many operations come one after the other up to each."""
+    level: list[int] = []
+    for _, one, other in operations:
+        level.append(1 + max(level[-1 - one] if one < 0 else 0, level[-1 - other] if other < 0 else 0))
+    return np.array(level, dtype=np.int64)
 
 
 def _allocated(

@@ -1,4 +1,4 @@
-"""Compiled kernels: the same numbers as CasADi and the C library, for any count of columns and of workers."""
+"""Tapes down columns: the same numbers as CasADi and the C library, for any count of columns and of workers."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from support import ROOT, digits
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.batch.elimination import newton_step
-from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
+from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.study import given, read_study
 
 ONE: dict[str, tuple[Callable[[float], float], list[float]]] = {
@@ -77,12 +76,6 @@ def test_comparisons_and_logic_are_those_of_casadi() -> None:
     assert Kernel(function)(columns) == pytest.approx(expected, rel=1e-15)
 
 
-def test_an_operation_without_a_vector_form_is_named() -> None:
-    x = ca.SX.sym("x")
-    with pytest.raises(NotImplementedError, match="the operation ACOSH"):
-        Kernel(ca.Function("f", [x], [ca.acosh(x)]))
-
-
 @pytest.mark.parametrize("study", ["paper_shear", "paper_compression", "wrist_joint"])
 def test_the_kernel_of_the_table_agrees_with_casadi(study: str) -> None:
     read = read_study(ROOT / f"studies/{study}.yaml")
@@ -107,29 +100,13 @@ def test_no_bit_hangs_on_workers_or_neighbours() -> None:
     assert np.array_equal(alone[:, 5_001:5_004], kernel(np.ascontiguousarray(columns[:, 5_001:5_004])))
 
 
-def test_arrays_that_are_not_row_by_row_are_refused_or_copied() -> None:
+def test_arrays_that_are_not_row_by_row_are_copied() -> None:
     x = ca.SX.sym("x", 2)
     kernel = Kernel(ca.Function("f", [x], [x[0] - 2.0 * x[1]]))
     columns = np.arange(20.0).reshape(10, 2).T
     assert kernel(columns)[0] == pytest.approx(columns[0] - 2.0 * columns[1])
-    assert stacked(columns, columns).flags.c_contiguous
-    with pytest.raises(ValueError, match="row by row"):
-        kernel.run(columns, np.empty((1, 10)))
     with pytest.raises(ValueError, match="takes 2 rows, got 3"):
         kernel(np.zeros((3, 4)))
-
-
-def test_elimination_solves_what_numpy_solves() -> None:
-    # An arrow about a chain, as the heat equation has it, with one unknown that has no diagonal of its own.
-    random = np.random.default_rng(3)
-    matrix = np.diag(random.uniform(4.0, 5.0, 8)) + np.diag(random.uniform(-1, 1, 7), 1) + np.diag(np.ones(7), -1)
-    matrix[7, :], matrix[:, 7] = random.uniform(-1, 1, 8), random.uniform(-1, 1, 8)
-    matrix[6, 6] = 0.0
-    right = random.uniform(-1, 1, 8)
-    x = ca.SX.sym("x", 8)
-    equations = ca.mtimes(ca.sparsify(ca.DM(matrix)), x) - right
-    found = Kernel(ca.Function("f", [x], [newton_step(x, equations)]))(np.zeros((8, 1)))[:, 0]
-    assert found == pytest.approx(np.linalg.solve(matrix, right), rel=1e-12)
 
 
 def test_a_run_without_a_front_loads_neither_the_compiler_nor_scipy_nor_matplotlib(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
-"""One module evaluated while a hand moves it: the working cycle by compiled kernels, the rest by the table's own code.
+"""One module evaluated while a hand moves it: the working cycle by the steps of many designs, the rest by the table.
 
-Kernels take seconds to compile, in a thread beside; until they are there CVODES goes through the cycle, loosely.
+What they step takes a second to record, in a thread beside; until it is there CVODES goes through the cycle, loosely.
 """
 
 from __future__ import annotations
@@ -20,16 +20,15 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.batch.batch_model import SLOW
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
-from tvimdesign.solve.batch.kernel import Kernel, stacked
+from tvimdesign.solve.batch.kernel import Kernel
 from tvimdesign.solve.batch.phase_kernel import Steps
 from tvimdesign.study import Study, given
 
 Array = NDArray[np.float64]
 Curves = dict[str, dict[str, list[float]]]
 
-_STEPS = Steps(of_pace=20, in_window=4, close=4, first=0.125)
-"""Half of the steps that tolerances take, at most: half the time, and times within 0.2 % still (a test;
-seven shipped studies as they start: 0.04 to 0.10 %)."""
+_STEPS = Steps(of_pace=20, first=1.0 / 32.0, growth=1.5)
+"""About half of the steps that tolerances take where something freezes: times within 0.2 % still (a test)."""
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")
 _SHOWN = 24
@@ -51,7 +50,7 @@ class QuickModel:
     """The modules that have the same records and options, as a function of every number."""
 
     def __init__(self, study: Study, *, compiled: bool = True) -> None:
-        """Simulate the study's start, which sets the pace, and begin to compile."""
+        """Simulate the study's start, which sets the pace, and begin to record."""
         known = given(study)
         self.words = words_of(known)
         self._said = {row.name: str(getattr(known[row.name], "name", known[row.name])) for row in study.table.choices}
@@ -62,7 +61,7 @@ class QuickModel:
         self._pace: Pace | None = None
         self._maps = {name: _Drawn(self.model, name) for name in _PHASES if name in self.model.phases}
         self.set_pace(self.model.start)
-        self._thread = threading.Thread(target=self._compile, daemon=True)
+        self._thread = threading.Thread(target=self._record, daemon=True)
         if compiled:
             self._thread.start()
 
@@ -72,12 +71,12 @@ class QuickModel:
         return same and words_of(known) == self.words
 
     def wait(self) -> bool:
-        """Wait until the kernels are compiled; whether they could be."""
+        """Wait until the steps are recorded; whether they could be."""
         self._thread.join()
         return self._kernel is not None
 
     def set_pace(self, inputs: Array) -> None:
-        """Let the kernels' steps follow a module from now on."""
+        """Let the steps follow a module from now on."""
         cycle = self._simulator.run(inputs)
         slow = SLOW * float(inputs[self.model.index["horizon"]])
         ends = {name: cycle.values[phase.phase.ends] for name, phase in self.model.phases.items()}
@@ -110,17 +109,14 @@ class QuickModel:
         """The place of the one number that is a shape."""
         return self.model.index["rotor_cells"]
 
-    def _compile(self) -> None:
+    def _record(self) -> None:
         moving = [name for name in self.model.names if name != "rotor_cells"]
         try:
-            kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS, _STEPS, _STEPS)
-            pace = self._pace
-            if pace is not None:
-                kernel.course(np.delete(self.model.start, self._fixed), pace)  # compiled when first called
+            kernel = CycleKernel(self.model, moving, self.model.switch_names, _STEPS, _STEPS)
             for drawn in self._maps.values():
-                drawn.compile()
-        except NotImplementedError:
-            return  # an operation without a vector form: CVODES goes on
+                drawn.record()
+        except ValueError:
+            return  # an operation that is not known: CVODES goes on
         self._kernel = kernel
 
 
@@ -142,8 +138,8 @@ class _Drawn:
         self._mapped = self._function.map(_SHOWN)
         self._kernel: Kernel | None = None
 
-    def compile(self) -> None:
-        """Compile for all moments at once. Raises NotImplementedError."""
+    def record(self) -> None:
+        """Record what all moments are evaluated by at once. Raises ValueError."""
         self._kernel = Kernel(self._function)
 
     def curves(self, inputs: Array, times: Array, states: Array, end: float) -> dict[str, list[float]]:
@@ -156,8 +152,8 @@ class _Drawn:
         at = line.at(moments / times[-1])
         currents = np.full((1, _SHOWN), self._sign * inputs[self._current])
         columns = np.repeat(inputs[:, None], _SHOWN, axis=1)
-        kernel = self._kernel
-        rows = kernel(stacked(at, currents, columns)) if kernel else np.asarray(self._mapped(at, currents, columns))
+        given, kernel = (at, currents, columns), self._kernel
+        rows = kernel(np.concatenate(given)) if kernel else np.asarray(self._mapped(*given))
         rows[:3] -= ZERO_CELSIUS
         return {"time": moments.tolist(), **dict(zip(_CURVES, rows.tolist(), strict=True))}
 

@@ -147,7 +147,7 @@ def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> l
     inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
     from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
 
-    yields = yields_of(optimizer, deadline)
+    yields = yields_of(optimizer)
     return [yields.at(one, deadline=deadline).together.share for one in inputs]
 
 

@@ -80,7 +80,7 @@ class PhaseEngine:
         """Record what quantities are at an instant: of state, current and inputs."""
         if names not in self._tapes:
             values = [ca.SX(self.phase._instant[name]) for name in names]
-            self._tapes[names] = Tape.of(self.phase._arguments, values)
+            self._tapes[names] = Tape.of(self.phase._arguments, values, inverses=True)
         return self._tapes[names]
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Outputs of many modules at once: the table's arithmetic and its working cycle, both compiled, as one function."""
+"""Outputs of many modules at once: the table's arithmetic and its working cycle, as one function."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
-from tvimdesign.solve.batch.kernel import Kernel, of_columns, stacked
+from tvimdesign.solve.batch.kernel import Kernel, of_columns
 
 Array = NDArray[np.float64]
 
@@ -22,24 +22,19 @@ SLOW = 0.1
 
 
 class BatchModel:
-    """Some outputs of one module as a function of some of its inputs, compiled for columns of them."""
+    """Some outputs of one module as a function of columns of some of its inputs."""
 
-    def __init__(
-        self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str], often: Collection[str] = (),
-        deadline: Deadline = NEVER,
-    ) -> None:  # fmt: skip
-        """Compile. All inputs but the `moving` are constants. Raises TimeOverError at the deadline.
-
-        Phases that are gone through `often`, by name, are compiled to run as fast as can be.
-        """
+    def __init__(self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str]) -> None:
+        """Record. All inputs but the `moving` are constants."""
         model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
         needed = {base for name in outputs for base in (name.partition("@")[0], *resolved.table.ancestors(name))}
         supplied = [name for name in model.switch_names if name in needed]
-        self.cycle = CycleKernel(model, moving, supplied, often=often, deadline=deadline) if supplied else None
+        self.cycle = CycleKernel(model, moving, supplied) if supplied else None
         names = self.cycle.names if self.cycle else ()
         seen = np.ones(len(model.switch_names))
         places = [(0, model.index[name]) for name in moving] + [(1, model.switch_names.index(name)) for name in names]
-        self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places), deadline=deadline)
+        self._arithmetic = Kernel(of_columns(model.outputs(outputs), [model.start, seen], places))
+        self._places = [model.index[name] for name in moving]
         self._simulator = Simulator(model)
 
     @cached_property
@@ -55,7 +50,8 @@ class BatchModel:
         cycle = self._simulator.run(inputs, phases=list(self.cycle.phases))
         slow = SLOW * float(inputs[model.index["horizon"]])
         ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
-        return Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+        pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
+        return self.cycle.fitted(pace, inputs[self._places])
 
     def __call__(
         self, columns: Array, workers: int = 1, pace: Pace | None = None, only: Collection[str] | None = None,
@@ -63,10 +59,10 @@ class BatchModel:
     ) -> Array:  # fmt: skip
         """One row for each output; infinite or no number where something never happens.
 
-        `pace` is that of another design than the one it was compiled at, where the columns are modules of that. With
+        `pace` is that of another design than the one it was recorded at, where the columns are modules of that. With
         `only` some phases of the cycle, by name, outputs of the others mean nothing. Raises TimeOverError.
         """
         pace = pace or self._pace
         if self.cycle is None or pace is None:
             return self._arithmetic(columns, workers)
-        return self._arithmetic(stacked(columns, self.cycle(columns, pace, workers, only, deadline)), workers)
+        return self._arithmetic(np.concatenate([columns, self.cycle(columns, pace, workers, only, deadline)]), workers)

@@ -1,35 +1,42 @@
-"""The working cycle of many designs at once: the same heat equation, events and paths as the simulator's, compiled.
+"""The working cycle of many designs at once: the same heat equation, events and paths as the simulator's.
 
-Time runs in fixed steps of SDIRK2 (Alexander 1977, L-stable), one exact Newton step a phase. Where an event is passed
-the step is gone through once more in smaller ones. Every design is on its own: its bits do not hang on its neighbours.
+Every design is on its own: its bits do not hang on its neighbours.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.device import Event, Path, Steady
+from tvimdesign.engine.vectors import LANES
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.solve.batch.phase_kernel import Course, Passage, PhaseKernel, Steps
-from tvimdesign.solve.batch.vector_code import LANES
+from tvimdesign.solve.batch.phase_kernel import Course, Fit, Passage, PhaseKernel, Steps
 
 Array = NDArray[np.float64]
 
 BLOCK = 512
 """Designs that go through the cycle together."""
-STEPS = Steps(of_pace=20, in_window=4, close=8, first=0.25)
-EARLIER = Steps(of_pace=24, in_window=4, close=8, first=1.0 / 32.0, growth=1.5)
-"""Steps of a phase of which events are wanted that come before its end, some at a twentieth of its time."""
-FREEZING = Steps(of_pace=40, in_window=4, close=4, first=1.0 / 16.0)
+STEPS = Steps(40, 1.0 / 32.0, 1.15)
+FREEZING = Steps(40, 1.0 / 32.0, 1.15)
 """Steps of a phase in which the polymer has a history."""
-"""With these, times are within 0.2 % of the converged simulation (tests hold that for all shipped studies)."""
+COARSE = (
+    Steps(8, 0.25, 2.0), Steps(10, 0.125, 2.0), Steps(12, 0.125, 2.0), Steps(16, 0.0625, 1.5), Steps(20, 0.03125, 1.5),
+    Steps(24, 0.03125, 1.15), Steps(40, 0.03125, 1.15), Steps(64, 0.03125, 1.15),
+)  # fmt: skip
+"""Steps that are tried; taken are the first that will do."""
+FINE = Steps(96, 1.0 / 64.0, 1.1)
+CLOSE = 8e-4
+"""How far values may be from those of fine steps: so they are within 0.2 % of the converged simulation (tests hold
+that for all shipped studies)."""
+MORE, WIDTH = 8, 0.05
+"""Designs that steps are tried on, beside one for each moving input, and how far from the one they are about."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +47,8 @@ class Pace:
     """About how long each phase takes [s], by name."""
     balances: Mapping[str, Array]
     """State and current that stay where a phase ended, by phase."""
+    fits: Mapping[str, Fit] = field(default_factory=dict)
+    """How finely each phase is stepped, where that is known (`CycleKernel.fitted`)."""
 
 
 class CycleKernel:
@@ -52,14 +61,8 @@ class CycleKernel:
         wanted: Collection[str],
         steps: Steps = STEPS,
         freezing: Steps = FREEZING,
-        earlier: Steps = EARLIER,
-        often: Collection[str] = (),
-        deadline: Deadline = NEVER,
     ) -> None:
-        """Compile what the wanted supplied rows need; all inputs but the `moving` are constants.
-
-        Phases that are gone through `often`, by name, are compiled to run as fast as can be.
-        """
+        """Take what the wanted supplied rows need; all inputs but the `moving` are constants."""
         self.model = model
         rows = {row.name: row for row in model.table.supplied if row.name in wanted}
         self.names = tuple(rows)
@@ -70,17 +73,11 @@ class CycleKernel:
                 [row.name for row in phase.events if row.name in rows or row.name in ending],
                 [row.name for row in phase.paths if row.name in rows],
                 [row.name for row in phase.steadies if row.name in rows],
-                freezing if phase.phase.after else earlier if self._before_end(phase, rows) else steps,
-                often=name in often, deadline=deadline,
+                freezing if phase.phase.after else steps,
             )
             for name, phase in model.phases.items()
             if any(row.phase == name for row in rows.values()) or phase.phase.ends in ending
         }  # fmt: skip
-
-    @staticmethod
-    def _before_end(phase: PhaseFunctions, rows: Collection[str]) -> bool:
-        """Whether an event is wanted that is not the one which ends the phase."""
-        return any(row.name in rows and row.name != phase.phase.ends for row in phase.events)
 
     def _must_end(self, name: str, rows: Collection[Event | Path | Steady]) -> bool:
         """Whether the end of a phase is needed: by its own paths and steady rows, or by a phase that comes after."""
@@ -111,11 +108,31 @@ class CycleKernel:
                 pass
         return found
 
+    def fitted(self, pace: Pace, column: Array) -> Pace:
+        """Choose the steps of each phase for designs about one, as coarse as is exact enough for all values."""
+        tried = LANES * math.ceil((len(column) + MORE) / LANES)
+        drawn = np.random.default_rng(0).uniform(-WIDTH, WIDTH, (len(column), tried))
+        drawn[:, 0] = 0.0
+        columns, ends, fits = column[:, None] * (1.0 + drawn), dict[str, Array](), dict[str, Fit]()
+        for name, phase in self.phases.items():
+            given = columns, ends[phase.after] if phase.after else None, pace.times[name], pace.balances.get(name)
+            exact = phase.run(*given, Fit(FINE, column, np.zeros(len(column)), {}))
+            ends[name] = exact.end
+            times = {event: exact.values[event] / pace.times[name] for event in phase.events}
+            shares = {event: float(share[0]) for event, share in times.items() if 0.0 < share[0] < np.inf}
+            longest = times[max(shares, key=shares.__getitem__)] if shares else np.ones(tried)
+            known = np.isfinite(longest)
+            slopes = np.linalg.lstsq(drawn[:, known].T, longest[known] / longest[0] - 1.0)[0]
+            for steps in COARSE:
+                fits[name] = Fit(steps, column, slopes, shares)
+                if _apart(phase.run(*given, fits[name]).values, exact.values) < CLOSE:
+                    break
+        return replace(pace, fits=fits)
+
     def course(self, column: Array, pace: Pace) -> tuple[dict[str, float], dict[str, Course]]:
         """Values of `names` for one design, and its states step by step through each phase to what ends it."""
         kept: dict[str, Course] = {name: [] for name in self.phases}
-        # As many columns as a register holds: a kernel would fill it up at every call.
-        values = self._block(np.repeat(column[:, None], LANES, axis=1), pace, None, kept)
+        values = self._block(np.ascontiguousarray(column[:, None]), pace, None, kept)
         return {name: float(found[0]) for name, found in values.items()}, kept
 
     def _block(
@@ -129,7 +146,16 @@ class CycleKernel:
                 continue
             before = passed[phase.after].end if phase.after else None
             course = keep[name] if keep else None
-            passed[name] = phase.run(columns, before, pace.times[name], pace.balances.get(name), course)
+            passed[name] = phase.run(
+                columns, before, pace.times[name], pace.balances.get(name), pace.fits.get(name), course
+            )
             ended = ~np.isnan(before[0]) if before is not None else np.ones(columns.shape[1], dtype=bool)
             values |= {row: np.where(ended, found, np.inf) for row, found in passed[name].values.items()}
         return {name: values[name] for name in self.names}
+
+
+def _apart(values: Mapping[str, Array], exact: Mapping[str, Array]) -> float:
+    """Largest share by which values differ where both are finite."""
+    with np.errstate(all="ignore"):
+        apart = [np.abs(values[name] / exact[name] - 1.0) for name in exact]
+    return float(np.max(np.where(np.isfinite(apart), apart, 0.0), initial=0.0))

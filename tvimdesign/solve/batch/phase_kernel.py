@@ -1,32 +1,32 @@
-"""One phase of the working cycle for a block of designs: compiled steps, events found by halving, paths added up."""
+"""One phase of the working cycle for a block of designs: stepped together, each to its own events."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.deadline import NEVER, Deadline
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.engine import lane_events, lane_steps
+from tvimdesign.engine.lane_events import NOWHERE
+from tvimdesign.engine.lanes import evaluate, lanes_of
+from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.solve.batch.elimination import newton_step
-from tvimdesign.solve.batch.kernel import Kernel, stacked
 
 Array = NDArray[np.float64]
 
 Course: TypeAlias = list[tuple[float, Array]]
 """Moments [s] with the states at each, a column a design."""
-GAMMA = 1.0 - np.sqrt(0.5)
-"""Diagonal of SDIRK2 that makes it L-stable (Alexander, SIAM J. Numer. Anal. 14 (1977) 1006)."""
-_LATE = 2.0
-"""Times the pace after which steps grow, for the designs that have not ended."""
-_GROWTH = 1.3
-_NEWTON_OF_BALANCE = 12
-_AT_REST = 1e-7
+_LATE, _GROWTH = 2.0, 1.07
+"""Times the pace after which steps grow, for the designs that have not ended, and by how much each."""
+_APART = 2.0
+"""How much longer or shorter than another a design is taken to be at most."""
+_WINDOW = 2
+"""Steps after which events are looked for, once the study's own design would have ended."""
 
 
 @dataclass(frozen=True)
@@ -35,16 +35,39 @@ class Steps:
 
     of_pace: int
     """Steps in the time the study's own design takes."""
-    in_window: int
-    """Steps after which events are looked for."""
-    close: int
-    """Steps into which the one with an event is divided again."""
-    first: float = 1.0
-    """Length of the first window's steps over the others'."""
-    growth: float = 2.0
-    """What each window makes the first one's steps longer by, until they are as long as the others."""
-    newton: int = 1
-    """Newton steps for each phase of the method."""
+    first: float
+    """Length of the first step over the others'."""
+    growth: float
+    """What each of the first steps is longer by, until they are as long as the others."""
+
+    def lengths(self, pace: float, horizon: float) -> Array:
+        """Return the lengths of all steps up to the horizon."""
+        usual = pace / self.of_pace
+        step, time, found = self.first * usual, 0.0, list[float]()
+        while time < horizon:
+            found.append(min(step, horizon - time))
+            time += found[-1]
+            step = step * _GROWTH if time > _LATE * pace else min(self.growth * step, usual)
+        return np.array(found)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How designs about one go through a phase."""
+
+    steps: Steps
+    about: Array
+    """Moving inputs of that one."""
+    slopes: Array
+    """By how much the time of a phase changes with each, both as shares."""
+    shares: Mapping[str, float]
+    """When each event happens, as a share of that time."""
+
+    def scales(self, columns: Array) -> Array:
+        """About how long designs take, as a share of the time of that one."""
+        off = np.divide(columns, self.about[:, None], out=np.ones(columns.shape), where=self.about[:, None] != 0.0)
+        found: Array = np.clip(1.0 + (self.slopes[:, None] * (off - 1.0)).sum(axis=0), 1.0 / _APART, _APART)
+        return found
 
 
 @dataclass
@@ -58,262 +81,226 @@ class Passage:
 
 
 class PhaseKernel:
-    """One phase of one model as a function of its moving inputs, compiled."""
+    """One phase of one model as a function of its moving inputs."""
 
     def __init__(
-        self,
-        model: DeviceFunctions,
-        phase: PhaseFunctions,
-        moving: Sequence[str],
-        events: Sequence[str],
-        paths: Sequence[str],
-        steadies: Sequence[str],
-        steps: Steps,
-        often: bool = False,
-        deadline: Deadline = NEVER,
-    ) -> None:
-        """Write and compile the Newton step, what is watched, and what stays the same all through the phase.
-
-        Many more designs go through a phase that is gone through `often` than through others.
-        """
-        self._deadline = deadline
-        self.steps, self.after, self.size = steps, phase.phase.after, phase.state_size
-        self.events, self.paths, self.steadies = list(events), list(paths), list(steadies)
-        reduced = np.array([row.reduce for row in phase.paths if row.name in paths], dtype=str)
-        self.integrals, self.maxima, self.lasts = (reduced == one for one in ("integral", "maximum", "end"))
-        self.ends = self.events.index(phase.phase.ends) if phase.phase.ends in self.events else None
+        self, model: DeviceFunctions, phase: PhaseFunctions, moving: Sequence[str], events: Sequence[str],
+        paths: Sequence[str], steadies: Sequence[str], steps: Steps,
+    ) -> None:  # fmt: skip
+        """Record the motion, and what is looked at: all of it, as threads share it later."""
+        self.engine, self.steps, self.after = PhaseEngine(phase), steps, phase.phase.after
+        self.events, self.steadies = list(events), list(steadies)
+        reduced = {row.name: row.reduce for row in phase.paths if row.name in paths}
+        self.integrals, self.highest, self.at_end = (
+            [name for name, reduce in reduced.items() if reduce == one] for one in ("integral", "maximum", "end")
+        )
+        self.ends = phase.phase.ends if phase.phase.ends in self.events else None
         self.horizon = float(model.start[model.index["horizon"]])
-        free = ca.SX.sym("moving", len(moving))
-        inputs = ca.SX(ca.DM(model.start))
-        for i, name in enumerate(moving):
-            inputs[model.index[name]] = free[i]
-        self._write(phase, free, inputs, phase.phase.sign * inputs[model.index[phase.phase.current_input]], often)
+        self.start, self._index = model.start, model.index
+        self._moving = np.array([model.index[name] for name in moving], dtype=np.int64)
+        self.size = self.engine.size
+        self._current = model.index[phase.phase.current_input], phase.phase.sign
+        self.watching = np.concatenate([[self.size], self.size + 1 + self._moving])
+        """Registers of the current and of the moving inputs, where the state comes before."""
+        self.motion, self._given = self.engine.recorded
+        self._begin = self.engine.start if self.after else None
+        for names in (*([name] for name in self.events), self.highest, self.at_end, self.steadies):
+            if names:
+                self.engine.tape(*names)
 
-    def _write(self, phase: PhaseFunctions, free: Any, inputs: Any, profile: Any, often: bool) -> None:
-        state, base, step = ca.SX.sym("state", self.size), ca.SX.sym("base", self.size), ca.SX.sym("step")
-        watched = [_inlined(phase.watch(names), state, profile, inputs) for names in (self.events, self.paths)]
-        rates = _inlined(phase.rates, state, profile, inputs)
-        every, symbols, expressions = ca.extract_parametric(ca.vertcat(rates, *watched), free)
-        bare = [symbol for symbol in ca.symvar(every) if ca.which_depends(symbol, free, 1, True)[0]]
-        constants = ca.vertcat(*symbols, *bare)
-        last = self.size + len(self.events)
-        rates, gaps, samples = every[: self.size], every[self.size : last], every[last:]
-        after = newton_step(state, state - base - step * rates)
-        before = ca.SX.sym("before", phase.begin.numel_in(0)) if self.after else ca.SX(0, 1)
-        begin = (
-            phase.begin.call([before, inputs], True, False)[0]
-            if self.after
-            else phase.initial.call([inputs], True, False)[0]
-        )
-        self._constants = self._kernel([free], ca.vertcat(*expressions, *bare))
-        self._begin = self._kernel([free, before], begin)
-        self._newton = self._kernel([state, base, step, constants], after, often)
-        # A kernel for each event: one costs a hundred times as much as another, and is asked for until it has come.
-        self._gaps = [self._kernel([state, constants], gaps[i]) for i in range(len(self.events))]
-        self._samples = self._kernel([state, constants], samples) if self.paths else None
-        if self.steadies:
-            self._balance(phase, free, inputs)
+    def begin(self, columns: Array, before: Array | None) -> tuple[Array, Array, Array]:
+        """Return current, constants of the motion and first states of some designs."""
+        found = self._evaluated(self._given, columns, self._moving, 0)
+        count = len(self._given.results[0])
+        constants, first = found[:count], found[count + 1 :]
+        if before is not None and self._begin is not None:
+            size = int(self._begin.arguments[1])
+            places = np.concatenate([np.arange(size), size + self._moving])
+            first = self._evaluated(self._begin, np.concatenate([before[:size], columns]), places, size)
+        place, sign = self._current
+        moved = np.flatnonzero(self._moving == place)
+        current = columns[moved[:1]] if len(moved) else np.full((1, columns.shape[1]), self.start[place])
+        return sign * current, constants, first
 
-    def _kernel(self, arguments: Sequence[Any], result: Any, often: bool = False) -> Kernel:
-        return Kernel(ca.Function("kernel", list(arguments), [result], {"cse": True}), often, self._deadline)
+    def _evaluated(self, tape: Tape, given: Array, places: NDArray[np.int64], inputs_from: int) -> Array:
+        """Results of a tape one below the other; its inputs begin at a register, and are as drawn where not given."""
+        w = lanes_of(tape)
+        w[inputs_from : inputs_from + len(self.start)] = self.start[:, None]
+        results = np.concatenate(tape.results)
+        found = np.empty((len(results), given.shape[1]))
+        evaluate(tape.code, w, places, given, results, found)
+        return found
 
-    def _balance(self, phase: PhaseFunctions, free: Any, inputs: Any) -> None:
-        """One Newton step to the steady state in which the ending event stays at zero, and the rows there."""
-        unknowns = ca.SX.sym("unknowns", self.size + 1)
-        state, profile = unknowns[: self.size], unknowns[self.size]
-        equations = ca.vertcat(
-            _inlined(phase.rates, state, profile, inputs),
-            _inlined(phase.watch([phase.phase.ends]), state, profile, inputs),
-        )
-        self._rest = self._kernel([unknowns, free], newton_step(unknowns, equations))
-        self._steady = self._kernel([unknowns, free], _inlined(phase.watch(self.steadies), state, profile, inputs))
+    def watched(self, names: Sequence[str], states: Array, watched: Array) -> Array:
+        """Quantities at an instant, a row each."""
+        places = np.concatenate([np.arange(self.size), self.watching])
+        given = np.concatenate([states[: self.size], watched])
+        return self._evaluated(self.engine.tape(*names), given, places, self.size + 1)
 
     def run(
-        self, columns: Array, before: Array | None, pace: float, balance: Array | None, keep: Course | None = None
-    ) -> Passage:
+        self, columns: Array, before: Array | None, pace: float, balance: Array | None, fit: Fit | None = None,
+        keep: Course | None = None,
+    ) -> Passage:  # fmt: skip
         """Go through the phase; `before` are the states it starts from, where that is not everything at ambient.
 
         Every step on the way is added to `keep`.
         """
-        count = columns.shape[1]
-        constants = self._constants(columns)
-        state = self._begin(columns if before is None else stacked(columns, before))
-        integrate = _March(self, state, constants)
-        times = np.full((len(self.events), count), np.inf)
-        passage = Passage({}, np.full((self.size, count), np.nan))
-        sums = np.full((len(self.paths), count), np.inf)
-        lost = np.isnan(state[0])
-        begun = integrate.gaps(np.full(times.shape, fill_value=True)) >= 0.0
-        times[begun] = 0.0
-        if self.ends is not None:
-            passage.end[:, begun[self.ends]] = state[:, begun[self.ends]]
-            sums[:, begun[self.ends]] = integrate.sums[:, begun[self.ends]]
-        usual = pace / self.steps.of_pace
-        step = self.steps.first * usual
-        while integrate.time < self.horizon and not np.all(np.isfinite(times) | lost):
-            open_still = np.isinf(times) & ~lost
-            window = integrate.window(min(step, (self.horizon - integrate.time) / self.steps.in_window), open_still)
-            if keep is not None:
-                keep += [(window.begin + i * window.step, one) for i, one in enumerate(window.states[:-1])]
-            passed = open_still & (window.gaps >= 0.0)
-            for event in np.flatnonzero(passed.any(axis=1)).tolist():
-                here = np.flatnonzero(passed[event])
-                found = integrate.close(window, event, here, paths=event == self.ends)
-                times[event, here] = found.times
-                if event == self.ends:
-                    passage.end[:, here], sums[:, here] = found.states, found.sums
-            lost |= np.isnan(integrate.state[0])
-            step = step * _GROWTH if integrate.time > _LATE * pace else min(self.steps.growth * step, usual)
-        # A maximum is one even of a phase that never ends, as in the simulator.
-        highest = np.maximum(integrate.sums, -np.inf)
-        sums = np.where(np.isinf(sums) & self.maxima[:, None], highest, sums) if self.paths else sums
-        passage.values |= dict(zip(self.events, times, strict=True)) | dict(zip(self.paths, sums, strict=True))
+        lengths = (fit.steps if fit else self.steps).lengths(pace, _APART * self.horizon)
+        run = _Run(self, columns, before, lengths, fit.scales(columns) if fit else np.ones(columns.shape[1]))
+        shares = fit.shares if fit else {}
+        run.go(
+            {name: int(np.searchsorted(run.times[1:], 0.999 * pace * shares.get(name, 1.0))) for name in self.events}
+        )
+        if keep is not None:
+            keep += [(float(run.times[k] * run.scales[0]), run.states[k, : self.size]) for k in range(run.reached + 1)]
+        values = {name: run.at[name] for name in self.events}
+        values |= run.reduced()
         if self.steadies:
-            passage.values |= self._at_rest(columns, balance, passage.end)
-        return passage
+            values |= self._at_rest(run, balance)
+        return Passage(values, run.end[: self.size])
 
-    def _at_rest(self, columns: Array, balance: Array | None, end: Array) -> dict[str, Array]:
+    def _at_rest(self, run: _Run, balance: Array | None) -> dict[str, Array]:
         """Steady rows, from the balance of the study's own design; infinite where Newton finds none."""
-        count = columns.shape[1]
-        if balance is None:
+        count = run.watched.shape[1]
+        if balance is None or self.ends is None:
             return dict.fromkeys(self.steadies, np.full(count, np.inf))
-        now = np.repeat(balance[:, None], count, axis=1)
-        for _ in range(_NEWTON_OF_BALANCE):
-            last, now = now, self._rest(stacked(now, columns))
-        with np.errstate(invalid="ignore"):
-            exists = (np.max(np.abs(now - last), axis=0) < _AT_REST) & ~np.isnan(end[0])
-        found = self._steady(stacked(now, columns))
+        staying = self.size + self.engine.lip
+        rest, currents = np.nan_to_num(run.end[:staying]), np.full(count, balance[-1])
+        rest[: self.size] = balance[:-1, None]
+        exists, watch = np.zeros(count, dtype=bool), run.watches[self.ends]
+        lane_events.settle(
+            run.motion.system, run.room.slopes, run.room.rates, run.places, run.given, watch.code, watch.registers,
+            watch.result, self.watching, run.watched, self.size, rest, currents, exists,
+        )  # fmt: skip
+        found = self.watched(self.steadies, rest, np.concatenate([currents[None], run.watched[1:]]))
+        exists &= ~np.isnan(run.end[0])
         return {name: np.where(exists, found[i], np.inf) for i, name in enumerate(self.steadies)}
 
 
-@dataclass
-class _Window:
-    """Some steps of all designs: states and sums before each, and what the events have come to after the last."""
+class _Watch:
+    """An event that a block of designs is watched for."""
 
-    begin: float
-    step: float
-    states: list[Array]
-    sums: list[Array]
-    gaps: Array
-
-
-@dataclass
-class _Close:
-    """What was found where an event is passed, for the designs that passed it."""
-
-    times: Array
-    states: Array
-    sums: Array
+    def __init__(self, phase: PhaseKernel, name: str, count: int) -> None:
+        tape, first = phase.engine.tape(name), phase.size + 1
+        self.code, self.result = tape.code, int(tape.results[0][0])
+        self.registers = lanes_of(tape)
+        self.registers[first : first + len(phase.start)] = phase.start[:, None]
+        self.low, self.high = np.full(count, -1), np.full(count, NOWHERE)
+        """The last step after which it has not happened, the first after which it has, by design."""
+        self.below, self.above = np.full(count, np.nan), np.full(count, np.nan)
 
 
-class _March:
-    """A block of designs on its way through time, all at the same moment."""
+class _Run:
+    """A block of designs on its way through a phase."""
 
-    def __init__(self, phase: PhaseKernel, state: Array, constants: Array) -> None:
-        self.phase, self.state, self.constants, self.time = phase, state, constants, 0.0
-        self.samples = self._sampled(state, constants)
-        integrals = phase.integrals[:, None]
-        self.sums = np.where(integrals, 0.0, self.samples)
+    def __init__(self, phase: PhaseKernel, columns: Array, before: Array | None, lengths: Array, scales: Array) -> None:
+        self.phase, self.lengths, self.scales = phase, lengths, scales
+        self.times = np.concatenate([[0.0], np.cumsum(lengths)])
+        self.motion = phase.motion
+        self.room = lane_steps.Room(self.motion)
+        self.count = columns.shape[1]
+        current, constants, first = phase.begin(columns, before)
+        self.given = np.concatenate([current, constants])
+        self.places = np.arange(self.motion.size, self.motion.size + len(self.given))
+        self.watched = np.concatenate([current, columns])
+        self.states = np.zeros((1, self.motion.size, self.count))
+        """By step, as far as `reached`."""
+        self.states[0, : phase.size] = first
+        self.reached = 0
+        self.lost = np.isnan(first[0])
+        self.watches = {name: _Watch(phase, name, self.count) for name in phase.events}
+        self.at: dict[str, Array] = {}
+        """When each event happens, infinite where it never does."""
+        self.end = np.full((self.motion.size, self.count), np.nan)
+        self.last = np.full(self.count, NOWHERE)
+        """The step in which the phase ends; -1 at the start."""
 
-    def watched(self, state: Array, constants: Array | None = None) -> Array:
-        """What the kernels of gaps and samples take."""
-        return stacked(state, self.constants if constants is None else constants)
+    def go(self, expected: Mapping[str, int]) -> None:
+        """Step until every design has come to all events, or is lost, most of them at a step; find when."""
+        open_still, last = ~self.lost, max(expected.values(), default=0) + 1
+        while self.reached < len(self.lengths) and open_still.any():
+            self._march(min(max(_WINDOW, last - self.reached), len(self.lengths) - self.reached), open_still)
+            self.lost |= np.isnan(self.states[self.reached, 0])
+            waiting = np.zeros(self.count, dtype=bool)
+            for name, watch in self.watches.items():
+                lane_events.search(
+                    watch.code, watch.registers, watch.result, self.phase.watching, self.watched, self.states,
+                    self.phase.size, self.reached, expected[name], watch.low, watch.high, watch.below, watch.above,
+                )  # fmt: skip
+                waiting |= watch.high == NOWHERE
+            open_still = waiting & ~self.lost
+        for name, watch in self.watches.items():
+            self._cross(name, watch)
 
-    def _sampled(self, state: Array, constants: Array) -> Array:
-        kernel = self.phase._samples
-        return kernel(self.watched(state, constants)) if kernel else np.empty((0, state.shape[1]))
+    def _march(self, steps: int, busy: NDArray[np.bool_]) -> None:
+        if self.reached + steps >= len(self.states):
+            longer = np.empty((self.reached + steps + 1 + len(self.states) // 2, *self.states.shape[1:]))
+            longer[: len(self.states)] = self.states
+            self.states = longer
+        lane_steps.march(
+            self.motion.system, self.room.slopes, self.places, self.given, self.states, self.lengths, self.scales,
+            self.reached, self.reached + steps, busy,
+        )  # fmt: skip
+        self.reached += steps
 
-    def gaps(self, asked: NDArray[np.bool_]) -> Array:
-        """What the events have come to, a row each; no numbers of those that nobody has `asked` of any design."""
-        found, watched = np.full(asked.shape, np.nan), self.watched(self.state)
-        for event in np.flatnonzero(asked.any(axis=1)).tolist():
-            found[event] = self.phase._gaps[event](watched)[0]
+    def _cross(self, name: str, watch: _Watch) -> None:
+        """Find when an event happens in the step that it happens in."""
+        begun, passed = watch.high == 0, (watch.high != NOWHERE) & (watch.high > 0)
+        shares, ends = np.zeros(self.count), np.empty(self.states.shape[1:])
+        ends[:, begun] = self.states[0][:, begun]
+        lane_events.cross(
+            self.motion.system, self.room.slopes, self.room.rates, self.places, self.given, self.states,
+            self.lengths[: self.reached], self.scales, watch.code, watch.registers, watch.result, self.phase.watching,
+            self.watched, self.phase.size, passed, watch.low, watch.below, watch.above, shares, ends,
+        )  # fmt: skip
+        step = np.clip(watch.low, 0, len(self.lengths) - 1)
+        times = np.where(begun, 0.0, self.scales * (self.times[step] + shares * self.lengths[step]))
+        passed &= times <= self.phase.horizon
+        self.at[name] = np.where(begun | passed, times, np.inf)
+        if name == self.phase.ends:
+            ended = begun | passed
+            self.end[:, ended], self.last[ended] = ends[:, ended], watch.low[ended]
+
+    def reduced(self) -> dict[str, Array]:
+        """Paths by name: what they add up to or are at the end, and what they reach on the way."""
+        phase, never = self.phase, np.isnan(self.end[0])
+        first = phase.size + phase.engine.lip
+        found = {name: self.end[first + phase.engine.integrals.index(name)] for name in phase.integrals}
+        if phase.at_end:
+            found |= dict(zip(phase.at_end, phase.watched(phase.at_end, self.end, self.watched), strict=True))
+        found = {name: np.where(never, np.inf, values) for name, values in found.items()}
+        if phase.highest:
+            found |= dict(zip(phase.highest, self._highest(), strict=True))
         return found
 
-    def window(self, step: float, asked: NDArray[np.bool_]) -> _Window:
-        """Go on by some steps; `asked` are the events to look at, by design."""
-        begin, states, sums = self.time, [], []
-        for _ in range(self.phase.steps.in_window):
-            states.append(self.state)
-            sums.append(self.sums)
-            self.state = self._step(self.state, self.constants, np.full(self.state.shape[1], step))
-            before, self.samples = self.samples, self._sampled(self.state, self.constants)
-            self.sums = self._added(self.sums, before, self.samples, step)
-        self.time = begin + step * self.phase.steps.in_window
-        states.append(self.state)
-        sums.append(self.sums)
-        return _Window(begin, step, states, sums, self.gaps(asked))
-
-    def _added(self, sums: Array, before: Array, now: Array, step: Array | float) -> Array:
-        """Integrals by the trapezoid, maxima of the samples, and of what is wanted at the end the last sample."""
-        reached = np.where(self.phase.lasts[:, None], now, np.maximum(sums, now))
-        return np.where(self.phase.integrals[:, None], sums + 0.5 * step * (before + now), reached)
-
-    def _step(self, state: Array, constants: Array, step: Array) -> Array:
-        """One step of SDIRK2: two implicit phases, the second is the result."""
-        size, newton = self.phase.size, self.phase._newton
-        given = stacked(state, state, GAMMA * step[None, :], constants)
-        after = np.empty(state.shape)
-        for _ in range(self.phase.steps.newton):
-            newton.run(given, after)
-            given[:size] = after
-        rise = (after - state) / GAMMA
-        np.add(state, (1.0 - GAMMA) * rise, out=given[size : 2 * size])
-        np.add(state, rise, out=given[:size])
-        for _ in range(self.phase.steps.newton):
-            newton.run(given, after)
-            given[:size] = after
-        return after
-
-    def close(self, window: _Window, event: int, here: NDArray[np.intp], paths: bool) -> _Close:
-        """Find the moment in a window at which some designs pass an event: halve, then go in smaller steps."""
-        constants = self.constants[:, here]
-        states = np.array([state[:, here] for state in window.states])
-        low = self._halved(states, constants, event)
-        column = np.arange(len(here))
-        count = self.phase.steps.close
-        step = np.full(len(here), window.step / count)
-        fine = [states[low, :, column].T]
-        for _ in range(count):
-            fine.append(self._step(fine[-1], constants, step))
-        steps = np.array(fine)
-        at = self._halved(steps, constants, event)
-        a, b = (self._gap(steps[at + k, :, column].T, constants, event) for k in (0, 1))
-        part = np.clip(np.divide(a, a - b, out=np.zeros_like(a), where=a < b), 0.0, 1.0)
-        before, after = (steps[at + k, :, column].T for k in (0, 1))
-        state = before + part * (after - before)
-        times = window.begin + window.step * low + step * (at + part)
-        sums = np.array([s[:, here] for s in window.sums])[low, :, column].T
-        return _Close(times, state, self._sum_up(sums, steps, at, part, step, state, constants) if paths else sums)
-
-    def _sum_up(
-        self, sums: Array, steps: Array, at: Array, part: Array, step: Array, state: Array, constants: Array
-    ) -> Array:
-        """Sums from the begin of a step that was divided to the event within it."""
-        if not len(sums):
-            return sums
-        samples = [self._sampled(one, constants) for one in steps]
-        for k in range(len(samples) - 1):
-            sums = np.where(k < at, self._added(sums, samples[k], samples[k + 1], step), sums)
-        first = np.array(samples)[at, :, np.arange(len(at))].T
-        return self._added(sums, first, self._sampled(state, constants), part * step)
-
-    def _halved(self, states: Array, constants: Array, event: int) -> Array:
-        """Index of the last of the states, one after the other, before an event that rises passes zero."""
-        count = states.shape[2]
-        low, high = np.zeros(count, dtype=int), np.full(count, len(states) - 1)
-        while np.any(high - low > 1):
-            middle = (low + high) // 2
-            passed = self._gap(states[middle, :, np.arange(count)].T, constants, event) >= 0.0
-            open_still = high - low > 1
-            high = np.where(open_still & passed, middle, high)
-            low = np.where(open_still & ~passed, middle, low)
-        return low
-
-    def _gap(self, states: Array, constants: Array, event: int) -> Array:
-        found: Array = self.phase._gaps[event](self.watched(states, constants))[0]
-        return found
+    def _highest(self) -> Array:
+        """What quantities reach up to the end of the phase, or on their way where it has none; between two steps along
+        a parabola."""
+        phase, steps = self.phase, self.reached + 1
+        states = np.concatenate([*self.states[:steps], self.end], axis=1)
+        values = phase.watched(phase.highest, states, np.tile(self.watched, steps + 1)).reshape(
+            -1, steps + 1, self.count
+        )
+        ended = ~np.isnan(self.end[0])
+        after = np.arange(steps)[:, None] > np.where(ended, self.last, steps)
+        values[:, :-1] = np.where(after, values[:, -1:], values[:, :-1])
+        values[:, -1] = np.where(ended, values[:, -1], values[:, -2])
+        end = np.where(ended, self.at[phase.ends] if phase.ends else np.inf, self.times[self.reached] * self.scales)
+        times = np.concatenate([np.where(after, end, self.times[:steps, None] * self.scales), end[None]])
+        return np.where(self.lost & ~ended, np.inf, _peak(times, values))
 
 
-def _inlined(function: Any, *arguments: Any) -> Any:
-    return ca.densify(function.call(list(arguments), True, False)[0])
+def _peak(times: Array, values: Array) -> Array:
+    """The maximum of samples, rows of them one moment, by a parabola through the highest and both of its neighbours."""
+    k = np.argmax(values, axis=1)[:, None]
+    middle = np.clip(k, 1, values.shape[1] - 2)
+    (a, u), (b, v), (c, w) = (
+        (np.take_along_axis(times[None], middle + i, 1), np.take_along_axis(values, middle + i, 1)) for i in (-1, 0, 1)
+    )
+    with np.errstate(all="ignore"):
+        rising, falling = (v - u) / (b - a), (w - v) / (c - b)
+        bend = (falling - rising) / (c - a)
+        slope = rising + bend * (b - a)
+        over = np.where((k == middle) & (bend < 0.0) & (c > b), -0.25 * slope**2 / bend, 0.0)
+    found: Array = (np.take_along_axis(values, k, 1) + over)[:, 0]
+    return found

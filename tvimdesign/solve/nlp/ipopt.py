@@ -20,6 +20,14 @@ _USUAL = {
     # Second derivatives of the cycle are not to be had for less than as many evaluations as there are unknowns.
     "hessian_approximation": "limited-memory",
     "limited_memory_max_history": 12,
+    # Where a peak's place or a step's end jumps, gradients do; an objective that stands still there is at its least.
+    "acceptable_tol": 1e-3,
+    "acceptable_dual_inf_tol": 1.0,
+    "acceptable_constr_viol_tol": 1e-7,
+    "acceptable_compl_inf_tol": 1e-5,
+    "acceptable_obj_change_tol": 1e-7,
+    "acceptable_iter": 2,
+    "watchdog_shortened_iter_trigger": 0,
     "mu_init": 1e-3,
     # The bounds of a study are exact: IPOPT's usual relaxation of 1e-8 stays, and the point is put back inside.
     "honor_original_bounds": "yes",
@@ -46,6 +54,7 @@ _FEASIBLE = {
     "acceptable_tol": 1e6,
     "acceptable_compl_inf_tol": 1e6,
     "acceptable_constr_viol_tol": 1e-8,
+    "acceptable_obj_change_tol": 1e20,
 }
 Beginning: TypeAlias = Literal["cold", "feasible", "near", "warm", "sharp"]
 """Where a run begins: anywhere; anywhere, to end where all limits are kept; near another optimum, none of whose
@@ -56,7 +65,7 @@ _SETTINGS: dict[Beginning, dict[str, Any]] = {
 }  # fmt: skip
 _SHARP = 1e-11
 """Tolerance at which a limit that hardly presses is told from one that does not."""
-_MOST_ITERATIONS = {"near": 60, "warm": 25, "sharp": 60}
+_MOST_ITERATIONS = {"cold": 120, "near": 60, "warm": 25, "sharp": 60}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""
 

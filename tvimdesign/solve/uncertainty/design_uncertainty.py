@@ -1,4 +1,4 @@
-"""How sure one design is, by compiled kernels: what varies from part to part, and, apart from it, what nobody knows."""
+"""How sure one design is, by many modules: what varies from part to part, and, apart from it, what nobody knows."""
 
 from __future__ import annotations
 
@@ -51,10 +51,10 @@ class DesignUncertainty:
 
 
 class UncertaintyModel:
-    """Limits and asked outputs of a module as compiled functions of what spreads, is unmeasured, or is free."""
+    """Limits and asked outputs of a module as functions of what spreads, is unmeasured, or is free."""
 
     def __init__(self, resolved: ResolvedModule, asked: Sequence[str], free: Sequence[str] = ()) -> None:
-        """Compile. `free` are the inputs in which the designs that it is asked of may differ."""
+        """Record. `free` are the inputs in which the designs that it is asked of may differ."""
         self._resolved, study, table = resolved, resolved.study, resolved.table
         lost = behind_profiles(table, {*study.profile.pieces(), *resolved.current_profiles})
         self.asked = tuple(name for name in dict.fromkeys(asked) if not _behind(table, name, lost))
@@ -70,11 +70,11 @@ class UncertaintyModel:
         self.names = [name for name in moving if isinstance(resolved.values.get(name), int | float)]
         self._early = _phases_of(table, limited)
         drawn = bool(self.outputs and self.names)
-        self._model = BatchModel(resolved, self.names, self.outputs, self._early) if drawn else None
+        self._model = BatchModel(resolved, self.names, self.outputs) if drawn else None
         self._pace: Pace | None = None
 
     def fits(self, resolved: ResolvedModule) -> bool:
-        """Whether a module differs from the compiled one in nothing but what may."""
+        """Whether a module differs from the recorded one in nothing but what may."""
         before, now = self._resolved.values, resolved.values
         same = self._resolved.study.tolerances == resolved.study.tolerances and before.keys() == now.keys()
         return same and all(before[name] == now[name] for name in before if name not in self.names)

@@ -89,7 +89,7 @@ Drawn = Callable[[Draw], Array]
 
 
 def columns_of(
-    resolved: ResolvedModule, names: Sequence[str], compiled: BatchModel, draw: Draw, workers: int
+    resolved: ResolvedModule, names: Sequence[str], many: BatchModel, draw: Draw, workers: int
 ) -> spread.Columns:
     """Outputs as a function of a draw's contributors, all others of the `names` as drawn."""
     place = [names.index(contributor.name) for contributor in draw.contributors]
@@ -98,16 +98,16 @@ def columns_of(
     def outputs(columns: Array) -> Array:
         every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
         every[place] = columns
-        return compiled(every, workers)
+        return many(every, workers)
 
     return outputs
 
 
 class Tolerancing:
-    """One design with its study's tolerances: the compiled functions of what spreads, built once."""
+    """One design with its study's tolerances: the functions of what spreads, recorded once."""
 
     def __init__(self, resolved: ResolvedModule, progress: Progress, workers: int = 1) -> None:
-        """Differentiate and compile. Raises InputError where nothing spreads, SimulationError."""
+        """Differentiate and record. Raises InputError where nothing spreads, SimulationError."""
         self.resolved, self.progress, self.workers = resolved, progress, workers
         self.contributors = contributors_of(resolved)
         # A free angle that is adjusted out altogether still has a column: it is compared with one that is not.
@@ -129,7 +129,7 @@ class Tolerancing:
             )
         progress("differentiating the outputs by what spreads")
         exact = output_sensitivities(resolved, resolved.study.solver.cells, list(wanted), names)
-        progress("compiling the module for many designs")
+        progress("recording the module for many designs")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
         self.asked = tuple(name for name in dict.fromkeys(self._asked()) if name in self.outputs)
@@ -188,12 +188,12 @@ class Tolerancing:
 
     def _draws(self, samples: int, seed: int) -> Drawn:
         """Return what draws modules."""
-        compiled = {self.outputs: self.many}
+        models = {self.outputs: self.many}
 
         def drawn(draw: Draw) -> Array:
-            if draw.outputs not in compiled:
-                compiled[draw.outputs] = BatchModel(self.resolved, self.names, list(draw.outputs))
-            columns = columns_of(self.resolved, self.names, compiled[draw.outputs], draw, self.workers)
+            if draw.outputs not in models:
+                models[draw.outputs] = BatchModel(self.resolved, self.names, list(draw.outputs))
+            columns = columns_of(self.resolved, self.names, models[draw.outputs], draw, self.workers)
             return spread.drawn_values(columns, draw.contributors, samples, seed)
 
         return drawn

@@ -17,7 +17,7 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
     Raises TimeOverError where the time is over first.
     """
     deadline = optimizer.deadline.late
-    yields, seed = yields_of(optimizer, deadline), optimizer.study.solver.seed
+    yields, seed = yields_of(optimizer), optimizer.study.solver.seed
     drawn = yields.at(run.inputs, seed + 1, deadline)
     without = yields.at(nominal.inputs, deadline=deadline).together.share
     table, points = optimizer.table, tuple(optimizer.study.operating_points)

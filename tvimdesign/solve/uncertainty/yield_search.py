@@ -60,7 +60,7 @@ def reach_yield(
     Raises TimeOverError where the time is over before modules are drawn of the first.
     """
     found: list[Robust] = []
-    yields, aim = yields_of(optimizer, optimizer.deadline), share + _AIM * (1.0 - share)
+    yields, aim = yields_of(optimizer), share + _AIM * (1.0 - share)
     for _ in range(ROUNDS):
         try:
             drawn = yields.at(run.inputs, deadline=optimizer.deadline)

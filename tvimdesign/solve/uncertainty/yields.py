@@ -1,4 +1,4 @@
-"""How many modules keep a study's limits at any of its designs: compiled once, drawn from scrambled Sobol points."""
+"""How many modules keep a study's limits at any of its designs: recorded once, drawn from scrambled Sobol points."""
 
 from __future__ import annotations
 
@@ -69,10 +69,8 @@ class Drawn:
 class Yields:
     """Limits that what spreads can move, as functions of that and of what the study frees."""
 
-    def __init__(self, optimizer: Optimizer, deadline: Deadline = NEVER) -> None:
-        """Compile. Raises TimeOverError at the deadline.
-
-        A current that follows a profile is not a number: limits on its phases are left out."""
+    def __init__(self, optimizer: Optimizer) -> None:
+        """Record the limits. A current that follows a profile is not a number: those on its phases are left out."""
         study, table = optimizer.study, optimizer.table
         self._study, self._model = study, optimizer.model
         spreading = [name for name in study.tolerances if name in optimizer.model.index]
@@ -87,7 +85,7 @@ class Yields:
         start = dict(zip(optimizer.model.names, optimizer.model.start, strict=True))
         self._drawn: dict[tuple[bytes, int | None], Drawn] = {}
         self._first_orders: dict[bytes, Array] = {}
-        self._many = BatchModel(self._rig(start), self._moving, self._outputs, (), deadline) if self._outputs else None
+        self._many = BatchModel(self._rig(start), self._moving, self._outputs) if self._outputs else None
 
     def _rig(self, values: Mapping[str, Any]) -> ResolvedModule:
         numbers = {name: float(values[name]) for name in self._model.names}
@@ -158,14 +156,14 @@ class Yields:
         return Drawn(self.limits, np.array(residuals), names, np.concatenate(kept, axis=1))
 
 
-def yields_of(optimizer: Optimizer, deadline: Deadline = NEVER) -> Yields:
-    """How many modules keep the limits at any design of a problem: compiled when first asked for, then kept as long as
-    the problem is. Raises TimeOverError where that is not done by the deadline.
+def yields_of(optimizer: Optimizer) -> Yields:
+    """How many modules keep the limits at any design of a problem: recorded when first asked for, then kept as long as
+    the problem is.
     """
-    if optimizer not in _COMPILED:
-        optimizer.progress("compiling the equations, to draw modules")
-        _COMPILED[optimizer] = Yields(optimizer, deadline)
-    return _COMPILED[optimizer]
+    if optimizer not in _RECORDED:
+        optimizer.progress("recording the equations, to draw modules")
+        _RECORDED[optimizer] = Yields(optimizer)
+    return _RECORDED[optimizer]
 
 
-_COMPILED: WeakKeyDictionary[Optimizer, Yields] = WeakKeyDictionary()
+_RECORDED: WeakKeyDictionary[Optimizer, Yields] = WeakKeyDictionary()

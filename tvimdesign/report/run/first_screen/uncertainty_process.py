@@ -113,10 +113,8 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a third of the time; the process is short
     import_module("scipy.special")  # loaded while the solver works, used when modules are drawn
-    from tvimdesign.base.machine_code import compile_quickly
     from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
 
-    compile_quickly()  # some thousand modules are drawn: the compiler would take longer than they do
     study = Study.model_validate_json(sys.stdin.readline())
     try:
         uncertainty = Uncertainty(study)

@@ -1,0 +1,146 @@
+"""Run a tape for many designs at once: registers are rows, their columns designs side by side.
+
+Every design is on its own: its bits do not depend on its neighbours, nor on how many there are.
+"""
+
+from __future__ import annotations
+
+from numba import njit
+
+from tvimdesign.engine import interpreter as known
+from tvimdesign.engine import vectors
+from tvimdesign.engine.interpreter import Array, Code, slopes_of
+from tvimdesign.engine.sparse_lu import Integers, Pattern
+from tvimdesign.engine.tape import Tape
+from tvimdesign.engine.vectors import LANES
+
+
+def lanes_of(tape: Tape, more: int = 0) -> Array:
+    """Return registers of a tape with its constants in place, and some `more` behind them."""
+    w = vectors.registers(tape.registers.size + more)
+    w[: tape.registers.size] = tape.registers[:, None]
+    return w
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def run(code: Code, w: Array) -> None:  # noqa: PLR0912 - a case for each kind of operation
+    """Fill the registers of the results from those of the arguments and constants."""
+    first, second, to, groups = code.first, code.second, code.to, code.groups
+    for g in range(groups.shape[0] - 1):
+        op, start, end = groups[g, 0], groups[g, 1], groups[g + 1, 1]
+        if op == known.MUL:
+            for k in range(start, end):
+                vectors.mul(w, to[k], first[k], second[k])
+        elif op == known.ADD:
+            for k in range(start, end):
+                vectors.add(w, to[k], first[k], second[k])
+        elif op == known.SUB:
+            for k in range(start, end):
+                vectors.sub(w, to[k], first[k], second[k])
+        elif op == known.DIV:
+            for k in range(start, end):
+                vectors.div(w, to[k], first[k], second[k])
+        elif op == known.SQ:
+            for k in range(start, end):
+                vectors.square(w, to[k], first[k])
+        elif op == known.SQRT:
+            for k in range(start, end):
+                vectors.sqrt(w, to[k], first[k])
+        elif op == known.NEG:
+            for k in range(start, end):
+                vectors.neg(w, to[k], first[k])
+        elif op == known.TWICE:
+            for k in range(start, end):
+                vectors.twice(w, to[k], first[k])
+        elif op == known.INV:
+            for k in range(start, end):
+                vectors.inverse(w, to[k], first[k])
+        elif op == known.EXP:
+            for k in range(start, end):
+                vectors.exp(w, to[k], first[k])
+        elif op == known.LOG:
+            for k in range(start, end):
+                vectors.log(w, to[k], first[k])
+        elif op == known.LOG1P:
+            for k in range(start, end):
+                vectors.log1p(w, to[k], first[k])
+        elif op in (known.POW, known.CONSTPOW):
+            for k in range(start, end):
+                vectors.power(w, to[k], first[k], second[k])
+        elif op == known.LT:
+            for k in range(start, end):
+                vectors.less(w, to[k], first[k], second[k])
+        elif op == known.LE:
+            for k in range(start, end):
+                vectors.at_most(w, to[k], first[k], second[k])
+        elif op == known.FMIN:
+            for k in range(start, end):
+                vectors.lesser(w, to[k], first[k], second[k])
+        elif op == known.FMAX:
+            for k in range(start, end):
+                vectors.larger(w, to[k], first[k], second[k])
+        elif op == known.IF_ELSE_ZERO:
+            for k in range(start, end):
+                vectors.if_else_zero(w, to[k], first[k], second[k])
+        elif op == known.FABS:
+            for k in range(start, end):
+                vectors.fabs(w, to[k], first[k])
+        else:
+            for k in range(start, end):
+                for j in range(LANES):
+                    w[to[k], j] = slopes_of(op, w[first[k], j], w[second[k], j])[0]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def load(w: Array, places: Integers, columns: Array, start: int) -> None:
+    """Put the rows of some columns into registers; lanes beyond the last column hold that once more."""
+    last = columns.shape[1] - 1
+    for r in range(places.size):
+        to, row = w[places[r]], columns[r]
+        for j in range(LANES):
+            to[j] = row[min(start + j, last)]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def store(w: Array, places: Integers, columns: Array, start: int) -> None:
+    """Put registers into the rows of some columns."""
+    count = min(LANES, columns.shape[1] - start)
+    for r in range(places.size):
+        row, at = columns[r], w[places[r]]
+        for j in range(count):
+            row[start + j] = at[j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def evaluate(code: Code, w: Array, places: Integers, given: Array, results: Integers, found: Array) -> None:
+    """Run a tape down columns: rows of `given` are what the registers at `places` take, of `found` the results."""
+    for start in range(0, given.shape[1], LANES):
+        load(w, places, given, start)
+        run(code, w)
+        store(w, results, found, start)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def factor(p: Pattern, w: Array, base: int) -> None:
+    """Factor entries in place, which are the registers from `base` on; pivots become their inverses."""
+    for k in range(p.diagonal.size):
+        pivot = base + p.diagonal[k]
+        vectors.inverse(w, pivot, pivot)
+        for r in range(p.below_start[k], p.below_start[k + 1]):
+            vectors.mul(w, base + p.below[r], base + p.below[r], pivot)
+        for r in range(p.update_start[k], p.update_start[k + 1]):
+            target = base + p.target[r]
+            vectors.sub_product(w, target, target, base + p.left[r], base + p.upper[r])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve(p: Pattern, w: Array, base: int, b: int) -> None:
+    """Solve in place for the registers from `b` on, in the order of elimination."""
+    size = p.diagonal.size
+    for i in range(size):
+        for r in range(p.lower_start[i], p.lower_start[i + 1]):
+            vectors.sub_product(w, b + i, b + i, base + p.lower_entry[r], b + p.lower_column[r])
+    for i in range(size - 1, -1, -1):
+        for r in range(p.upper_start[i], p.upper_start[i + 1]):
+            vectors.sub_product(w, b + i, b + i, base + p.upper_entry[r], b + p.upper_column[r])
+        vectors.mul(w, b + i, b + i, base + p.diagonal[i])
