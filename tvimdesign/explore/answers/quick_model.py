@@ -21,7 +21,7 @@ from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.batch.batch_model import SLOW
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel
-from tvimdesign.solve.batch.phase_kernel import Steps
+from tvimdesign.solve.batch.steps import Steps
 from tvimdesign.study import Study, given
 
 Array = NDArray[np.float64]
