@@ -23,7 +23,7 @@ def lanes_of(tape: Tape, more: int = 0) -> Array:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def run(code: Code, w: Array) -> None:  # noqa: PLR0912 - a case for each kind of operation
+def run(code: Code, w: Array) -> None:  # noqa: PLR0912, PLR0915 - a case for each operation
     """Fill the registers of the results from those of the arguments and constants."""
     first, second, to, groups = code.first, code.second, code.to, code.groups
     for g in range(groups.shape[0] - 1):
@@ -85,6 +85,24 @@ def run(code: Code, w: Array) -> None:  # noqa: PLR0912 - a case for each kind o
         elif op == known.FABS:
             for k in range(start, end):
                 vectors.fabs(w, to[k], first[k])
+        elif op == known.SIN:
+            for k in range(start, end):
+                vectors.sin(w, to[k], first[k])
+        elif op == known.COS:
+            for k in range(start, end):
+                vectors.cos(w, to[k], first[k])
+        elif op == known.ASIN:
+            for k in range(start, end):
+                vectors.asin(w, to[k], first[k])
+        elif op == known.ACOS:
+            for k in range(start, end):
+                vectors.acos(w, to[k], first[k])
+        elif op == known.ATAN:
+            for k in range(start, end):
+                vectors.atan(w, to[k], first[k])
+        elif op == known.TANH:
+            for k in range(start, end):
+                vectors.tanh(w, to[k], first[k])
         else:
             for k in range(start, end):
                 for j in range(LANES):
@@ -97,8 +115,12 @@ def load(w: Array, places: Integers, columns: Array, start: int) -> None:
     last = columns.shape[1] - 1
     for r in range(places.size):
         to, row = w[places[r]], columns[r]
-        for j in range(LANES):
-            to[j] = row[min(start + j, last)]
+        if start + LANES <= last + 1:
+            for j in range(LANES):
+                to[j] = row[start + j]
+        else:
+            for j in range(LANES):
+                to[j] = row[min(start + j, last)]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -112,9 +134,14 @@ def store(w: Array, places: Integers, columns: Array, start: int) -> None:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def evaluate(code: Code, w: Array, places: Integers, given: Array, results: Integers, found: Array) -> None:
-    """Run a tape down columns: rows of `given` are what the registers at `places` take, of `found` the results."""
-    for start in range(0, given.shape[1], LANES):
+def evaluate(
+    code: Code, w: Array, places: Integers, given: Array, results: Integers, found: Array, first: int, end: int
+) -> None:
+    """Run a tape down columns from `first` to before `end`, a multiple of LANES of them or the last.
+
+    Rows of `given` are what the registers at `places` take, of `found` the results.
+    """
+    for start in range(first, end, LANES):
         load(w, places, given, start)
         run(code, w)
         store(w, results, found, start)

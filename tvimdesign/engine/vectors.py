@@ -144,6 +144,10 @@ fabs = _lanewise(1, lambda b, x: _known(b, "fabs", x))
 exp = _lanewise(1, _exp)
 log = _lanewise(1, _log)
 log1p = _lanewise(1, _log1p)
+sin, cos, asin, acos, atan, tanh = (
+    _lanewise(1, lambda b, x, name=name: _known(b, name, x)) for name in ("sin", "cos", "asin", "acos", "atan", "tanh")
+)
+"""The C library's, one design at a time."""
 power = _lanewise(2, lambda b, x, y: _exp(b, b.fmul(y, _log(b, x))))
 """Of positive numbers; its error grows with the size of its logarithm."""
 less = _lanewise(2, lambda b, x, y: _where(b, "<", x, y, _all(1.0), _all(0.0)))

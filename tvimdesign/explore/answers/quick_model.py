@@ -21,13 +21,13 @@ from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.batch.batch_model import SLOW
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel
-from tvimdesign.solve.batch.phase_kernel import Steps
+from tvimdesign.solve.batch.steps import Steps
 from tvimdesign.study import Study, given
 
 Array = NDArray[np.float64]
 Curves = dict[str, dict[str, list[float]]]
 
-_STEPS = Steps(of_pace=20, first=1.0 / 32.0, growth=1.5)
+_STEPS = Steps(of_pace=24, first=1.0 / 32.0, growth=1.2)
 """About half of the steps that tolerances take where something freezes: times within 0.2 % still (a test)."""
 _LOOSE, _SAMPLES = 1e-3, 10
 _PHASES: tuple[str, ...] = ("softening", "stiffening")

@@ -17,7 +17,8 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.engine.vectors import LANES
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.batch.phase_kernel import Course, Fit, Passage, PhaseKernel, Steps
+from tvimdesign.solve.batch.phase_kernel import Course, Passage, PhaseKernel
+from tvimdesign.solve.batch.steps import Fit, Steps
 
 Array = NDArray[np.float64]
 

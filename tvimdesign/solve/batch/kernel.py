@@ -45,8 +45,8 @@ class Kernel:
         found = np.empty((self.rows_out, count))
 
         def fill(start: int) -> None:
-            part = slice(start, start + _BLOCK)
-            evaluate(self._tape.code, lanes_of(self._tape), self._places, given[:, part], self._results, found[:, part])
+            end = min(start + _BLOCK, count)
+            evaluate(self._tape.code, lanes_of(self._tape), self._places, given, self._results, found, start, end)
 
         if workers == 1 or count <= _BLOCK:
             for start in range(0, count, _BLOCK):

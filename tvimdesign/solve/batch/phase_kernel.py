@@ -16,58 +16,14 @@ from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
+from tvimdesign.solve.batch.steps import LONGEST, Fit, Steps
 
 Array = NDArray[np.float64]
 
 Course: TypeAlias = list[tuple[float, Array]]
 """Moments [s] with the states at each, a column a design."""
-_LATE, _GROWTH = 2.0, 1.07
-"""Times the pace after which steps grow, for the designs that have not ended, and by how much each."""
-_APART = 2.0
-"""How much longer or shorter than another a design is taken to be at most."""
 _WINDOW = 2
 """Steps after which events are looked for, once the study's own design would have ended."""
-
-
-@dataclass(frozen=True)
-class Steps:
-    """How finely time is divided."""
-
-    of_pace: int
-    """Steps in the time the study's own design takes."""
-    first: float
-    """Length of the first step over the others'."""
-    growth: float
-    """What each of the first steps is longer by, until they are as long as the others."""
-
-    def lengths(self, pace: float, horizon: float) -> Array:
-        """Return the lengths of all steps up to the horizon."""
-        usual = pace / self.of_pace
-        step, time, found = self.first * usual, 0.0, list[float]()
-        while time < horizon:
-            found.append(min(step, horizon - time))
-            time += found[-1]
-            step = step * _GROWTH if time > _LATE * pace else min(self.growth * step, usual)
-        return np.array(found)
-
-
-@dataclass(frozen=True)
-class Fit:
-    """How designs about one go through a phase."""
-
-    steps: Steps
-    about: Array
-    """Moving inputs of that one."""
-    slopes: Array
-    """By how much the time of a phase changes with each, both as shares."""
-    shares: Mapping[str, float]
-    """When each event happens, as a share of that time."""
-
-    def scales(self, columns: Array) -> Array:
-        """About how long designs take, as a share of the time of that one."""
-        off = np.divide(columns, self.about[:, None], out=np.ones(columns.shape), where=self.about[:, None] != 0.0)
-        found: Array = np.clip(1.0 + (self.slopes[:, None] * (off - 1.0)).sum(axis=0), 1.0 / _APART, _APART)
-        return found
 
 
 @dataclass
@@ -128,7 +84,7 @@ class PhaseKernel:
         w[inputs_from : inputs_from + len(self.start)] = self.start[:, None]
         results = np.concatenate(tape.results)
         found = np.empty((len(results), given.shape[1]))
-        evaluate(tape.code, w, places, given, results, found)
+        evaluate(tape.code, w, places, given, results, found, 0, given.shape[1])
         return found
 
     def watched(self, names: Sequence[str], states: Array, watched: Array) -> Array:
@@ -145,7 +101,7 @@ class PhaseKernel:
 
         Every step on the way is added to `keep`.
         """
-        lengths = (fit.steps if fit else self.steps).lengths(pace, _APART * self.horizon)
+        lengths = (fit.steps if fit else self.steps).lengths(pace, LONGEST * self.horizon)
         run = _Run(self, columns, before, lengths, fit.scales(columns) if fit else np.ones(columns.shape[1]))
         shares = fit.shares if fit else {}
         run.go(
