@@ -20,7 +20,7 @@ from reference_problem import study_of_sizes
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
-from tvimdesign.solve.discrete.enumeration import enumerate_all
+from tvimdesign.solve.discrete.enumeration import Begin, enumerated_here
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -71,7 +71,9 @@ def clocked(relaxation: Relaxation, how: str) -> Clocked:
     relaxation.work = SolverEffort()
     begin = time.process_time()
     if how == "each":
-        objectives = sorted(run.start.objective for run in enumerate_all(relaxation).values())
+        begun = Begin(relaxation.optimizer.study, None, (), [relaxation])
+        runs = [run for _, block in enumerated_here(begun) for run in block.runs.values()]
+        objectives = sorted(run.start.objective for run in runs)
     elif how == "bonmin":
         chosen = best_by_bonmin(relaxation.optimizer.study, relaxation.optimizer.reference)
         return Clocked([chosen.objective], relaxation.work, chosen.seconds)

@@ -22,7 +22,6 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 from tvimdesign.simulation.working_cycle import device_functions, phase_functions
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.solve.nlp.transcription import radau
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 Array = NDArray[np.float64]
@@ -269,6 +268,12 @@ def along_time(function: Any, arguments: Sequence[Any]) -> Any:
     return ca.vertcat(*rows)
 
 
+def radau(order: int = 5) -> tuple[Array, Array]:
+    """Collocation points on (0, 1], and the matrix from values at the start and at them to derivatives at them."""
+    points = ca.collocation_points(order, "radau")
+    return np.array(points), np.asarray(ca.collocation_coeff(points)[1])
+
+
 def aerosandbox(reference: Reference, begin: Array) -> Found:
     """AeroSandbox's Opti with Radau collocation written by its user, from a simulated trajectory.
 
@@ -283,7 +288,7 @@ def aerosandbox(reference: Reference, begin: Array) -> Found:
         rates, gap, initial = phase.rates, phase.watch([reference.event]), phase.initial
     ca.GlobalOptions.setNumpyMode(0)  # AeroSandbox does not know the symbols of the other mode
     opti = asb.Opti()
-    elements, (points, derivative, _) = 3, radau()
+    elements, (points, derivative) = 3, radau()
     ends = zip(*(np.log(values).tolist() for values in (begin, reference.lower, reference.upper)), strict=True)
     logs = ca.vertcat(*(opti.variable(guess, lower_bound=low, upper_bound=high) for guess, low, high in ends))
     log_time = opti.variable(init_guess=np.log(200.0))

@@ -147,7 +147,7 @@ class Reference:
         return found
 
     def _is_one(self, design: Array) -> bool:
-        inputs, known = self.inputs(design), self.optimizer.multistart.cycle.values
+        inputs, known = self.inputs(design), self.optimizer.multistart.cycle
         if not np.all(np.isfinite(self.rows(design, 1.0))):
             return False
         if impossible(self.model.values(inputs, known), self.model.table):

@@ -13,7 +13,7 @@ from reference_problem import study
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.nlp.solution import Work, same_optimum
+from tvimdesign.solve.nlp.solution import SolverEffort, same_optimum
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import meaning
 
@@ -27,7 +27,7 @@ def main() -> None:
     asked = asked.model_copy(update={"solver": asked.solver.model_copy(update={"starts": count})})
     table = table_for(asked.mode)
     begin = time.process_time()
-    relaxation = Relaxation(0, Optimizer(asked), {}, discrete_sizes(asked, table), Work())
+    relaxation = Relaxation(0, Optimizer(asked), {}, discrete_sizes(asked, table), SolverEffort())
     starts = [run.start for run in relaxation.starts()]
     seconds = time.process_time() - begin
     converged = [start for start in starts if start.converged]

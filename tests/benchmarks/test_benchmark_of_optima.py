@@ -20,7 +20,7 @@ def reference() -> Reference:
 
 
 def test_the_functions_of_the_rivals_are_those_of_the_product(reference: Reference) -> None:
-    cycle = reference.optimizer.multistart.cycle.values
+    cycle = reference.optimizer.multistart.cycle
     values = reference.model.values(reference.model.start, cycle)
     assert lsoda(1e-9)(reference, reference.begin) == pytest.approx(values["response_time"], rel=1e-4)
     rows = reference.rows(reference.begin, values["response_time"])

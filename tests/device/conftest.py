@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support import fine
+from support import tight
 
 from tvimdesign.device import Supplied, Table, table_for
 from tvimdesign.simulation.working_cycle.cycle import Simulator
@@ -43,7 +43,7 @@ def unity(table: Table) -> DeviceFunctions:
 
 @pytest.fixture(scope="session")
 def simulator(unity: DeviceFunctions) -> Simulator:
-    return fine(unity)
+    return tight(unity)
 
 
 @pytest.fixture(scope="session")
@@ -64,7 +64,7 @@ def squeezed_model(squeezed: dict[str, Any]) -> DeviceFunctions:
 
 @pytest.fixture(scope="session")
 def squeezed_simulator(squeezed_model: DeviceFunctions) -> Simulator:
-    return fine(squeezed_model)
+    return tight(squeezed_model)
 
 
 @pytest.fixture(scope="session")

@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
-from event_derivatives import differences, event_gradient
+from event_derivatives import differences, found_by_engine, shown_by_cvodes
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table, table_for
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.cycle_engine import Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]
 # Not the depth of a hub that has none: it has no share of itself by which it could be changed.
@@ -53,27 +52,26 @@ def test_every_output_of_a_switch_has_the_derivatives_by_the_switch_that_differe
 
 
 @pytest.fixture(scope="module")
-def shown_by_simulation(unity: DeviceFunctions, simulator: Simulator) -> dict[str, Array]:
-    """Derivatives of all event times by every design variable, from simulations of changed designs."""
+def shown_by_simulation(unity: DeviceFunctions) -> dict[str, Array]:
+    """Derivatives of all event times by every design variable, from CVODES's simulations of changed designs."""
+    return shown_by_cvodes(unity, EVENTS, VARIABLES)
 
-    def times(inputs: Array) -> Array:
-        values = simulator.run(inputs, phases=["softening"]).values
-        return np.array([values[event] for event in EVENTS])
 
-    jacobian = differences(times, unity.start, [unity.index[name] for name in VARIABLES], 1e-3)
-    return dict(zip(EVENTS, jacobian, strict=True))
+@pytest.fixture(scope="module")
+def found(unity: DeviceFunctions) -> Supplied:
+    """The engine's values and derivatives by every design variable."""
+    return found_by_engine(unity, VARIABLES)
 
 
 @pytest.mark.gate
 @pytest.mark.parametrize("event", EVENTS)
 def test_response_times_have_the_derivatives_that_simulations_show(
-    event: str, unity: DeviceFunctions, cycle: Cycle, shown_by_simulation: dict[str, Array], table: Table
+    event: str, unity: DeviceFunctions, shown_by_simulation: dict[str, Array], found: Supplied, table: Table
 ) -> None:
     assert {row.name for row in unity.phases["softening"].events} == set(EVENTS)
-    time, gradient = event_gradient(unity, cycle, event)
-    assert time == pytest.approx(cycle.values[event], rel=5e-4)
-    for name, shown in zip(VARIABLES, shown_by_simulation[event], strict=True):
-        exact = gradient[unity.index[name]]
+    place = unity.switch_names.index(event)
+    time = found.values[place]
+    for name, shown, exact in zip(VARIABLES, shown_by_simulation[event], found.slopes[place], strict=True):
         # 1e-3 of the derivative, or of the time itself where the variable hardly matters.
         scale = max(abs(shown) * unity.start[unity.index[name]], 0.01 * time) / unity.start[unity.index[name]]
         assert exact == pytest.approx(shown, abs=1e-3 * scale), name

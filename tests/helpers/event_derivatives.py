@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from collocation import guess, phase_block
 from numpy.typing import NDArray
+from support import fine
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_run import Grid
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]
@@ -29,6 +33,35 @@ def differences(function: Any, at: Array, which: list[int], share: float) -> Arr
         far_below, below, above, far_above = shifted
         columns.append((far_below - 8.0 * below + 8.0 * above - far_above) / (12.0 * step))
     return np.column_stack(columns)
+
+
+def shown_by_cvodes(model: DeviceFunctions, events: Sequence[str], variables: Sequence[str]) -> dict[str, Array]:
+    """Derivatives of event times of the softening by some inputs, by differences of CVODES's simulations."""
+    simulator = fine(model)
+
+    def times(inputs: Array) -> Array:
+        values = simulator.run(inputs, phases=["softening"]).values
+        return np.array([values[event] for event in events])
+
+    jacobian = differences(times, model.start, [model.index[name] for name in variables], 1e-3)
+    return dict(zip(events, jacobian, strict=True))
+
+
+def found_by_engine(model: DeviceFunctions, variables: Sequence[str]) -> Supplied:
+    """The engine's values and their derivatives by some inputs, in steps a quarter as long as it takes them."""
+    engine, grids = CycleEngine(model), dict[str, Grid]()
+    along = np.zeros((len(model.start), len(variables)))
+    for j, name in enumerate(variables):
+        along[model.index[name], j] = 1.0
+    events = {row.name for row in model.phases["softening"].events}
+    engine.run(model.start, along[:, :0], events, grids)
+    finer = {
+        name: Grid(
+            [0.25 * share for share in grid.shares for _ in range(4)], {row: 4 * k for row, k in grid.events.items()}
+        )
+        for name, grid in grids.items()
+    }
+    return engine.run(model.start, along, events, finer)
 
 
 def event_gradient(model: DeviceFunctions, cycle: Cycle, event: str) -> tuple[float, Array]:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from stiff_when_warm import STIFF_WHEN_WARM
-from support import ROOT, fine
+from support import ROOT, tight
 
 from tvimdesign.device import table_for
 from tvimdesign.device.compression.ring_heat import (
@@ -34,7 +34,7 @@ ALONE: dict[str, Any] = {
 
 def far_face_time(module: dict[str, Any], **changed: Any) -> float:
     model = DeviceFunctions(TABLE, {**module, **ALONE, **changed}, ("cold", "hot"), 24)
-    return float(fine(model).run(model.start, phases=["softening"]).values["far_face_time"])
+    return float(tight(model).run(model.start, phases=["softening"]).values["far_face_time"])
 
 
 def conducting(factor: float) -> dict[str, Any]:
@@ -85,7 +85,7 @@ def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hard
             given = {**module, "block_depth": times * depth, "current": current}
             model = DeviceFunctions(TABLE, given, ("cold", "hot"), 24)
             assert float(TABLE.evaluate(given, ["slot_opening"])["slot_opening"]) > 2e-3
-            values = fine(model).run(model.start, phases=["softening"]).values
+            values = tight(model).run(model.start, phases=["softening"]).values
             found.append((values["far_face_time"], values["softening_time"]))
         return found[1][0] / found[0][0], found[1][1] / found[0][1]
 

@@ -29,7 +29,7 @@ TOLERANCE = 3e-3
 times are within 3e-3 of CVODES's at 1e-9 (tests)."""
 FIRST = 0.02
 """The first step, in times that the pads would need to heat the layer."""
-MOST_STEPS, EXTRA, GROWTH = 2000, 40, 1.3
+MOST_STEPS, EXTRA, GROWTH = 5000, 40, 1.3
 """Steps of a phase at most; beyond those of the first run, and by how much each of these grows."""
 STALLED = 1e-7
 """Change of the scaled state over the rest of the horizon below which nothing will happen any more."""
@@ -39,8 +39,8 @@ NEAR, MOST_TRIALS = 1e-4, 12
 """Part of a step by which the last one may miss an event: what is left, its square, is made up by slopes."""
 
 
-NARROW = 0.003
-"""Share of a step between the samples of a peak's second parabola."""
+NARROW, MOST_PARABOLAS = 0.003, 5
+"""Share of a step between the samples of a peak's second parabola, by which the last one moves it at most."""
 
 
 @dataclass
@@ -521,9 +521,9 @@ def _root(function: Callable[[float], float]) -> float:
 
 
 def _peak(function: Callable[[float], float]) -> tuple[float, float]:
-    """Where a function of a share of a step is highest, and how high: by samples and two parabolas.
+    """Where a function of a share of a step is highest, and how high: by samples, then by ever narrower parabolas.
 
-    The second is narrow: the function hardly changes with the share there, so that a slope at that share is the peak's.
+    There the function hardly changes with the share, so that its slope at a share that stays is that of the peak.
     """
     shares = np.linspace(0.0, 1.0, 9)
     values = np.array([function(one) for one in shares])
@@ -531,11 +531,16 @@ def _peak(function: Callable[[float], float]) -> tuple[float, float]:
     share, value, width = float(shares[k]), float(values[k]), 0.125
     if 0 < k < 8:
         below, above = float(values[k - 1]), float(values[k + 1])
-        for narrow in (NARROW, 0.0):
-            share += 0.5 * width * (above - below) / (2.0 * value - below - above)
-            value, width = function(share), narrow
-            if narrow:
-                below, above = function(share - narrow), function(share + narrow)
+        for _ in range(MOST_PARABOLAS):
+            bend = 2.0 * value - below - above
+            if not bend > 0.0:
+                break
+            moved = 0.5 * width * (above - below) / bend
+            share, width = share + moved, NARROW
+            value = function(share)
+            if not abs(moved) > NARROW:
+                break
+            below, above = function(share - width), function(share + width)
         if value > values[k]:
             return share, value
     return float(shares[k]), float(values[k])
