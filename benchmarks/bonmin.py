@@ -81,6 +81,7 @@ def _search(optimizer: Optimizer, sizes: Sizes, near: Run) -> Chosen:
     count, binaries = optimizer.problem.unknown_count, sum(map(len, values))
     settings = {
         "bonmin": _OPTIONS, "print_time": False, "show_eval_warnings": False,
+        "pass_nonlinear_variables": False, "pass_nonlinear_constraints": False,
         "discrete": [False] * count + [True] * binaries,
     }  # fmt: skip
     solver = ProgrammeSolver(listed.unknown_count, listed.row_count, settings, "bonmin")

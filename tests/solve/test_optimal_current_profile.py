@@ -6,10 +6,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+from support import fine
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
-from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution
 from tvimdesign.solve.search import optimize
@@ -125,7 +125,7 @@ def test_the_limits_hold_all_along_the_simulated_cycle() -> None:
 @pytest.mark.slow
 def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
     solution = solve(CYCLE)
-    again = Simulator(solution.model, tolerance=1e-9, steps=200).run(solution.inputs, solution.current_profiles)
+    again = fine(solution.model).run(solution.inputs, solution.current_profiles)
     for phase, event in (("softening", "response_time"), ("stiffening", "stiffening_time")):
         assert again.values[event] == pytest.approx(solution.values[event], rel=2e-4)
         assert solution.current_profiles[phase].moments[-1] == pytest.approx(again.values[event], rel=1e-3)
@@ -148,16 +148,17 @@ def test_a_cycle_with_profiles_is_no_longer_than_one_with_constant_currents() ->
 
 @pytest.mark.slow
 def test_a_slow_supply_costs_time_and_is_told() -> None:
-    tighter, slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.0792", "0.08", "0.0808"))
+    slow, eased = (solve(CYCLE.replace("0.5 A/s", f"{slew} A/s")) for slew in ("0.08", "0.0808"))
     assert slow.status == "optimal"
     assert slow.values["cycle_time"] > solve(CYCLE).values["cycle_time"]
     assert max(profile.steepest for profile in slow.current_profiles.values()) == pytest.approx(0.08, rel=1e-4)
-    # All studies start from the same module, so that their objectives are one measure. The solver's own are taken:
-    # what a hundredth saves is not far above the simulator's tolerance.
-    ends = [solution.starts[0].objective for solution in (tighter, slow, eased)]
-    shadow_price = one(slow, "current_slew <=").shadow_price
-    assert shadow_price > 1e-3
-    assert 50.0 * (ends[0] - ends[2]) / ends[1] == pytest.approx(shadow_price, rel=0.05)
+    # Both studies start from the same module, so that their objectives are one measure. The solver's own are taken:
+    # what a hundredth saves is not far above the simulator's tolerance. (With a hundredth less, one start comes to the
+    # optimum whose ramp leads further, which is 0.06 % worse.)
+    ends = [solution.starts[0].objective for solution in (slow, eased)]
+    prices = [one(solution, "current_slew <=").shadow_price for solution in (slow, eased)]
+    assert min(prices) > 1e-3
+    assert 100.0 * (ends[0] - ends[1]) / ends[0] == pytest.approx(sum(prices) / 2.0, rel=0.05)
 
 
 def one(solution: Solution, name: str) -> ActiveConstraint:

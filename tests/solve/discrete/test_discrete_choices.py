@@ -20,7 +20,7 @@ from tvimdesign.solve.discrete.enumeration import Begin, enumerated_here
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.solution import Choosing, Solution, SolverEffort
-from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
 from tvimdesign.solve.optimizer.statuses import NO_COMBINATION
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
@@ -68,7 +68,7 @@ def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], flo
     expected = sorted(alone.items(), key=lambda one: one[1])
     assert solution.status == "optimal"
     for found, (sizes, objective) in zip(choosing.best, expected, strict=False):
-        assert found.objective == pytest.approx(objective, rel=1e-6)
+        assert found.objective == pytest.approx(objective, rel=SETTLED)
         assert tuple(found.choices.values()) == pytest.approx(sizes)
     assert len(choosing.best) == min(study.solver.alternatives, len(expected))
     assert choosing.solved + choosing.pruned + choosing.without_design == choosing.combinations
@@ -76,7 +76,7 @@ def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], flo
     assert choosing.without_design >= choosing.combinations - len(expected) - choosing.pruned
     assert choosing.inside <= 1e-6
     assert choosing.between is not None
-    assert choosing.between.objective <= choosing.best[0].objective * (1.0 + 1e-6)
+    assert choosing.between.objective <= choosing.best[0].objective * (1.0 + SETTLED)
 
 
 @pytest.fixture(scope="module")
@@ -151,8 +151,8 @@ def test_every_combination_is_as_good_as_solved_alone_and_cold(
     }
     assert set(each) == set(alone)
     for sizes, objective in alone.items():
-        assert each[sizes] <= objective * (1.0 + 1e-6)
-    assert min(each.values()) == pytest.approx(min(alone.values()), rel=1e-6)
+        assert each[sizes] <= objective * (1.0 + SETTLED)
+    assert min(each.values()) == pytest.approx(min(alone.values()), rel=SETTLED)
     assert f"0 of {relaxation.sizes.count} combinations" in said[0]
 
 
@@ -162,7 +162,7 @@ def test_bonmin_comes_to_the_same(found: Solution) -> None:
     chosen = best_by_bonmin(listed(), found.reference)
     best = _chosen(found).best[0]
     assert chosen.success
-    assert chosen.objective == pytest.approx(best.objective, rel=1e-6)
+    assert chosen.objective == pytest.approx(best.objective, rel=SETTLED)
     assert chosen.choices == pytest.approx(best.choices, rel=1e-6)
 
 

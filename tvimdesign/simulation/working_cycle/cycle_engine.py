@@ -9,7 +9,7 @@ import numpy as np
 
 from tvimdesign.engine.interpreter import Array
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import TOLERANCE, Drive, Grid, Instant
+from tvimdesign.simulation.working_cycle.phase_run import TOLERANCE, Drive, Found, Grid, Instant
 
 
 class Supplied(NamedTuple):
@@ -18,8 +18,8 @@ class Supplied(NamedTuple):
 
     values: Array
     slopes: Array
-    short: dict[str, tuple[float, Array]]
-    """What the event at the end of each driven phase still waits for, by phase, and its slopes."""
+    driven: dict[str, Found]
+    """All of each driven phase."""
 
 
 class CycleEngine:
@@ -47,7 +47,7 @@ class CycleEngine:
         values = np.full(len(self._place), np.inf)
         slopes = np.zeros((len(self._place), along.shape[1]))
         ended: dict[str, Instant] = {}
-        short: dict[str, tuple[float, Array]] = {}
+        driven: dict[str, Found] = {}
         horizon = float(inputs[self.model.index["horizon"]])
         for name, engine in self.model.engines.items():
             after = engine.phase.phase.after
@@ -63,8 +63,9 @@ class CycleEngine:
                 values[self._place[row]], slopes[self._place[row]] = value, found.slopes[row]
             if found.end is not None:
                 ended[name] = found.end
-                short[name] = (found.short, found.of_short)
-        return Supplied(values, slopes, {name: short[name] for name in drives if name in short})
+                if name in drives:
+                    driven[name] = found
+        return Supplied(values, slopes, driven)
 
     def _needed(self, name: str, wanted: Collection[str] | None) -> bool:
         """Whether something wanted belongs to a phase, or to one that starts where it ends."""

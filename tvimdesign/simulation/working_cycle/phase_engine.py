@@ -140,6 +140,7 @@ class PhaseEngine:
             if found.end is not None:
                 found.add(ends, found.end.time, found.end.of_time)
                 found.short, found.of_short = self.slopes(ends, found.end, inputs, run.along)
+                run.add_samples(found, wanted)
         else:
             grid = grid or run.first(start, pace, sought, horizon, tolerance)
             events = [name for name in sought if name in grid.events]

@@ -100,12 +100,15 @@ class Found:
     short: float = 0.0
     """What the event that ends a driven phase still waits for at its end, and its derivatives."""
     of_short: Array = field(default_factory=lambda: np.zeros(1))
+    samples: dict[str, tuple[Array, Array]] = field(default_factory=dict)
+    """What the highest value of a driven phase is asked of, at the end of every step, with derivatives."""
 
     def without_length(self) -> Found:
         """Leave out the last direction."""
         end = self.end.without_length() if self.end is not None else None
         slopes = {name: one[:-1] for name, one in self.slopes.items()}
-        return Found(self.values, slopes, end, self.short, self.of_short[:-1])
+        samples = {name: (values, of_values[:, :-1]) for name, (values, of_values) in self.samples.items()}
+        return Found(self.values, slopes, end, self.short, self.of_short[:-1], samples)
 
     def add(self, name: str, value: float, slopes: Array) -> None:
         """Add one."""
@@ -323,6 +326,14 @@ class PhaseRun:
                 found.add(row.name, *self.of.slopes(row.name, end, self.inputs, self.along))
             else:
                 found.add(row.name, *self._highest(row.name, passed))
+
+    def add_samples(self, found: Found, wanted: Collection[str] | None) -> None:
+        """Add every quantity whose highest value is asked of, at the end of every step."""
+        for row in self.of.phase.paths:
+            if row.reduce == "maximum" and (wanted is None or row.name in wanted):
+                every = [self.of.slopes(row.name, one, self.inputs, self.along) for one in self.instants]
+                values, slopes = zip(*every, strict=True)
+                found.samples[row.name] = np.array(values), np.array(slopes)
 
     def _highest(self, name: str, passed: list[Instant]) -> tuple[float, Array]:
         """The maximum of a quantity up to the end; between two steps it is looked for along cubics."""

@@ -16,8 +16,9 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 STEP = 1e-4
 """Step of the differences, in unknowns, which are logarithms or of order one; fourth order, so its error is 1e-16."""
-DERIVATIVE_TOLERANCE = 1e-6
-"""Largest difference, over the size of a row's derivatives, that rounding explains."""
+DERIVATIVE_TOLERANCE = 1e-4
+"""Largest difference, over the size of a row's derivatives, that rounding explains, and where steps in time stop solving.
+"""
 DEPENDENT = 1e-9
 """Singular value, as a share of the greatest, below which a direction changes nothing."""
 _FLAT = 1e-3
@@ -137,7 +138,8 @@ class Inspection:
         along[decided, range(len(decided))] = 1.0
         if not follow:
             return decided, along, 1.0
-        by = self._jacobian[: len(problem.free_currents)]
+        nothing = np.zeros(problem.row_count)
+        by = self._jacobian[[*range(len(problem.free_currents)), *problem.tied(nothing, self._values(self._x)[:-1])]]
         square = by[:, follow] / np.max(np.abs(by[:, follow]), axis=1, keepdims=True)
         along[follow] = -np.linalg.solve(by[:, follow], by[:, decided])
         return decided, along, float(np.linalg.cond(square, 1))
@@ -150,7 +152,7 @@ class Inspection:
         if count > free:
             others = random.choice([-1.0, 1.0], (_RANDOM, count))
             others[:, :free] = 0.0
-            directions += [("currents and times together", direction) for direction in others]
+            directions += [("currents, times and peaks together", direction) for direction in others]
         sizes = np.linalg.norm(self._jacobian, axis=1)
         found = []
         for name, direction in directions:

@@ -16,7 +16,7 @@ _UNKNOWN_TIME = 60.0  # s, where a phase has no end
 
 
 class DecisionVector:
-    """Free numbers; for each free current its nodes and the logarithm of its time."""
+    """Free numbers; for each free current its nodes and the logarithm of its time; the peaks of driven phases."""
 
     def __init__(self, problem: Problem, model: DeviceFunctions) -> None:
         """What is not free is as in `model`, which differs from the problem's own where records do."""
@@ -30,6 +30,9 @@ class DecisionVector:
             time = cycle[self.model.phases[current.phase].phase.ends]
             time = time if 0.0 < time < np.inf else _UNKNOWN_TIME
             parts += [np.full(current.nodes, size / current.upper), [np.log(max(time, SHORTEST) / UNIT)]]
+        for peak in self.problem.peaks:
+            value = cycle.get(peak.row.name, np.inf)
+            parts.append(np.array([value / peak.scale if np.isfinite(value) else 1.0]))
         return np.concatenate(parts)
 
     def bounds(self, within: Mapping[str, Ends]) -> tuple[Array, Array]:

@@ -10,7 +10,7 @@ def unknown_names(problem: Problem) -> list[str]:
     names = [free.name for free in problem.free]
     for current in problem.free_currents:
         names += [f"{current.row} during {current.phase}"] * current.nodes + [f"length of {current.phase}"]
-    return names
+    return names + [peak.row.name for peak in problem.peaks]
 
 
 def row_names(problem: Problem) -> list[str]:
@@ -20,4 +20,5 @@ def row_names(problem: Problem) -> list[str]:
     names += [limit.name for limit in problem.limits]
     names += [f"bound {i + 1} on what is traded" for i in range(len(problem.objectives))]
     names += ["slew of the supply"] * problem.slope_count
-    return names + [f"{event} within the horizon" for event in problem.unlimited]
+    names += [f"{event} within the horizon" for event in problem.unlimited]
+    return names + ["samples below their peak"] * problem.sample_count

@@ -24,7 +24,7 @@ from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.current_profile import ramp_time
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid
+from tvimdesign.simulation.working_cycle.phase_run import Drive, Found, Grid
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
 
@@ -82,6 +82,18 @@ class FreeCurrent:
         return self.pieces + 1
 
 
+class Peak(NamedTuple):
+    """What is highest over a driven phase."""
+
+    row: Path
+    current: FreeCurrent
+
+    @property
+    def scale(self) -> float:
+        """Order of magnitude: kelvins are hundreds, watts and volts tens."""
+        return 100.0 if self.row.unit == "degC" else 10.0
+
+
 @dataclass(frozen=True)
 class Parameters:
     """The numbers of one run that are no unknowns."""
@@ -110,11 +122,13 @@ class Point(NamedTuple):
 class Problem:
     """A nonlinear programme in x, as a solver takes it.
 
-    x: the free numbers; for each free current its nodes and the logarithm of the time its pieces take.
+    x: the free numbers; for each free current its nodes and the logarithm of the time its pieces take; the peaks of
+    driven phases, over their scales. Along a profile many instants are as high as the highest, which has kinks there.
     Rows: equations, zero: what ends each driven phase, and the sums of mixtures' shares less one; the limits'
     residuals, in their order, satisfied where <= 0; sums of what is traded, below what the caller says; then the
-    problem's own, satisfied where <= 0: the currents' slopes, and that events come within the horizon which no limit
-    has come earlier. Beyond it nothing is simulated, and an event that never comes has no derivatives.
+    problem's own, satisfied where <= 0: the currents' slopes, that events come within the horizon which no limit has
+    come earlier, and that no sample of a driven phase is above its peak. Beyond the horizon nothing is simulated, and
+    an event that never comes has no derivatives.
     """
 
     def __init__(
@@ -145,10 +159,11 @@ class Problem:
         self.engine, self._fineness = CycleEngine(model, fineness), fineness
         self.grids: dict[str, Grid] = {}
         """The steps of each phase; see `place_grids`."""
-        self.unknown_count = len(self.free) + sum(one.nodes + 1 for one in self.free_currents)
+        self.unknown_count = len(self.free) + sum(one.nodes + 1 for one in self.free_currents) + len(self.peaks)
         self.equation_count = len(self.free_currents) + len(self.mixtures)
         self.slope_count = sum(2 * one.pieces for one in self.free_currents)
-        self.own_count = self.slope_count + len(self.unlimited)
+        self.sample_count = sum(self.samples(peak) for peak in self.peaks)
+        self.own_count = self.slope_count + len(self.unlimited) + self.sample_count
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
         self._last: list[tuple[bytes, dict[str, Grid], Point]] = []
 
@@ -186,7 +201,8 @@ class Problem:
 
     def _evaluated(self, x: Array, parameters: Parameters) -> Point:
         inputs, along = self.inputs_at(x, parameters.inputs)
-        cycle, of_cycle, short = self._supplied(x, inputs, along)
+        cycle, of_cycle, driven = self._supplied(x, inputs, along)
+        sampled, of_sampled = self._peaks(x, cycle, of_cycle, driven)
         numbers = np.where(np.isfinite(cycle), cycle, np.nan)
         if self.wanted:
             ((values, slopes),) = self._outputs.tangents([inputs, numbers], [along, of_cycle])
@@ -197,9 +213,9 @@ class Problem:
         traded = [place[name] for name in self.objectives]
         rows, jacobian = [], []
         for one in self.free_currents:
-            value, slope = short.get(one.phase, (np.nan, np.full(len(x), np.nan)))
-            rows.append(value)
-            jacobian.append(slope)
+            phase = driven.get(one.phase)
+            rows.append(phase.short if phase else np.nan)
+            jacobian.append(phase.of_short if phase else np.full(len(x), np.nan))
         for mixture in self.mixtures:
             shares = [self.model.index[name] for name in mixture.shares]
             rows.append(float(np.sum(inputs[shares])) - 1.0)
@@ -218,8 +234,8 @@ class Problem:
         times = {name: float(events[name]) for name in self.events}
         times |= {self.model.phases[one.phase].phase.ends: self.pieces_time(x, i) for i, one in enumerate(self.free_currents)}
         return Point(
-            float(weights @ values[chosen]), weights @ slopes[chosen], np.concatenate([np.array(rows), steep, late]),
-            np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep, of_late]),
+            float(weights @ values[chosen]), weights @ slopes[chosen], np.concatenate([np.array(rows), steep, late, sampled]),
+            np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep, of_late, of_sampled]),
             dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
         )  # fmt: skip
 
@@ -284,8 +300,8 @@ class Problem:
                 of_moments = of_moments + of_values[0] / current.slew
                 moments, of_moments = np.append(0.0, moments), np.vstack([np.zeros((1, lanes)), of_moments])
                 values, of_values = np.append(0.0, values), np.vstack([np.zeros((1, lanes)), of_values])
-            steps = self._fineness * (FREEZING_STEPS if phase.history else STEPS) / current.pieces
-            found[current.phase] = Drive(moments, of_moments, phase.sign * values, phase.sign * of_values, max(math.ceil(steps), LEAST_STEPS))
+            signed, of_signed = phase.sign * values, phase.sign * of_values
+            found[current.phase] = Drive(moments, of_moments, signed, of_signed, self._steps(current))
         return found
 
     def _slopes(self, x: Array, inputs: Array, along: Array) -> tuple[Array, Array]:
@@ -307,7 +323,53 @@ class Problem:
         latest = self._latest(inputs)
         return cycle[place] / latest - 1.0, of_cycle[place] / latest
 
+    def _peaks(self, x: Array, cycle: Array, of_cycle: Array, driven: dict[str, Found]) -> tuple[Array, Array]:
+        """Put the peaks of driven phases in their places, and return how far the samples are above them."""
+        rows, jacobian = [], []
+        for column, peak in enumerate(self.peaks, start=len(x) - len(self.peaks)):
+            place, scale, count = self.model.switch_names.index(peak.row.name), peak.scale, self.samples(peak)
+            cycle[place], of_cycle[place], of_cycle[place, column] = scale * x[column], 0.0, scale
+            values, slopes = np.full(count, np.nan), np.full((count, len(x)), np.nan)
+            if peak.current.phase in driven:
+                found, of_found = driven[peak.current.phase].samples[peak.row.name]
+                # Without a ramp there are fewer: the last stands for what is missing.
+                those = np.minimum(np.arange(count), len(found) - 1)
+                values, slopes = found[those] / scale - x[column], of_found[those] / scale
+                slopes[:, column] -= 1.0
+            rows.append(values)
+            jacobian.append(slopes)
+        return (np.concatenate(rows), np.concatenate(jacobian)) if rows else (np.zeros(0), np.zeros((0, len(x))))
+
     # --- what the problem needs of the cycle ---
+
+    @cached_property
+    def peaks(self) -> list[Peak]:
+        """What is highest in the driven phases, as far as the problem needs it."""
+        return [
+            Peak(row, current)
+            for current in self.free_currents
+            for row in self.model.phases[current.phase].paths
+            if row.reduce == "maximum" and row.name in self._needed
+        ]
+
+    def samples(self, peak: Peak) -> int:
+        """How many samples a peak is held above."""
+        return (peak.current.pieces + 1) * self._steps(peak.current) + 1
+
+    def _steps(self, current: FreeCurrent) -> int:
+        """Steps of each piece of a current, and of its ramp."""
+        every = FREEZING_STEPS if self.model.phases[current.phase].phase.history else STEPS
+        return max(math.ceil(self._fineness * every / current.pieces), LEAST_STEPS)
+
+    def tied(self, presses: Array, rows: Array) -> list[int]:
+        """For each peak the row of the sample it is: the one that presses most, the highest where none does."""
+        first, found = self.row_count - self.sample_count, []
+        for peak in self.peaks:
+            those = slice(first, first + self.samples(peak))
+            weights = presses[those] if np.any(presses[those] > 0.0) else rows[those]
+            found.append(first + int(np.argmax(weights)))
+            first = those.stop
+        return found
 
     def _latest(self, inputs: Array) -> float:
         return LATEST * float(inputs[self.model.index["horizon"]])
@@ -372,6 +434,10 @@ class Problem:
     def _check(self) -> None:
         """Raise InputError for what cannot be put to the solver, with what can be said instead."""
         table = self.model.table
+        peaks = {peak.row.name for peak in self.peaks}
+        for limit in self.limits:
+            if limit.output in peaks and limit.sense == ">=":
+                raise InputError(f"require.{limit.output}: a peak can be kept below a limit, not above one")
         for current in self.free_currents:
             ends = self.model.phases[current.phase].phase.ends
             mine = [row.name for row in self.model.phases[current.phase].events if row.name != ends]

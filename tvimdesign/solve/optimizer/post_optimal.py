@@ -40,8 +40,9 @@ class Response:
             derivatives = self._sharpened(derivatives)
         self._values = derivatives.values
         self._decided = self._decisions()
-        along = self._along(derivatives)
-        self._places, rows = self._active(derivatives, along)
+        tied = optimizer.problem.tied(self._run.multipliers * self._pressing(derivatives), derivatives.rows)
+        along = self._along(derivatives, tied)
+        self._places, rows = self._active(derivatives, along, tied)
         self._tangled = _tangled(rows)
         self._adjoints = self._solve(derivatives, along, rows)
 
@@ -85,12 +86,17 @@ class Response:
         currents = [range(place.start, place.stop) for _, place in self._optimizer.vector.places_of_currents()]
         return free + [i for places in currents for i in places]
 
-    def _along(self, derivatives: Derivatives) -> Array:
+    def _pressing(self, derivatives: Derivatives) -> Array:
+        """Which rows press on the optimum."""
+        every = zip(self._run.multipliers, -derivatives.rows, strict=True)
+        return np.array([self._presses(multiplier, room) for multiplier, room in every])
+
+    def _along(self, derivatives: Derivatives, tied: list[int]) -> Array:
         """Derivatives of all unknowns by the decisions, the equations kept."""
         problem = self._optimizer.problem
         fixed = set(range(len(problem.free))) - set(self._decided)
         follow = [i for i in range(problem.unknown_count) if i not in fixed and i not in set(self._decided)]
-        rows = range(len(problem.free_currents))  # the sums of shares move none of the times
+        rows = [*range(len(problem.free_currents)), *tied]  # the sums of shares move none of the times
         along = np.zeros((problem.unknown_count, len(self._decided)))
         along[self._decided, range(len(self._decided))] = 1.0
         if follow:
@@ -98,13 +104,13 @@ class Response:
             along[follow] = -np.linalg.solve(by[:, follow], by[:, self._decided])
         return along
 
-    def _active(self, derivatives: Derivatives, along: Array) -> tuple[list[Place], Array]:
+    def _active(self, derivatives: Derivatives, along: Array, tied: list[int]) -> tuple[list[Place], Array]:
         """Every place that presses on the optimum, and its derivatives by the decisions."""
         run, problem = self._run, self._optimizer.problem
         places: list[Place] = [
             ("row", i)
             for i in range(problem.equation_count, len(derivatives.rows))
-            if self._presses(run.multipliers[i], -derivatives.rows[i])
+            if i not in tied and self._presses(run.multipliers[i], -derivatives.rows[i])
         ]
         rows = list(derivatives.jacobian[[i for _, i in places]] @ along) if places else []
         lower, upper = self._optimizer.vector.bounds(run.within)

@@ -1,0 +1,212 @@
+"""The problem in the space of the free numbers: its derivatives, what ends a driven phase, and its own rows."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
+from support import fine
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.solve.nlp.labels import row_names, unknown_names
+from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem import LATEST, Parameters
+from tvimdesign.solve.nlp.solver_run import Array
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import NO_DESIGN
+from tvimdesign.study import read_study_text
+
+ASKED = """
+require:
+  spring_stiffness: ">= 5 N.m/rad"
+  peak_power: "<= 9 W"
+  peak_peltier_temperature: "<= 120 degC"
+  softened_stiffness: "<= 20 N.m/rad"
+minimize: {module_mass: 1, cycle_time: 2}
+solver: {cells: 8, starts: 1}
+"""
+SHEAR = FOUR_SIZES_IN_SHEAR + "  cooling_current: [0.3 A, 1.5 A]\n" + ASKED
+COMPRESSION = f"""
+mode: compression
+module: {{response_criterion: softening, core_radius: 8 mm, link_dowel: iso_8734_2, rotor_rim: 8 mm,
+         pcl_inner_radius: 13 mm, block_height: 11 mm, block_depth: 4 mm, vane_thickness: 4 mm}}
+vary:
+{COMPRESSION_BLOCKS}solver: {{cells: 8, starts: 1}}
+"""
+SLOW = SHEAR.replace("mode: shear", "mode: shear\nmodule: {current_slew: 0.2 A/s}")
+PROFILE = f"{SLOW}profile: {{softening: 3, stiffening: 2}}\n"
+STUDIES = {"shear": SHEAR, "compression": COMPRESSION, "profile": PROFILE}
+STEP = 1e-4
+RIGHT = 1e-4
+"""Largest difference of derivatives, as a share of the largest of a row: those of a step are taken with the matrix of its
+last Newton iteration, whose state is up to 1e-5 off."""
+
+
+@cache
+def problem_of(text: str) -> tuple[Optimizer, Array, Parameters]:
+    """An optimizer, a point beside its start with steps placed there, and its parameters."""
+    optimizer = Optimizer(read_study_text(text, "a test"))
+    x = optimizer.guess(optimizer.model.start)
+    x = np.clip(x + 0.02 * np.random.default_rng(1).uniform(-1.0, 1.0, len(x)), *optimizer.vector.bounds({}))
+    parameters = optimizer.parameters(Objective(optimizer.study.minimize))
+    optimizer.problem.place_grids(x, parameters)
+    return optimizer, x, parameters
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_gradient_and_jacobian_are_those_of_central_differences(name: str) -> None:
+    """By every unknown, at the same steps; of everything: objective, limits, what ends a phase, slopes, lateness."""
+    optimizer, x, parameters = problem_of(STUDIES[name])
+
+    def values(moved: Array) -> Array:
+        point = optimizer.problem.at(moved, parameters)
+        return np.append(point.rows, point.objective)
+
+    point = optimizer.problem.at(x, parameters)
+    exact = np.vstack([point.jacobian, point.gradient])
+    assert np.all(np.isfinite(exact))
+    assert exact.shape == (optimizer.problem.row_count + 1, optimizer.problem.unknown_count)
+    shown = np.empty_like(exact)
+    for i, step in enumerate(STEP * np.eye(len(x))):
+        ends = values(x - 2.0 * step), values(x - step), values(x + step), values(x + 2.0 * step)
+        shown[:, i] = np.array([1.0, -8.0, 8.0, -1.0]) @ np.array(ends) / (12.0 * STEP)
+    sizes = np.maximum(np.max(np.abs(exact), axis=1, keepdims=True), 1e-3)
+    worst = np.abs(shown - exact) / sizes
+    row, column = np.unravel_index(np.argmax(worst), worst.shape)
+    names = [*row_names(optimizer.problem), "objective"]
+    assert np.max(worst) < RIGHT, (names[row], unknown_names(optimizer.problem)[column])
+
+
+def test_every_row_and_unknown_has_a_name() -> None:
+    optimizer, x, _ = problem_of(PROFILE)
+    problem = optimizer.problem
+    assert len(unknown_names(problem)) == problem.unknown_count == len(x) == 4 - 1 + (4 + 1) + (3 + 1) + len(problem.peaks)
+    assert [peak.row.name for peak in problem.peaks] == ["peak_power", "peak_peltier_temperature"]
+    names = row_names(problem)
+    assert len(names) == problem.row_count
+    assert names[:2] == ["end of softening", "end of stiffening"]
+    assert names.count("slew of the supply") == 2 * (3 + 2)
+    ends = ["response_time within the horizon", "return_time within the horizon"]
+    assert names[-2 - problem.sample_count : -problem.sample_count] == ends
+    assert set(names[-problem.sample_count :]) == {"samples below their peak"}
+
+
+def test_a_time_that_is_limited_has_no_second_row_for_the_horizon() -> None:
+    sooner = Optimizer(read_study_text(SHEAR.replace("require:", 'require:\n  response_time: "<= 600 s"'), "a test"))
+    assert sooner.problem.unlimited == ["return_time"]
+    later = Optimizer(read_study_text(SHEAR.replace("require:", 'require:\n  response_time: "<= 2 h"'), "a test"))
+    assert later.problem.unlimited == ["response_time", "return_time"]
+    optimizer, x, parameters = problem_of(SHEAR)
+    point = optimizer.problem.at(x, parameters)
+    horizon = optimizer.model.start[optimizer.model.index["horizon"]]
+    assert point.rows[-2] == pytest.approx(point.times["response_time"] / (LATEST * horizon) - 1.0, abs=1e-12)
+
+
+def test_where_its_equation_is_zero_a_driven_phase_ends_as_cvodes_ends_it() -> None:
+    """The equation is solved for the time its pieces take; all else stays."""
+    optimizer, x, parameters = problem_of(PROFILE)
+    problem, x = optimizer.problem, x.copy()
+    last = problem.nodes_place(0).stop
+    for _ in range(20):
+        point = problem.at(x, parameters)
+        x[last] -= np.clip(point.rows[0] / point.jacobian[0, last], -0.3, 0.3)
+    assert abs(point.rows[0]) < 1e-10
+    profiles = optimizer.vector.current_profiles(x)
+    cycle = fine(optimizer.model).run(optimizer.vector.inputs(x), {"softening": profiles["softening"]}, ["softening"])
+    ramp = profiles["softening"].moments[1]
+    assert ramp > 1.0
+    assert ramp + problem.pieces_time(x, 0) == pytest.approx(cycle.values["response_time"], rel=1e-3)
+
+
+def test_values_at_the_placed_steps_are_within_a_thousandth_of_cvodes() -> None:
+    for text in (SHEAR, COMPRESSION):
+        optimizer, x, parameters = problem_of(text)
+        inputs = optimizer.vector.inputs(x)
+        cycle = fine(optimizer.model).run(inputs)
+        expected = optimizer.model.some_values(optimizer.problem.wanted, inputs, cycle.values)
+        point = optimizer.problem.at(x, parameters)
+        assert point.values == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_point_whose_switch_never_ends_has_no_value_and_raises_nothing() -> None:
+    optimizer, x, parameters = problem_of(SHEAR)
+    weak = x.copy()
+    (place,) = (i for i, free in enumerate(optimizer.free) if free.name == "current")
+    weak[place] = optimizer.free[place].to_unknown(0.05)
+    assert np.isnan(optimizer.problem.at(weak, parameters).objective)
+    assert np.isfinite(optimizer.problem.at(x, parameters).objective)
+
+
+def test_steps_are_part_of_what_a_point_is_remembered_by() -> None:
+    optimizer, x, parameters = problem_of(SHEAR)
+    problem, grids = optimizer.problem, optimizer.problem.grids
+    here = problem.at(x, parameters)
+    assert problem.at(x.copy(), parameters) is here
+    thick = x + 0.3
+    problem.place_grids(thick, parameters)
+    elsewhere = problem.at(x, parameters)
+    assert 0.0 < abs(elsewhere.objective / here.objective - 1.0) < 1e-3
+    problem.grids = grids
+    assert problem.at(x, parameters).objective == here.objective
+
+
+def test_an_optimum_is_where_its_own_steps_have_it() -> None:
+    """Steps are placed anew where a run ends, and the run goes on until that moves nothing."""
+    optimizer, _, parameters = problem_of(SHEAR)
+    run = optimizer.solve()
+    assert run.start.converged
+    optimizer.problem.grids = run.grids
+    assert optimizer.problem.at(run.unknowns, parameters).objective == pytest.approx(run.start.objective, rel=1e-8)
+    assert optimizer._settled(run.unknowns, parameters)
+    assert optimizer.problem.grids is not run.grids  # placed anew
+
+
+def test_steps_of_a_quick_switch_are_placed_anew_for_a_slow_one() -> None:
+    """The least power heats for an hour; the steps of the study's start, which takes minutes, miss its end by 0.5 %."""
+    text = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6, starts: 1}\n"
+    optimizer = Optimizer(read_study_text(text, "a test"))
+    parameters = optimizer.parameters(Objective(optimizer.study.minimize))
+    run = optimizer.solve()
+    assert run.times["response_time"] > 3000.0
+    optimizer.problem.place_grids(optimizer.guess(optimizer.model.start), parameters)
+    assert not optimizer._settled(run.unknowns, parameters)
+    assert optimizer._settled(run.unknowns, parameters)
+
+
+@pytest.mark.parametrize(("most", "status"), [("100 W", "Solve_Succeeded"), ("1 W", NO_DESIGN)])
+def test_a_study_with_nothing_free_is_evaluated_and_its_limits_checked(most: str, status: str) -> None:
+    text = SHEAR.replace("<= 9 W", f"<= {most}").replace(">= 5 N.m/rad", ">= 2 N.m/rad").replace("120 degC", "200 degC")
+    study = read_study_text(text, "a test")
+    optimizer = Optimizer(study.model_copy(update={"vary": {}}))
+    assert optimizer.problem.unknown_count == 0
+    run = optimizer.solve()
+    assert run.start.status == status
+    assert run.start.converged == (status != NO_DESIGN)
+    assert run.start.objective == pytest.approx(3.0, rel=1e-3)  # the weights, over the start's values, which they are
+    assert run.times["response_time"] == pytest.approx(optimizer.multistart.cycle["response_time"], rel=1e-3)
+
+
+def test_a_peak_of_a_profile_is_an_unknown_that_no_sample_exceeds() -> None:
+    """Many instants of a driven phase are as high as the highest: a maximum of them has kinks at every optimum."""
+    optimizer = Optimizer(read_study_text(PROFILE, "a test"))
+    problem = optimizer.problem
+    run = optimizer.solve()
+    assert run.start.converged
+    assert run.start.iterations < 100
+    optimizer.problem.grids = run.grids
+    rows = problem.at(run.unknowns, optimizer.parameters(Objective(optimizer.study.minimize))).rows
+    first = problem.row_count - problem.sample_count
+    for peak, unknown in zip(problem.peaks, run.unknowns[-len(problem.peaks) :], strict=True):
+        samples = rows[first : first + problem.samples(peak)]
+        first += problem.samples(peak)
+        assert np.max(samples) < 1e-6
+        cycle = fine(optimizer.model).run(run.inputs, run.current_profiles)
+        assert cycle.values[peak.row.name] <= peak.scale * unknown * (1.0 + 2e-3)
+
+
+def test_a_peak_of_a_profile_has_no_least() -> None:
+    text = PROFILE.replace('peak_power: "<= 9 W"', 'peak_power: ">= 5 W"')
+    with pytest.raises(InputError, match="peak_power: a peak can be kept below a limit, not above one"):
+        Optimizer(read_study_text(text, "a test"))

@@ -1,0 +1,53 @@
+"""Designs that were optimal with the states of every cycle as unknowns are so, or nearly so, to the problem of now."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from support import ROOT
+
+from tvimdesign.solve.nlp.labels import row_names
+from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.study import read_study
+
+NUMBERS_ALONE = [
+    "paper_shear", "ankle", "compare_compression", "compare_shear", "driven_joint", "elbow_machined", "elbow_printed",
+    "front_shear", "machined_compression", "machined_shear", "standard_parts", "wrist_compression", "wrist_joint",
+]  # fmt: skip
+"""Shipped studies that choose no record and drive no phase."""
+
+
+def _frozen(name: str) -> tuple[Optimizer, np.ndarray, dict[str, Any]]:
+    """A study's problem, and the inputs and the optimum that are frozen."""
+    frozen = json.loads((ROOT / "campaigns/frozen/studies" / f"{name}.json").read_text(encoding="utf-8"))
+    optimizer = Optimizer(read_study(ROOT / "studies" / f"{name}.yaml"), frozen["optimum"]["reference"])
+    inputs = optimizer.model.start.copy()
+    for one, value in frozen["chosen"].items():
+        inputs[optimizer.model.index[one]] = value
+    return optimizer, inputs, frozen["optimum"]
+
+
+def test_a_frozen_optimum_is_found_from_beside_it() -> None:
+    optimizer, inputs, optimum = _frozen("paper_shear")
+    run = optimizer.solve(begin=inputs, beginning="near")
+    assert run.start.converged
+    assert run.start.objective == pytest.approx(optimum["objective"], rel=1e-4)
+    for free in optimizer.free:
+        place = optimizer.model.index[free.name]
+        assert run.inputs[place] == pytest.approx(inputs[place], rel=2e-3), free.name
+
+
+@pytest.mark.parametrize("name", [NUMBERS_ALONE[0], *(pytest.param(n, marks=pytest.mark.gate) for n in NUMBERS_ALONE[1:])])
+def test_a_frozen_design_keeps_its_limits_and_its_objective(name: str) -> None:
+    """With margins, too: what is not within its limits by them is so without."""
+    optimizer, inputs, optimum = _frozen(name)
+    x, parameters = optimizer.guess(inputs), optimizer.parameters(Objective(optimizer.study.minimize))
+    optimizer.problem.place_grids(x, parameters)
+    point = optimizer.problem.at(x, parameters)
+    assert point.objective == pytest.approx(optimum["objective"], rel=1e-3)
+    worst = int(np.argmax(point.rows))
+    assert point.rows[worst] < 1e-3, row_names(optimizer.problem)[worst]
