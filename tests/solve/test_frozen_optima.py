@@ -41,7 +41,8 @@ def test_a_frozen_optimum_is_found_from_beside_it() -> None:
         assert run.inputs[place] == pytest.approx(inputs[place], rel=2e-3), free.name
 
 
-@pytest.mark.parametrize("name", [NUMBERS_ALONE[0], *(pytest.param(n, marks=pytest.mark.gate) for n in NUMBERS_ALONE[1:])])
+@pytest.mark.gate
+@pytest.mark.parametrize("name", NUMBERS_ALONE)
 def test_a_frozen_design_keeps_its_limits_and_its_objective(name: str) -> None:
     """With margins, too: what is not within its limits by them is so without."""
     optimizer, inputs, optimum = _frozen(name)

@@ -29,4 +29,3 @@ def freed(slew: str, phase: str, pieces: int) -> FreeCurrent:
 def test_each_phase_frees_its_own_current_between_the_study_s_bounds() -> None:
     assert freed("2", "softening", 3) == FreeCurrent("softening", "current", 3, 0.5, 2.0, 2.0)
     assert freed("2", "stiffening", 2) == FreeCurrent("stiffening", "cooling_current", 2, 0.1, 0.9, 2.0)
-

@@ -17,8 +17,8 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 STEP = 1e-4
 """Step of the differences, in unknowns, which are logarithms or of order one; fourth order, so its error is 1e-16."""
 DERIVATIVE_TOLERANCE = 1e-4
-"""Largest difference, over the size of a row's derivatives, that rounding explains, and where steps in time stop solving.
-"""
+"""Largest difference, over the size of a row's derivatives, that comes of rounding and of steps in time that are solved
+to so many digits."""
 DEPENDENT = 1e-9
 """Singular value, as a share of the greatest, below which a direction changes nothing."""
 _FLAT = 1e-3
@@ -62,7 +62,7 @@ class DerivativeCheck:
 
     @property
     def right(self) -> bool:
-        """Whether rounding explains all of it."""
+        """Whether that explains all of it."""
         return all(error <= DERIVATIVE_TOLERANCE for _, _, error in self.worst)
 
 

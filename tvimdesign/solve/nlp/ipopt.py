@@ -197,7 +197,8 @@ class _Part(ca.Callback):
         except BaseException as error:  # CasADi would swallow it
             self._held.error = error
             raise
-        values, slopes = (found.objective, found.gradient) if self._part == "objective" else (found.rows, found.jacobian)
+        of_objective = self._part == "objective"
+        values, slopes = (found.objective, found.gradient) if of_objective else (found.rows, found.jacobian)
         whole = [ca.DM(values)]
         return [*whole, ca.DM(np.atleast_2d(slopes))] if self._sloped else whole
 
@@ -229,9 +230,7 @@ class _Stop(ca.Callback):
         return [int(self.stopped)]
 
 
-def solver_of(
-    unknowns: int, rows: int, asked: SolverOptions, beginning: Beginning = "cold"
-) -> ProgrammeSolver:
+def solver_of(unknowns: int, rows: int, asked: SolverOptions, beginning: Beginning = "cold") -> ProgrammeSolver:
     """IPOPT for programmes of so many unknowns and rows, set for where a run begins."""
     most = asked.max_iterations
     ipopt: dict[str, Any] = {

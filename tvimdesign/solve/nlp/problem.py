@@ -116,7 +116,7 @@ class Point(NamedTuple):
     """The wanted outputs."""
     gradients: dict[str, Array]
     times: dict[str, float]
-    """Time [s] of each event the problem needs; of a driven phase that of its pieces."""
+    """Time [s] of each event the problem needs."""
 
 
 class Problem:
@@ -227,14 +227,14 @@ class Problem:
         if traded:
             rows += list(parameters.factors @ values[traded])
             jacobian += list(parameters.factors @ slopes[traded])
-        steep, of_steep = self._slopes(x, inputs, along)
+        steep, of_steep = self._slopes(x)
         late, of_late = self._lateness(inputs, cycle, of_cycle)
         weights = parameters.weights
         events = dict(zip(self.model.switch_names, cycle, strict=True))
         times = {name: float(events[name]) for name in self.events}
-        times |= {self.model.phases[one.phase].phase.ends: self.pieces_time(x, i) for i, one in enumerate(self.free_currents)}
+        every = np.concatenate([np.array(rows), steep, late, sampled])
         return Point(
-            float(weights @ values[chosen]), weights @ slopes[chosen], np.concatenate([np.array(rows), steep, late, sampled]),
+            float(weights @ values[chosen]), weights @ slopes[chosen], every,
             np.concatenate([np.array(jacobian).reshape(len(jacobian), len(x)), of_steep, of_late, of_sampled]),
             dict(zip(self.wanted, values.tolist(), strict=True)), dict(zip(self.wanted, slopes, strict=True)), times,
         )  # fmt: skip
@@ -304,7 +304,7 @@ class Problem:
             found[current.phase] = Drive(moments, of_moments, signed, of_signed, self._steps(current))
         return found
 
-    def _slopes(self, x: Array, inputs: Array, along: Array) -> tuple[Array, Array]:
+    def _slopes(self, x: Array) -> tuple[Array, Array]:
         """How much steeper than allowed the free currents are, either way, as a share of what is allowed."""
         rows, jacobian = [], []
         for i, current in enumerate(self.free_currents):
@@ -422,9 +422,11 @@ class Problem:
     def phases(self) -> list[str]:
         """The phases the problem needs."""
         rows = [self.model.table.quantity(name) for name in (*self.events, *self._needed)]
-        return [name for name in self.model.phases if any(
-            isinstance(row, Event | Path | Steady) and row.phase == name for row in rows
-        )]
+        return [
+            name
+            for name in self.model.phases
+            if any(isinstance(row, Event | Path | Steady) and row.phase == name for row in rows)
+        ]
 
     @cached_property
     def _needed(self) -> set[str]:
@@ -433,7 +435,6 @@ class Problem:
 
     def _check(self) -> None:
         """Raise InputError for what cannot be put to the solver, with what can be said instead."""
-        table = self.model.table
         peaks = {peak.row.name for peak in self.peaks}
         for limit in self.limits:
             if limit.output in peaks and limit.sense == ">=":

@@ -6,7 +6,6 @@ import time
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -188,9 +187,7 @@ class Optimizer:
         """The solver, built when it is first needed."""
         if beginning not in self._solvers:
             problem = self.problem
-            self._solvers[beginning] = solver_of(
-                problem.unknown_count, problem.row_count, self.study.solver, beginning
-            )
+            self._solvers[beginning] = solver_of(problem.unknown_count, problem.row_count, self.study.solver, beginning)
         return self._solvers[beginning]
 
     def solve(

@@ -166,7 +166,7 @@ def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
 
 
 def _price_of_slew(optimizer: Optimizer, run: Run, slew: float) -> float:
-    """What the objective falls with the slew, per share of it: the difference of the Lagrangian, as ramps hang on it."""
+    """What the objective falls with the slew, per share of it: a difference of the Lagrangian, as ramps hang on it."""
     problem, parameters = optimizer.problem, optimizer.parameters(Objective(optimizer.study.minimize))
     found = []
     for share in (1.0 - _SLEW_STEP, 1.0 + _SLEW_STEP):

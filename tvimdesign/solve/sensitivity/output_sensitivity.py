@@ -95,7 +95,10 @@ class OutputDerivatives:
         along = np.zeros((len(inputs), len(place)))
         along[place, range(len(place))] = 1.0
         needed = set().union(*self.supplied.values())
-        cycle, of_cycle = np.full(len(self.model.switch_names), np.inf), np.zeros((len(self.model.switch_names), len(place)))
+        cycle, of_cycle = (
+            np.full(len(self.model.switch_names), np.inf),
+            np.zeros((len(self.model.switch_names), len(place))),
+        )
         if needed:
             cycle, of_cycle, _ = self._engine.run(inputs, along, needed)
         never = {name for name, value in zip(self.model.switch_names, cycle, strict=True) if not np.isfinite(value)}
