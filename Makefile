@@ -68,10 +68,8 @@ bench-front: $(VENV)/.bench  ## a front of thirty designs, against NSGA-II by hy
 bench-explore: $(STAMP)  ## the explorer's drags: time to the answer, evaluated and optimised, on paper_shear; then 1,000 random drags
 	$(BENCH) benchmarks/explore_drags.py --leak 1000
 
-bench-engine: $(VENV)/.bench  ## the spike of a fixed program for the cycle: held against CVODES, then two optima beside today's (a minute)
-	$(BENCH) benchmarks/engine_coverage.py
-	$(BENCH) benchmarks/engine_check.py
-	$(BENCH) benchmarks/engine_optimum.py
+bench-engine: $(STAMP)  ## recording, an evaluation with its gradient, a solve, and steps, of four studies (half a minute)
+	$(BENCH) benchmarks/engine.py
 
 bench-designs: $(STAMP)  ## random designs within the studies' bounds: refused by a named rule, or sound parts
 	$(BENCH) benchmarks/random_designs.py

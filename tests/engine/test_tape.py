@@ -17,7 +17,8 @@ from tvimdesign.engine.tape import Tape
 Array = NDArray[np.float64]
 STEPS = (
     lambda a, b: a + b, lambda a, b: a - b, lambda a, b: a * b, lambda a, b: a / (1.0 + b * b), lambda a, _: ca.sin(a),
-    lambda a, _: ca.exp(-a * a), lambda a, b: ca.fmin(a, ca.cos(b) + 0.1234), lambda a, b: ca.if_else(a < b, a, 0.3 * b),
+    lambda a, _: ca.exp(-a * a), lambda a, b: ca.fmin(a, ca.cos(b) + 0.1234),
+    lambda a, b: ca.if_else(a < b, a, 0.3 * b),
 )  # fmt: skip
 steps = st.lists(
     st.tuples(st.integers(0, len(STEPS) - 1), st.integers(0, 10**6), st.integers(0, 10**6)), min_size=1, max_size=60
