@@ -18,7 +18,7 @@ from tvimdesign.solve.optimizer.statuses import OPTIMAL, meaning
 from tvimdesign.study import Range
 
 CYCLE_TOLERANCE = 2e-3
-"""Share by which a limit on a row that depends on a switch may be broken: collocation against the simulation."""
+"""Share by which a limit on a row that depends on a switch may be broken: a search's steps against the simulation's."""
 
 
 _SLEW_STEP = 1e-4
