@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from per_phase import per_phase
 
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
@@ -118,7 +119,7 @@ def phase_block(
     slopes = ca.mtimes(every, _differences(len(lengths), order))
     rates = at_each(phase, phase.rates, states, currents[:, 1:], inputs)
     steps = ca.horzcat(*(ca.repmat(length, 1, order) for length in lengths))
-    gap = phase.watch_in_parts([event])(states[:, -1], currents[:, -1], inputs)
+    gap = phase.watch([event])(states[:, -1], currents[:, -1], inputs)
     return Block(
         event=event,
         phase=phase,
@@ -143,7 +144,7 @@ def _differences(elements: int, order: int) -> Any:
 
 def at_each(phase: PhaseFunctions, function: Any, states: Any, currents: Any, inputs: Any) -> Any:
     """A function (state, current, inputs) of the phase applied to every column of `states`."""
-    constants, varying = phase.per_phase(function)
+    constants, varying = per_phase(phase, function)
     count = states.size2()
     return varying.map(count)(states, currents, ca.repmat(constants(inputs), 1, count))
 

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+from per_phase import per_phase
 
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import SimulationError
@@ -63,12 +64,12 @@ class PhaseSimulator:
         integrals = ca.SX.sym("integrals", len(self._integrals))
         length, first, last, time = (ca.SX.sym(name) for name in ("length", "first", "last", "time"))
         profile = first + (last - first) * time
-        self._constants, varying = phase.per_phase(self._changes)
+        self._constants, varying = per_phase(phase, self._changes)
         constants = ca.SX.sym("constants", self._constants.size1_out(0))
-        self._waiting = phase.watch_in_parts(self._events)
-        self._of_peaks, follow = phase.per_phase(phase.watch(self._peaks))
+        self._waiting = phase.watch(self._events)
+        self._of_peaks, follow = per_phase(phase, phase.watch(self._peaks))
         self._followed, self._followed_once = follow.map(steps + 1), follow
-        self._at_end = phase.watch_in_parts(self._last)
+        self._at_end = phase.watch(self._last)
         self._few = np.unique(np.append(np.arange(0, steps, _FEW), steps))
         self._waiting_at_few = self._waiting.map(len(self._few))
         self._integrator = ca.integrator(
@@ -288,7 +289,7 @@ class PhaseSimulator:
         unknowns = ca.MX.sym("unknowns", size + 1)
         inputs = ca.MX.sym("inputs", len(self.model.names))
         state, profile = unknowns[:size], unknowns[size]
-        gap = self.phase.watch_in_parts([self.phase.phase.ends])(state, profile, inputs)
+        gap = self.phase.watch([self.phase.phase.ends])(state, profile, inputs)
         rates = self.phase.rates(state, profile, inputs)
         equations = ca.vertcat(rates, gap)
         slopes = ca.vertcat(ca.jacobian(rates, unknowns), ca.jacobian(gap, unknowns))

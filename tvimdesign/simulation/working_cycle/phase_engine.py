@@ -127,9 +127,9 @@ class PhaseEngine:
     ) -> tuple[Found, Grid]:
         """Step until every wanted event has happened, and evaluate all that is wanted.
 
-        Steps are those of a `grid`, or as long as their errors are within the `tolerance`. With a `drive`, whose length is given, the phase
-        ends there, whatever the event that ends it still waits for. Returns the grid, too. Raises SimulationError where
-        not even the first step can be taken.
+        Steps are those of a `grid`, or as long as their errors are within the `tolerance`. With a `drive`, whose length
+        is given, the phase ends there, whatever the event that ends it still waits for. Returns the grid, too. Raises
+        SimulationError where not even the first step can be taken.
         """
         run, start, pace, dpace = self._begin(inputs, along, before)
         ends = self.phase.phase.ends

@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
-from itertools import accumulate
 from typing import Any
 
 from tvimdesign.device import Event, Path, Phase, Steady, Table
 from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.heat_flow.slab_faces import AMBIENT
-from tvimdesign.simulation.working_cycle.casadi_setup import ca, lean_function
-from tvimdesign.simulation.working_cycle.symbols import flattened, held, symbols
-
-_BY_JACOBIAN = {"enable_forward": False}
-"""Derivatives of what is mapped over the points go by its sparse Jacobian: a fifth of IPOPT's time less than by
-directions."""
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import symbols
 
 SHOWN = {"joint_stiffness": "stiffness_now", "joint_damping": "damping_now", "electrical_power": "electrical_power"}
 """Quantities of an instant that a phase is drawn with, by the name of their column."""
@@ -40,11 +35,8 @@ class PhaseFunctions:
         self._drive = ca.SX.sym("drive_current")
         self._known = {**known, PHASE: phase, DRIVE: symbols(self._drive)[0]}
         self._cells = cells
-        self._split: dict[Any, tuple[Any, Any]] = {}
-        """Functions in two parts (`per_phase`), by function."""
         self._watched: dict[tuple[str, ...], Any] = {}
-        self._in_parts: dict[tuple[str, ...], Any] = {}
-        """Functions of what is wanted, whole and put together of parts (`watch`, `watch_in_parts`)."""
+        """Functions of what is wanted (`watch`)."""
 
     @cached_property
     def _stack(self) -> heat.Stack:
@@ -136,80 +128,6 @@ class PhaseFunctions:
             self._watched[key] = self._function("watch", [self._instant[name] for name in wanted])
         return self._watched[key]
 
-    def watch_in_parts(self, wanted: Sequence[str]) -> Any:
-        """The same function as `watch`, put together of several where it asks for the moduli of a layer that melts.
-
-        They are most of an instant's arithmetic, the same for each of the layer's slices, and depend on their
-        temperatures alone: apart from the rest, their second derivatives take a fraction of the work.
-        """
-        key = tuple(wanted)
-        if key not in self._in_parts:
-            self._in_parts[key] = self._put_together(wanted)
-        return self._in_parts[key]
-
-    def _put_together(self, wanted: Sequence[str]) -> Any:
-        if self._stack.freezing is not None:
-            return self.watch(wanted)
-        moduli = ca.SX.sym("moduli", 2)
-        values = ca.vertcat(*self._instant_with(wanted, layer_moduli=tuple(symbols(moduli))))
-        if not ca.depends_on(values, moduli):
-            return self.watch(wanted)
-        sizes = {"state": self.state_size, "drive": 1, "inputs": self._inputs.numel()}
-        instant = [ca.MX.sym(name, size) for name, size in sizes.items()]
-        joint = lean_function("joint", [*self._arguments, moduli], values)
-        found = joint(*instant, self._layer_moduli(self._slice_temperatures(instant), instant[-1]))
-        return ca.Function("watch", instant, [found], {"always_inline": True})
-
-    def _slice_temperatures(self, instant: Sequence[Any]) -> Any:
-        """Temperatures of the slices of a layer that melts, column by column (MX), at an instant (MX).
-
-        Where they follow from a few numbers and from what the layer's end does to each slice, these come first: the
-        latter is written for one slice, and mapped over all.
-        """
-        around = self._instant.get("layer_surroundings")
-        if around is None:
-            layer = ca.vertcat(*self._instant["layer_temperatures"])
-            return lean_function("layer_temperatures", self._arguments, layer)(*instant)
-        found = lean_function("layer_surroundings", self._arguments, flattened(around))(*instant)
-        given = [found, *self._end_profile(self._instant["end_places"], instant[-1])]
-        columns = [ca.SX.sym("part", part.numel()) for part in given]
-        profile = tuple([symbols(one) for one in ca.vertsplit(part, self._cells)] for part in columns[1:])
-        (layer,) = self._instant_with(
-            ["layer_temperatures"], layer_surroundings=held(around, columns[0]), end_profile=profile
-        )
-        return lean_function("layer_temperatures", [*columns, self._inputs], ca.vertcat(*layer))(*given, instant[-1])
-
-    def _end_profile(self, places: Any, inputs: Any) -> list[Any]:
-        """The parts of the profile of a layer's end, slice by slice, column by column, from inputs (MX)."""
-        sizes = [len(places.of_all), len(places.of_columns), self._cells]
-        written = lean_function("end_places", [self._inputs], flattened(places))(inputs)
-        of_all, of_columns, of_slices = ca.vertsplit(written, [0, *accumulate(sizes)])
-        one = [ca.SX.sym("of_all", sizes[0]), ca.SX.sym("of_column"), ca.SX.sym("of_slice")]
-        place = type(places)(tuple(symbols(one[0])), [symbols(one[1])[0]], symbols(one[2]))
-        (parts,) = self._instant_with(["end_profile"], end_places=place)
-        each = lean_function("end_profile", one, ca.vertcat(*(part[0] for part in parts)), _BY_JACOBIAN)
-        count = sizes[1] * self._cells
-        by_column = ca.reshape(ca.repmat(of_columns.T, self._cells, 1), 1, count)
-        profile = each.map(count)(ca.repmat(of_all, 1, count), by_column, ca.repmat(of_slices.T, 1, sizes[1]))
-        return [part.T for part in ca.vertsplit(profile)]
-
-    def _layer_moduli(self, temperatures: Any, inputs: Any) -> Any:
-        """Moduli [Pa] of a layer that melts from the temperatures of its slices, column by column, and inputs (MX)."""
-        one = ca.SX.sym("temperature")
-        (compliance,) = self._instant_with(["column_compliances"], layer_temperatures=[symbols(one)])
-        value, constants, changing = self._parted(ca.vertcat(*compliance[0]))
-        each = lean_function("slice_compliance", [one, changing], value, _BY_JACOBIAN)
-        known = ca.Function("constants", [self._inputs], [constants])(inputs)
-        count = temperatures.numel()
-        slices = each.map(count)(temperatures.T, ca.repmat(known, 1, count))
-
-        columns = count // self._cells
-        sums: list[Any] = [ca.sum2(part) for part in ca.horzsplit(slices, self._cells)]
-        of_columns = ca.SX.sym("compliances", 2, columns)
-        pairs = [tuple(symbols(column)) for column in ca.horzsplit(of_columns)]
-        (found,) = self._instant_with(["layer_moduli"], column_compliances=pairs)
-        return ca.Function("layer_moduli", [ca.vec(of_columns)], [ca.vertcat(*found)])(ca.vertcat(*sums) / self._cells)
-
     def _instant_with(self, wanted: Sequence[str], **held: Any) -> list[Any]:
         """Quantities of an instant with some others held at symbols of their own."""
         changed = held.keys()
@@ -243,21 +161,6 @@ class PhaseFunctions:
     def impedance_now(self) -> Any:
         """The function -> magnitude of the joint's dynamic stiffness [N*m/rad]."""
         return self._function("impedance_now", [self._instant["impedance_now"]])
-
-    def per_phase(self, function: Callable[..., Any]) -> tuple[Any, Any]:
-        """Split a function (state, current, inputs) in what is the same all through the phase, and what is not.
-
-        Returns inputs -> constants, and (state, current, constants) -> the function's value. A collocation evaluates
-        the first once and the second at every point.
-        """
-        if function not in self._split:
-            state, profile = self._state, self._drive
-            value, constants, changing = self._parted(function(state, profile, self._inputs))
-            self._split[function] = (
-                ca.Function("constants", [self._inputs], [constants]),
-                ca.Function("varying", [state, profile, changing], [value], _BY_JACOBIAN),
-            )
-        return self._split[function]
 
     def _parted(self, expression: Any) -> tuple[Any, Any, Any]:
         """An expression in which symbols stand for what depends on the inputs alone; that, and these symbols."""

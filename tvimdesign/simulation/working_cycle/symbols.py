@@ -7,8 +7,7 @@ first optimum of `paper_shear` takes 28 % longer, 0.51 s of the processor in pla
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from itertools import accumulate
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -102,35 +101,3 @@ def _quick(found: Any) -> Any:
 def symbols(column: Any) -> Symbols:
     """A column of SX as the one-dimensional array that the equations take; its entries are scalars."""
     return _of(column.T, 1)
-
-
-def flattened(structure: Any) -> Any:
-    """The numbers of a structure of tuples, lists, scalars and arrays, one below the other (SX)."""
-    return ca.vertcat(*(ca.vec(ca.vertcat(leaf)) for leaf in _leaves(structure)))
-
-
-def held(structure: Any, column: Any) -> Any:
-    """The same structure with the entries of a column of SX in place of its numbers."""
-    sizes = [ca.vertcat(leaf).numel() for leaf in _leaves(structure)]
-    return _rebuilt(structure, iter(ca.vertsplit(column, [0, *accumulate(sizes)])))
-
-
-def _leaves(structure: Any) -> Iterator[Any]:
-    """The scalars and arrays of a structure; what is None has none."""
-    if isinstance(structure, tuple | list):
-        for one in structure:
-            yield from _leaves(one)
-    elif structure is not None:
-        yield structure
-
-
-def _rebuilt(structure: Any, parts: Iterator[Any]) -> Any:
-    if structure is None:
-        return None
-    if isinstance(structure, list):
-        return [_rebuilt(one, parts) for one in structure]
-    if isinstance(structure, tuple):
-        inner = [_rebuilt(one, parts) for one in structure]
-        return type(structure)(*inner) if hasattr(structure, "_fields") else tuple(inner)
-    part = symbols(next(parts))
-    return part if np.ndim(structure) else part[0]
