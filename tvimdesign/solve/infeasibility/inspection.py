@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, is_constant
 from tvimdesign.solve.nlp.labels import row_names, unknown_names
@@ -99,9 +100,9 @@ class Inspection:
         return self._spread(triplets[0], entries, self._rows), self._spread(triplets[1], entries, self._columns)
 
     @staticmethod
-    def _spread(places: Sequence[int], entries: Array, names: Sequence[str]) -> ValueRange:
+    def _spread(places: NDArray[np.int_], entries: Array, names: Sequence[str]) -> ValueRange:
         greatest = np.zeros(len(names))
-        np.maximum.at(greatest, np.array(places, dtype=int), entries)
+        np.maximum.at(greatest, places, entries)
         used = np.flatnonzero(greatest)
         ends = used[np.argmax(greatest[used])], used[np.argmin(greatest[used])]
         return ValueRange(*((names[i], float(greatest[i])) for i in ends))

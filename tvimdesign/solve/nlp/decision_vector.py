@@ -29,7 +29,7 @@ class DecisionVector:
             size = float(np.clip(inputs[self.model.index[current.row]], current.lower, current.upper))
             time = cycle[self.model.phases[current.phase].phase.ends]
             time = time if 0.0 < time < np.inf else _UNKNOWN_TIME
-            parts += [np.full(current.nodes, size / current.upper), [np.log(max(time, SHORTEST) / UNIT)]]
+            parts += [np.full(current.nodes, size / current.upper), np.array([np.log(max(time, SHORTEST) / UNIT)])]
         for peak in self.problem.peaks:
             value = cycle.get(peak.row.name, np.inf)
             parts.append(np.array([value / peak.scale if np.isfinite(value) else 1.0]))

@@ -343,13 +343,13 @@ class Optimizer:
             return np.asarray(point.gradient + run.multipliers @ point.jacobian)
 
         hessian = np.zeros((len(x), len(x)))
-        for i in np.flatnonzero(lower < upper):
+        for i in np.flatnonzero(lower < upper).tolist():
             hessian[i] = (gradient(i, _APART) - gradient(i, -_APART)) / (2.0 * _APART)
         found = here.rows.copy()
         # A limit that is to be kept by a margin is held where that is used up.
         found[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
         names = self.study.minimize
-        values, gradients = ({name: of[name] for name in names} for of in (here.values, here.gradients))
+        values, gradients = {name: here.values[name] for name in names}, {name: here.gradients[name] for name in names}
         return Derivatives(found, here.jacobian, 0.5 * (hessian + hessian.T), values, gradients)
 
 

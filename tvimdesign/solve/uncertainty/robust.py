@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from tvimdesign.base.errors import TimeOverError
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.constraints import on_cycle
+from tvimdesign.solve.nlp.constraints import Constraint, on_cycle
 from tvimdesign.solve.nlp.moments import moments_at
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
@@ -126,7 +126,8 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
     """How far within its limits to stay at a run's design, by limit [shares of its scale]."""
     sigma = optimizer.study.robust.sigma if optimizer.study.robust else None
     assert sigma is not None
-    timed, algebraic = [], []
+    timed: list[Constraint] = []
+    algebraic: list[Constraint] = []
     for limit in optimizer.problem.limits:
         (timed if on_cycle(optimizer.table, limit.output) else algebraic).append(limit)
     margins = {}
