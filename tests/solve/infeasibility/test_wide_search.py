@@ -64,8 +64,8 @@ def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.
     usual = optimize(study)
     starts = Relaxation._from_one_of_each
 
-    def failing(self: Relaxation, optimizer: Optimizer, begin: Array) -> Run:
-        run = starts(self, optimizer, begin)
+    def failing(self: Relaxation, begin: Array) -> Run:
+        run = starts(self, begin)
         run.start = replace(run.start, converged=False)
         return run
 

@@ -14,6 +14,7 @@ from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import NO_MODULE
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 
@@ -91,3 +92,17 @@ def test_boxes_that_lead_beyond_the_horizon_are_not_gone_on_with(monkeypatch: py
     assert [run.start.converged for run in runs] == [True]
     assert all(end < 0.999 * LATEST * HORIZON for end in ends[:-1])
     assert ends[-1] == pytest.approx(LATEST * HORIZON, rel=1e-5)
+
+
+def test_a_search_that_begins_where_the_switch_never_ends_begins_beside() -> None:
+    """At 0.9 A the layer stays stiff; without derivatives there IPOPT would not even begin."""
+    optimizer = Optimizer(read_study_text(STUDY + "require: {response_time: <= 300 s}\n", "test"))
+    weak = optimizer.model.start.copy()
+    weak[optimizer.model.index["current"]] = 0.9
+    assert optimizer.multistart.trial(weak) is None
+    run, usual = optimizer.solve(begin=weak), optimizer.solve()
+    assert run.start.converged
+    assert run.start.objective == pytest.approx(usual.start.objective, rel=1e-4)
+    nowhere = optimizer.solve({"current": (0.1, 0.9)}, begin=weak)
+    assert not nowhere.start.converged
+    assert nowhere.start.status == NO_MODULE

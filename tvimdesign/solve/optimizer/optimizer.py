@@ -34,6 +34,8 @@ SETTLED = 1e-4
 """Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
 MOST_GRIDS = 4
 """Times the steps are placed anew for one run."""
+_BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10
+"""How far beside a module whose switch never ends others are tried, as a share of the ranges, and how many each."""
 _APART = 1e-4
 """Step of an unknown in the differences that second derivatives come from."""
 
@@ -230,7 +232,7 @@ class Optimizer:
         if sharp:
             self.problem.grids = sharp
         else:
-            self.problem.place_grids(x, parameters)
+            x = self._where_it_ends(x, parameters, ends)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
             solver = self._solver(beginning)
@@ -247,6 +249,30 @@ class Optimizer:
         self.problem.grids = grids
         run = self.record(answer, {**stats, "iter_count": iterations}, inputs, seconds, parameters)
         return replace(run, within=within or {})
+
+    def _where_it_ends(self, x: Array, parameters: Parameters, ends: Mapping[str, Array]) -> Array:
+        """Return the unknowns with steps placed there; where a switch never ends, those of a module beside whose does.
+
+        An event that never comes has no derivatives for a search to begin with.
+        """
+        self.problem.place_grids(x, parameters)
+        if self.mixtures or not self._never_ends(x, parameters):
+            return x
+        count, random = len(self.free), np.random.default_rng(self.study.solver.seed)
+        lower, upper = ends["lbx"][:count], ends["ubx"][:count]
+        for share in np.repeat(_BESIDE, _TRIALS):
+            moved = x.copy()
+            moved[:count] += share * (lower + random.random(count) * (upper - lower) - x[:count])
+            if self.multistart.trial(self.vector.inputs(moved)) is not None:
+                self.problem.place_grids(moved, parameters)
+                return moved
+        return x
+
+    def _never_ends(self, x: Array, parameters: Parameters) -> bool:
+        """Whether there is a module and its switch never ends."""
+        point = self.problem.at(x, parameters)
+        values = (value for name, value in point.values.items() if not on_cycle(self.table, name))
+        return any(np.isinf(time) for time in point.times.values()) and bool(np.all(np.isfinite(list(values))))
 
     def _settled(self, x: Array, parameters: Parameters) -> bool:
         """Whether steps that are placed anew at an optimum leave it where it is."""
