@@ -18,6 +18,8 @@ from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]
 ELEMENTS = 128
+FINER = 16
+"""At a search's own steps the derivative of `softening_time` by one radius is 2 % off, at a quarter of them 0.2 %."""
 
 
 def differences(function: Any, at: Array, which: list[int], share: float) -> Array:
@@ -48,7 +50,7 @@ def shown_by_cvodes(model: DeviceFunctions, events: Sequence[str], variables: Se
 
 
 def found_by_engine(model: DeviceFunctions, variables: Sequence[str]) -> Supplied:
-    """The engine's values and their derivatives by some inputs, in steps a quarter as long as it takes them."""
+    """The engine's values and their derivatives by some inputs, in steps a sixteenth as long as a search's."""
     engine, grids = CycleEngine(model), dict[str, Grid]()
     along = np.zeros((len(model.start), len(variables)))
     for j, name in enumerate(variables):
@@ -57,7 +59,8 @@ def found_by_engine(model: DeviceFunctions, variables: Sequence[str]) -> Supplie
     engine.run(model.start, along[:, :0], events, grids)
     finer = {
         name: Grid(
-            [0.25 * share for share in grid.shares for _ in range(4)], {row: 4 * k for row, k in grid.events.items()}
+            [share / FINER for share in grid.shares for _ in range(FINER)],
+            {row: FINER * k for row, k in grid.events.items()},
         )
         for name, grid in grids.items()
     }

@@ -80,10 +80,10 @@ def test_derivatives_under_a_current_that_follows_a_profile(build: Callable[...,
     begin = value_at(model.start, directions(model))
     place = model.switch_names.index("response_time")
     assert begin.values[place] == pytest.approx(150.0, rel=1e-12)
-    value, slopes = begin.short["softening"]
+    value, slopes = begin.driven["softening"].short, begin.driven["softening"].of_short
     by, one = 1e-4, directions(model)[:, -1]
     nothing = np.zeros((len(one), 0))
-    shorts = [value_at(model.start + times * by * one, nothing).short["softening"][0] for times in (-2, -1, 1, 2)]
+    shorts = [value_at(model.start + times * by * one, nothing).driven["softening"].short for times in (-2, -1, 1, 2)]
     found = (shorts[0] - 8.0 * shorts[1] + 8.0 * shorts[2] - shorts[3]) / (12.0 * by)
     assert slopes[-1] == pytest.approx(found, rel=1e-5)
     assert abs(value) > 1e-3  # it need not be over

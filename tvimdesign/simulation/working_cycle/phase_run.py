@@ -274,6 +274,8 @@ class PhaseRun:
             least, most = (length, most) if gap < 0.0 else (least, length)
             short = -gap / slopes[0]
             if abs(short) <= NEAR * whole:
+                if self.lanes > 1 and length + short > 0.0:  # values miss the square of what is left, slopes all of it
+                    length += short
                 break
             length = length + short if least < length + short < most else 0.5 * (least + most)
         if self.lanes > 1:
