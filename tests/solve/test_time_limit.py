@@ -148,7 +148,9 @@ solver: {starts: 1, time_limit: 5 min}
 
 
 @pytest.mark.parametrize(
-    ("word", "then"), [("recording the equations", FOLLOWING), ("adding tolerance margins", 1e6)], ids=["begun", "moved"]
+    ("word", "then"),
+    [("recording the equations", FOLLOWING), ("adding tolerance margins", 1e6)],
+    ids=["begun", "moved"],
 )
 def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word: str, then: float) -> None:
     clock = Clock(word, then)

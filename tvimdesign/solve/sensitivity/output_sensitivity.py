@@ -21,8 +21,9 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
 
-FINER = 2.0
-"""Fineness of the steps in time where derivatives are reported."""
+FINER, REPORTED = 2.0, 4.0
+"""Fineness of the steps in time where derivatives predict, and where they are reported: a compression module's by the
+depth of its blocks is 0.3 % off with the one, 0.02 % with the other, as cells melt one after the other."""
 _NOTHING = 1e-4
 """Value, in the unit people read it in, below which a share of it means nothing: a gap that is closed."""
 
@@ -63,7 +64,7 @@ def output_sensitivities(
     names = [n for n in wanted if not isinstance(resolved.table.quantity(n), FirstOscillation)]
     variables = by or [row.name for row in resolved.table.inputs if _is_variable(resolved, model, row.name)]
     variables = [name for name in variables if name not in resolved.replaced]
-    derivatives = OutputDerivatives(model, names)
+    derivatives = OutputDerivatives(model, names, REPORTED)
     values, slopes, never = derivatives.at(model.start, variables)
     lost = never | behind_profiles(model.table, set(resolved.current_profiles))
     kept = [i for i, name in enumerate(names) if not derivatives.supplied[name] & lost]
@@ -77,14 +78,14 @@ def output_sensitivities(
 class OutputDerivatives:
     """Outputs of one model with their derivatives by some inputs, at any design."""
 
-    def __init__(self, model: DeviceFunctions, outputs: Sequence[str]) -> None:
+    def __init__(self, model: DeviceFunctions, outputs: Sequence[str], fineness: float = FINER) -> None:
         """Record the outputs."""
         self.model, self.outputs = model, tuple(outputs)
         self.supplied = {name: _supplied_behind(model, name) for name in outputs}
         """What each output needs of the cycle."""
         inputs, cycle = ca.SX.sym("inputs", len(model.names)), ca.SX.sym("cycle", len(model.switch_names))
         values = model.outputs(self.outputs).call([inputs, cycle], True, False)[0]
-        self._tape, self._engine = Tape.of([inputs, cycle], [ca.densify(values)]), CycleEngine(model, FINER)
+        self._tape, self._engine = Tape.of([inputs, cycle], [ca.densify(values)]), CycleEngine(model, fineness)
 
     def at(self, inputs: Array, by: Sequence[str]) -> tuple[Array, Array, set[str]]:
         """Return values, derivatives (a column an input), and what the cycle does not supply at a design's inputs.
