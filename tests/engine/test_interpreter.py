@@ -73,7 +73,7 @@ def test_a_value_at_the_edges_is_that_of_casadi_to_the_last_bit(name: str) -> No
 @pytest.mark.parametrize("name", NAMES)
 @settings(max_examples=30)
 @given(x=numbers, y=numbers)
-def test_a_value_is_that_of_casadi_to_the_last_bit_with_and_without_tangents(name: str, x: float, y: float) -> None:
+def test_a_value_is_that_of_casadi_to_the_last_bit(name: str, x: float, y: float) -> None:
     tape, value, _ = MADE[name]
     expected, at = bits(float(value(x, y))), np.array([x, y])
     assert bits(tape.values(at)[0][0]) == expected

@@ -114,7 +114,7 @@ def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path: Path) -> Non
     assert max(len(grid.shares) for grid in grids.values()) <= 80
 
 
-def test_the_same_steps_give_the_same_values_with_any_number_of_directions(
+def test_values_do_not_depend_on_the_number_of_directions(
     build: Callable[..., DeviceFunctions],
 ) -> None:
     model = build()
@@ -159,7 +159,7 @@ def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunc
 
 
 @pytest.mark.parametrize("study", ["elbow_printed", "paper_shear"])
-def test_a_steady_state_is_found_where_it_changes_steeply_with_the_current(study: str) -> None:
+def test_a_steady_state_that_changes_steeply_is_found(study: str) -> None:
     # Newton's method alone goes to and fro between currents that melt a part of the elbow's layer and that do not.
     read = drawn(read_study(ROOT / "studies" / f"{study}.yaml"))
     model = DeviceFunctions(read.table, given(read), tuple(read.operating_points), read.solver.cells)
