@@ -13,7 +13,7 @@ from support import fine
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import Grid
+from tvimdesign.simulation.working_cycle.phase_instants import Grid
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from support import ROOT, STUDIES, fine
 
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import Drive, Grid
+from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid
 from tvimdesign.simulation.working_cycle.trajectory import Array
 from tvimdesign.study import drawn, given, read_study
 

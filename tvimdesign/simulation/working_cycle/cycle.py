@@ -10,7 +10,8 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import Found, Instant, PhaseRun
+from tvimdesign.simulation.working_cycle.phase_instants import Found, Instant
+from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle, Trajectory
 
 TOLERANCE = 1e-4
@@ -61,11 +62,12 @@ class Simulator:
             engine = self.model.engines[name]
             run, moments, _ = engine.simulate(inputs, profile, state, sought, horizon, self.tolerance, deadline)
             found = Found(end=moments.get(phase.ends))
-            run.add_paths(found, None)
+            results = PhaseResults(run)
+            results.add_paths(found, None)
             values |= {event: moment.time for event, moment in moments.items()} | found.values
-            trajectories[name] = self._trajectory(run, found.end)
+            trajectories[name] = self._trajectory(results, found.end)
             stays = [row.name for row in phase_functions.steadies if wanted is None or row.name in wanted]
-            standing = run.standing(found.end) if stays and found.end is not None else None
+            standing = results.standing(found.end) if stays and found.end is not None else None
             if standing is not None:
                 state = standing.state[: engine.size]
                 balances[name] = np.append(state, standing.current)
@@ -76,8 +78,8 @@ class Simulator:
         """Simulate all phases; the same inputs have the same values and samples, whoever asks."""
         return self.run(inputs, current_profiles)
 
-    def _trajectory(self, run: PhaseRun, end: Instant | None) -> Trajectory:
-        times, states, currents = run.sampled(end or run.instants[-1], self.samples)
+    def _trajectory(self, results: PhaseResults, end: Instant | None) -> Trajectory:
+        times, states, currents = results.sampled(end or results.run.instants[-1], self.samples)
         return Trajectory(times=times, states=states, currents=currents)
 
     def trace(self, name: str, inputs: Array, before: Array | None, end: float) -> Trajectory:
@@ -85,7 +87,7 @@ class Simulator:
         profile = self.constant_drive(name, inputs)
         engine = self.model.engines[name]
         run, _, _ = engine.simulate(inputs, profile, before, [], end, self.tolerance, throughout=True)
-        return self._trajectory(run, None)
+        return self._trajectory(PhaseResults(run), None)
 
     def constant_drive(self, phase: str, inputs: Array) -> CurrentProfile:
         """The constant current the inputs ask for in a phase."""

@@ -9,7 +9,8 @@ import numpy as np
 
 from tvimdesign.engine.interpreter import Array
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import TOLERANCE, Drive, Found, Grid, Instant
+from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid, Instant
+from tvimdesign.simulation.working_cycle.phase_run import TOLERANCE
 
 
 class Supplied(NamedTuple):

@@ -21,7 +21,9 @@ from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.simulation.working_cycle.phase_run import Drive, Found, Grid, Instant, PhaseRun
+from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid, Instant
+from tvimdesign.simulation.working_cycle.phase_results import PhaseResults
+from tvimdesign.simulation.working_cycle.phase_run import PhaseRun
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
 _NONE = np.zeros(0)
@@ -134,13 +136,13 @@ class PhaseEngine:
         run, start, pace, dpace = self._begin(inputs, along, before)
         ends = self.phase.phase.ends
         sought = [row.name for row in self.phase.events if wanted is None or row.name in wanted or row.name == ends]
-        found = Found()
+        found, results = Found(), PhaseResults(run)
         if drive is not None:
             found.end = run.driven(start, drive.with_length())
             if found.end is not None:
                 found.add(ends, found.end.time, found.end.of_time)
                 found.short, found.of_short = self.slopes(ends, found.end, inputs, run.along)
-                run.add_samples(found, wanted)
+                results.add_samples(found, wanted)
         else:
             grid = grid or run.first(start, pace, sought, horizon, tolerance)
             events = [name for name in sought if name in grid.events]
@@ -149,8 +151,8 @@ class PhaseEngine:
                 found.add(name, moment.time, moment.of_time)
             found.end = moments.get(ends)
         if found.end is not None:
-            run.add_paths(found, wanted)
-            run.add_steadies(found, wanted)
+            results.add_paths(found, wanted)
+            results.add_steadies(found, wanted)
         return found.without_length(), grid or Grid()
 
     def _begin(self, inputs: Array, along: Array, before: Instant | None) -> tuple[PhaseRun, Instant, float, Array]:

@@ -24,7 +24,7 @@ from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.current_profile import ramp_time
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_run import Drive, Found, Grid
+from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
 

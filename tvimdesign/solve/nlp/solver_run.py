@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.simulation.working_cycle.phase_run import Grid
+from tvimdesign.simulation.working_cycle.phase_instants import Grid
 from tvimdesign.solve.nlp.solution import Start
 
 Array = NDArray[np.float64]
