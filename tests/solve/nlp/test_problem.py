@@ -12,7 +12,8 @@ from support import fine
 from tvimdesign.base.errors import InputError
 from tvimdesign.solve.nlp.labels import row_names, unknown_names
 from tvimdesign.solve.nlp.objective import Objective
-from tvimdesign.solve.nlp.problem import LATEST, Parameters
+from tvimdesign.solve.nlp.problem import LATEST
+from tvimdesign.solve.nlp.problem_parts import Parameters
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.nlp.problem import FreeCurrent
+from tvimdesign.solve.nlp.problem_parts import FreeCurrent
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import given, read_study_text
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.solve.nlp.problem import Free
+from tvimdesign.solve.nlp.problem_parts import Free
 from tvimdesign.solve.optimizer.multistart import MAX_DRAWS, Multistart
 from tvimdesign.study import SolverOptions
 

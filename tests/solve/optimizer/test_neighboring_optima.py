@@ -11,7 +11,7 @@ from support import ROOT
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.device import Input
-from tvimdesign.solve.nlp.problem import Free
+from tvimdesign.solve.nlp.problem_parts import Free
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer import neighboring_optima

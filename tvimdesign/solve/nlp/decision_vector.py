@@ -8,7 +8,8 @@ import numpy as np
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile, ramp_time
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.nlp.problem import UNIT, FreeCurrent, Problem
+from tvimdesign.solve.nlp.problem import UNIT, Problem
+from tvimdesign.solve.nlp.problem_parts import FreeCurrent
 from tvimdesign.solve.nlp.solver_run import Array, Ends
 
 SHORTEST = 0.1  # s; with a slow supply all of a phase may be its ramp, and the pieces after it next to nothing

@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +26,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Found, Grid
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.mixture import Mixture
+from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Parameters, Peak, Point
 
 Array = NDArray[np.float64]
 
@@ -39,84 +39,6 @@ REMEMBERED = 2
 """Points that are remembered with their steps: the one where a solver ended, and the same with steps placed anew."""
 UNIT = 1.0
 """Unit of the time that a profile takes [s]; its unknown is the logarithm."""
-
-
-@dataclass(frozen=True)
-class Free:
-    """One number that may change: its name, bounds (SI), and whether its unknown is a logarithm."""
-
-    name: str
-    lower: float
-    upper: float
-    reference: float
-
-    @property
-    def logarithmic(self) -> bool:
-        """Whether the unknown is log(value/reference) rather than value/reference."""
-        return self.lower > 0.0
-
-    def to_unknown(self, value: float) -> float:
-        """Unknown of a value."""
-        return float(np.log(value / self.reference)) if self.logarithmic else value / self.reference
-
-    def to_value(self, unknown: Any) -> Any:
-        """Value of an unknown; floats and symbols."""
-        return self.reference * (np.exp(unknown) if self.logarithmic else unknown)
-
-
-@dataclass(frozen=True)
-class FreeCurrent:
-    """The current of one phase, free at the nodes of its pieces, between `lower` and `upper` [A] in size."""
-
-    phase: str
-    row: str
-    pieces: int
-    lower: float
-    upper: float
-    slew: float
-    """How fast it may change [A/s]."""
-
-    @property
-    def nodes(self) -> int:
-        """Count of its currents, over `upper`; one more unknown is the time of its pieces."""
-        return self.pieces + 1
-
-
-class Peak(NamedTuple):
-    """What is highest over a driven phase."""
-
-    row: Path
-    current: FreeCurrent
-
-    @property
-    def scale(self) -> float:
-        """Order of magnitude: kelvins are hundreds, watts and volts tens."""
-        return 100.0 if self.row.unit == "degC" else 10.0
-
-
-@dataclass(frozen=True)
-class Parameters:
-    """The numbers of one run that are no unknowns."""
-
-    inputs: Array
-    weights: Array
-    """Of what is minimised."""
-    factors: Array
-    """Of each bound (a row) on each traded output (a column)."""
-
-
-class Point(NamedTuple):
-    """The problem at one point; derivatives by the unknowns."""
-
-    objective: float
-    gradient: Array
-    rows: Array
-    jacobian: Array
-    values: dict[str, float]
-    """The wanted outputs."""
-    gradients: dict[str, Array]
-    times: dict[str, float]
-    """Time [s] of each event the problem needs."""
 
 
 class Problem:

@@ -21,7 +21,8 @@ from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.objective import Objective
-from tvimdesign.solve.nlp.problem import Free, FreeCurrent, Parameters, Point, Problem
+from tvimdesign.solve.nlp.problem import Problem
+from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Parameters, Point
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, Run, Trace
 from tvimdesign.solve.optimizer.multistart import Multistart
