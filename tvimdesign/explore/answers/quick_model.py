@@ -1,6 +1,6 @@
 """One module evaluated while a hand moves it: the working cycle by the steps of many designs, the rest by the table.
 
-What they step takes a second to record, in a thread beside; until it is there CVODES goes through the cycle, loosely.
+What they step takes a second to record, in a thread beside; until then the simulator goes through the cycle, loosely.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ class QuickModel:
             for drawn in self._maps.values():
                 drawn.record()
         except ValueError:
-            return  # an operation that is not known: CVODES goes on
+            return  # an operation that is not known: the simulator goes on
         self._kernel = kernel
 
 

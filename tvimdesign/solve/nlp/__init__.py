@@ -1,1 +1,1 @@
-"""The optimisation problem written down: unknowns, constraints, objective, collocation, derivatives."""
+"""The optimisation problem written down: free numbers, constraints, objective, and their derivatives."""
