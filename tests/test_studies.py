@@ -16,7 +16,11 @@ from support import RELEASED, ROOT, STUDIES, Command
 
 from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.robot.rigid_bodies import make_bodies
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study import read_study
+from tvimdesign.study.design import read_design
 
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "report.html", "results.csv",
@@ -221,11 +225,15 @@ def test_a_run_is_the_same_run_twice_in_another_process(process: Command, runs: 
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[] if name in QUICK else pytest.mark.slow) for name in RELEASED]
 )
-def test_the_released_parts_are_of_the_design_the_study_gives(runs: Runs, name: str) -> None:
-    released = json.loads((ROOT / f"cad/{name}/design.json").read_text())["values"]
-    now = json.loads((runs[name] / "design.json").read_text())["values"]
-    assert released.keys() == now.keys(), "run `make cad`"
+def test_the_released_parts_are_of_a_design_whose_numbers_hold(name: str) -> None:
+    """Parts are made for a release; a search may have found a better design since."""
+    design = read_design(ROOT / f"cad/{name}/design.json")
+    resolved = resolve_design(design)
+    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
+    now = model.values(model.start, Simulator(model).run(model.start, resolved.current_profiles).values)
     for row, value in now.items():
-        # Gaps that bind are zero to the solver's tolerance; a micrometre is nothing on a part.
-        expected = value if isinstance(value, str) else pytest.approx(value, rel=1e-4, abs=1e-6)  # such as "never"
-        assert released[row] == expected, f"{row}: run `make cad`"
+        # A micrometre is nothing on a part; a simulation is within some thousandths of a kelvin.
+        here = (np.isinf(value) and design.values[row] in ("never", np.inf)) or design.values[row] == pytest.approx(
+            value, rel=1e-3, abs=1e-2 if resolved.table.unit(row) in ("K", "degC") else 1e-6
+        )
+        assert here, f"{row} is {value}, the parts have {design.values[row]}: run `make cad`"
