@@ -74,7 +74,7 @@ def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], flo
     assert choosing.solved + choosing.pruned + choosing.without_design == choosing.combinations
     assert choosing.solved + choosing.pruned >= len(expected)
     assert choosing.without_design >= choosing.combinations - len(expected) - choosing.pruned
-    assert choosing.inside <= 1e-6
+    assert choosing.inside <= SETTLED  # each run places its own steps in time
     assert choosing.between is not None
     assert choosing.between.objective <= choosing.best[0].objective * (1.0 + SETTLED)
 
