@@ -24,7 +24,7 @@ from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
 
 ROUNDS, PREDICTIONS = 4, 5
 """Designs of which modules are drawn, and at most how many between two of them are predicted from the last one's."""
-_SETTLED, _SHORT = 0.05, 0.005
+_SETTLED, _SHORT = 0.02, 0.005
 """Change of a margin, in standard deviations of what it is for, below which it is settled: where the yield is reached,
 and where it is short of that.
 """
