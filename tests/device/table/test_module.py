@@ -45,7 +45,7 @@ def renamed(m: Module) -> Any:
 @pytest.mark.parametrize(
     "function",
     [
-        lambda m: getattr(m, "x"),  # noqa: B009
+        lambda m: getattr(m, "x"),  # noqa: B009 - the call is what is refused
         lambda m: helper(m.x) + max(m, m.x),
         lambda m: max(m) + 1,
         lambda m: [helper for helper in m.x if helper(m)],

@@ -35,7 +35,7 @@ def melting(cells: Array, pads: float) -> Any:
 
     def at(temperature: Any) -> tuple[Any, Any]:
         mean = [0.5 * (one + temperature) for one in (cells, pads)]
-        return tuple(1.0 - 0.1 * np.tanh((one - 330.0) / 15.0) for one in mean)  # type: ignore[return-value]
+        return tuple(1.0 - 0.1 * np.tanh((one - 330.0) / 15.0) for one in mean)  # type: ignore[return-value]  # two places, two shares
 
     return at
 
