@@ -83,11 +83,11 @@ def plain(design: Path, out: Path) -> None:
 
 def files_only(design: Path, out: Path) -> None:
     """Make the files as shipped, without the checks of sizes and interference that the plain row has none of."""
-    from tvimdesign.cad.build.load_kernel import load_kernel
+    from tvimdesign.cad.jobs.load_kernel import load_kernel
 
     load_kernel()  # as the process that makes parts does, before anything else loads it whole
-    from tvimdesign.cad.build import build_plan
-    from tvimdesign.cad.build.main import run
+    from tvimdesign.cad.jobs import build_plan
+    from tvimdesign.cad.jobs.main import run
 
     every = build_plan.build_plan
     build_plan.build_plan = lambda dims: [one for one in every(dims) if not one.name.startswith(CHECKS)]

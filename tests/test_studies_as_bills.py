@@ -12,8 +12,8 @@ from support import STUDIES
 
 from tvimdesign.cad.assembly.bill_of_materials import Item, as_ordered, beside, bill, fixtures
 from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.build.main import _titles
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.study import read_study
 
 PAPER = ("paper_", "calibrated_")

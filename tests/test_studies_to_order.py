@@ -9,7 +9,7 @@ from answers import shipped_answer
 from support import STUDIES
 
 from tvimdesign.study import Study, read_study
-from tvimdesign.study.conditions import Entrant, refuse_unequal
+from tvimdesign.study.conditions import Case, refuse_unequal
 from tvimdesign.study.sections.tolerances import standard_tolerances
 from tvimdesign.study.study import Options
 
@@ -55,7 +55,7 @@ def test_springs_are_set_one_by_one_where_the_tolerances_say_so(path: Path) -> N
 
 @pytest.mark.parametrize("names", PAIRS[:2], ids=lambda names: str(names[0]))
 def test_both_of_a_pair_with_one_heater_may_be_compared(names: tuple[str, str]) -> None:
-    refuse_unequal([Entrant(STUDY_FOLDER / f"{name}.yaml", _of(name)) for name in names])
+    refuse_unequal([Case(STUDY_FOLDER / f"{name}.yaml", _of(name)) for name in names])
     shear, compression = map(_of, names)
     both = (shear.module.keys() & compression.module.keys()) - shear.vary.keys() - compression.vary.keys()
     assert {one: shear.module[one] for one in both} == {one: compression.module[one] for one in both}

@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from tvimdesign.base.interrupts import exit_code, heeding_interrupts, raise_pending
+from tvimdesign.base.interrupts import exit_code, interrupt_handler, raise_pending
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(number: signal.Signals) -> None:
     before = signal.getsignal(number)
-    with heeding_interrupts():
-        with heeding_interrupts(), suppress(KeyboardInterrupt):
+    with interrupt_handler():
+        with interrupt_handler(), suppress(KeyboardInterrupt):
             os.kill(os.getpid(), number)
         with pytest.raises(KeyboardInterrupt):
             raise_pending()
@@ -29,7 +29,7 @@ def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(numbe
 
 def test_a_signal_that_comes_twice_at_once_does_not_disturb_the_cleaning_up() -> None:
     cleaned = False
-    with heeding_interrupts():
+    with interrupt_handler():
         try:
             os.kill(os.getpid(), signal.SIGTERM)
         except KeyboardInterrupt:
@@ -41,7 +41,7 @@ def test_a_signal_that_comes_twice_at_once_does_not_disturb_the_cleaning_up() ->
 def test_a_signal_that_is_ignored_stays_ignored() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with heeding_interrupts():
+        with interrupt_handler():
             os.kill(os.getpid(), signal.SIGHUP)
             raise_pending()
     finally:
@@ -55,7 +55,7 @@ def test_an_interrupt_that_cannot_be_raised_where_it_comes_is_kept_without_a_wor
         def __del__(self) -> None:
             signal.raise_signal(signal.SIGTERM)  # as in a function of SciPy's that cannot hand an exception on
 
-    with heeding_interrupts():
+    with interrupt_handler():
         one = Ends()
         del one
         with pytest.raises(KeyboardInterrupt):
@@ -67,7 +67,7 @@ def test_an_import_is_whole_before_an_interrupt_is_raised(tmp_path: Path, monkey
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "outer_module.py").write_text("import inner_module\nthrough = True\n")
     (tmp_path / "inner_module.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGTERM)\n")
-    with heeding_interrupts(), suppress(KeyboardInterrupt):
+    with interrupt_handler(), suppress(KeyboardInterrupt):
         import_module("outer_module")
         time.sleep(10.0)
         pytest.fail("no interrupt came")
@@ -78,8 +78,8 @@ def test_a_script_that_is_imported_is_interrupted_at_once(tmp_path: Path, monkey
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "imported_script.py").write_text(
         "import os, signal\n"
-        "from tvimdesign.base.interrupts import heeding_interrupts\n"
-        "with heeding_interrupts():\n"
+        "from tvimdesign.base.interrupts import interrupt_handler\n"
+        "with interrupt_handler():\n"
         "    os.kill(os.getpid(), signal.SIGTERM)\n"
         "    raise ValueError('it went on')\n"
     )
@@ -90,7 +90,7 @@ def test_a_script_that_is_imported_is_interrupted_at_once(tmp_path: Path, monkey
 IN_CYTHON = """
 import os, signal, zipfile
 from scipy.stats import qmc
-from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
+from tvimdesign.base.interrupts import interrupt_handler, raise_pending
 usual = zipfile.crc32
 def crc32(*arguments):  # as SciPy reads the numbers of its sequence
     zipfile.crc32 = usual
@@ -98,7 +98,7 @@ def crc32(*arguments):  # as SciPy reads the numbers of its sequence
     return usual(*arguments)
 zipfile.crc32 = crc32
 try:
-    with heeding_interrupts():
+    with interrupt_handler():
         qmc.Sobol(3)
         raise_pending()
         print("it went on")
@@ -114,9 +114,9 @@ def test_an_interrupt_in_what_cython_cannot_raise_is_not_printed() -> None:
 
 IMPORTS = """
 import sys
-from tvimdesign.base.interrupts import heeding_interrupts
+from tvimdesign.base.interrupts import interrupt_handler
 try:
-    with heeding_interrupts():
+    with interrupt_handler():
         print("begins", flush=True)
         import vtk
         import time

@@ -10,38 +10,38 @@ from typing import Any
 
 import pytest
 
+from tvimdesign.base.cache_folder import cache_folder
+from tvimdesign.base.compile_cache import find_code, keep_code
 from tvimdesign.base.file_owner import is_own_folder
-from tvimdesign.base.kept_code import find_code, keep_code
-from tvimdesign.base.kept_folder import kept_folder
 
 
 def test_things_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "here"))
-    assert kept_folder("cad") == tmp_path / "here/cad"
+    assert cache_folder("cad") == tmp_path / "here/cad"
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "file/below"))
-    assert kept_folder("cad") is None
+    assert cache_folder("cad") is None
     monkeypatch.setenv("TVIMDESIGN_CACHE", "")
-    assert kept_folder("cad") is None
+    assert cache_folder("cad") is None
     (tmp_path / "link").symlink_to(tmp_path / "here")
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "link"))
-    assert kept_folder("cad") is None
+    assert cache_folder("cad") is None
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path / "here"))
     (tmp_path / "here/linked").symlink_to(tmp_path / "here/cad")
-    assert kept_folder("linked") is None
+    assert cache_folder("linked") is None
     (tmp_path / "here").chmod(0o777)
     (tmp_path / "here/cad").chmod(0o777)
-    assert kept_folder("cad") == tmp_path / "here/cad"
+    assert cache_folder("cad") == tmp_path / "here/cad"
     assert (tmp_path / "here").stat().st_mode & 0o777 == 0o700
     assert (tmp_path / "here/cad").stat().st_mode & 0o777 == 0o700
     monkeypatch.setattr(os, "getuid", lambda: 12345)
-    assert kept_folder("cad") is None
+    assert cache_folder("cad") is None
     monkeypatch.undo()
     monkeypatch.delenv("TVIMDESIGN_CACHE", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert kept_folder("cad") == tmp_path / "tvimdesign/cad"
+    assert cache_folder("cad") == tmp_path / "tvimdesign/cad"
 
 
 AS_ROOT = pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root gives files away")
@@ -104,16 +104,16 @@ def test_code_under_another_name_is_not_loaded(cache: Path) -> None:
 def test_a_cache_below_a_folder_of_others_is_not_used(tmp_path: Path) -> None:
     for mode, used in ((0o777, False), (0o1777, True), (0o757, False), (0o755, True)):
         tmp_path.chmod(mode)
-        assert (kept_folder("code") is not None) == used
+        assert (cache_folder("code") is not None) == used
     tmp_path.chmod(0o700)
 
 
 @AS_ROOT
 def test_a_cache_below_or_in_a_folder_of_another_user_is_not_used(cache: Path, tmp_path: Path) -> None:
     for folder in (tmp_path, cache, cache / "code"):
-        assert kept_folder("code") == cache / "code"
+        assert cache_folder("code") == cache / "code"
         give_away(folder)
-        assert kept_folder("code") is None
+        assert cache_folder("code") is None
         os.chown(folder, 0, 0)
 
 
@@ -121,7 +121,7 @@ def test_new_folders_of_a_cache_are_private(cache: Path, monkeypatch: pytest.Mon
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(cache / "below"))
     before = os.umask(0)
     try:
-        assert kept_folder("code") == cache / "below/code"
+        assert cache_folder("code") == cache / "below/code"
     finally:
         os.umask(before)
     assert {path.stat().st_mode & 0o777 for path in (cache, cache / "below", cache / "below/code")} == {0o700}

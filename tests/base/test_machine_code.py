@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.base import machine_code
-from tvimdesign.base.kept_code import find_code, keep_code
+from tvimdesign.base.compile_cache import find_code, keep_code
 from tvimdesign.base.machine_code import MachineCode
 
 TEXT = """
@@ -89,7 +89,7 @@ def test_code_runs_where_nothing_can_be_kept(kept: Path, monkeypatch: pytest.Mon
 
 
 def test_of_much_code_what_was_not_used_for_longest_goes(kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tvimdesign.base.kept_code._MOST", 3)
+    monkeypatch.setattr("tvimdesign.base.compile_cache._MOST", 3)
     for number in range(6):
         keep_code(b"code", f"text {number}")
         latest = max(kept.iterdir(), key=lambda path: path.stat().st_mtime)

@@ -6,7 +6,7 @@ import sys
 import psutil
 from support import are_gone, is_at_work
 
-from tvimdesign.base.process_tree import Behind, end_process_tree, give_way, give_way_further
+from tvimdesign.base.process_tree import Niceness, end_process_tree, set_low_priority, set_lower_priority
 
 CHILD = "import time; time.sleep(600)"
 PARENT = f"""
@@ -43,23 +43,23 @@ def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> 
     with subprocess.Popen(
         [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as one:
-        give_way(one.pid)
+        set_low_priority(one.pid)
         said, _ = one.communicate("go on\n")
     assert int(said) > psutil.Process().nice()
-    give_way(one.pid)  # it has ended: nobody is to give way
+    set_low_priority(one.pid)  # it has ended: nobody is to give way
 
 
 def test_who_gives_way_a_little_gives_way_further_and_others_do_not() -> None:
     with subprocess.Popen([sys.executable, "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE) as one:
         held = psutil.Process(one.pid)
-        give_way_further(one.pid)
+        set_lower_priority(one.pid)
         assert held.nice() == psutil.Process().nice()
-        give_way(one.pid, Behind.A_LITTLE)
+        set_low_priority(one.pid, Niceness.LOW)
         little = held.nice()
-        give_way_further(one.pid)
+        set_lower_priority(one.pid)
         assert psutil.Process().nice() < little <= held.nice()
-        give_way(one.pid, Behind.SOME)
+        set_low_priority(one.pid, Niceness.SOME)
         last = held.nice()
-        give_way_further(one.pid)
+        set_lower_priority(one.pid)
         assert held.nice() == last
         one.communicate()

@@ -17,7 +17,7 @@ import trimesh
 from cad_designs import Made
 
 from tvimdesign.base import processor_time
-from tvimdesign.base.child_process import hear
+from tvimdesign.base.child_process import read_lines
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError
 from tvimdesign.cad import CadReport, make_cad
@@ -219,7 +219,7 @@ def test_a_child_that_says_what_it_does_is_given_time_and_one_that_falls_silent_
         child = subprocess.Popen([sys.executable, "-S", "-c", says + more], stdout=subprocess.PIPE, text=True)
         try:
             said: queue.Queue[str | None] = queue.Queue()
-            hear(child, said.put)
+            read_lines(child, said.put)
             heard = _messages(said, ProcessorLimit(child.pid, 2.5))  # eight steps are 3.2 s
             assert [next(heard)["progress"] for _ in range(8)] == list(range(8))
             with pytest.raises(StopIteration if ends else ProcessorTimeError):

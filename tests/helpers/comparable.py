@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tvimdesign.study import read_study
-from tvimdesign.study.conditions import Entrant
+from tvimdesign.study.conditions import Case
 
 _TASK = """require:
   spring_stiffness: ">= 5 N.m/rad"
@@ -70,8 +70,8 @@ def written(folder: Path, **texts: str) -> list[Path]:
     return paths
 
 
-def entrants(folder: Path, *texts: str) -> list[Entrant]:
+def entrants(folder: Path, *texts: str) -> list[Case]:
     """Studies of these texts as the comparison takes them."""
     paths = written(folder, **{f"study_{i}": text for i, text in enumerate(texts)})
     studies = [(path, read_study(path)) for path in paths]
-    return [Entrant(path, study) for path, study in studies]
+    return [Case(path, study) for path, study in studies]

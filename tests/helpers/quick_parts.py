@@ -1,16 +1,16 @@
 """The child process that makes parts, with one set of checks on the solids instead of all: a third of the work.
 
-Run as `tvimdesign.cad.build.main` is. What is left out has tests of its own in `tests/cad/inspection/`.
+Run as `tvimdesign.cad.jobs.main` is. What is left out has tests of its own in `tests/cad/inspection/`.
 """
 
 from __future__ import annotations
 
 import sys
 
-from tvimdesign.cad.build import build_plan as plan
-from tvimdesign.cad.build import main as job
-from tvimdesign.cad.build.worker import Work
 from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.jobs import build_plan as plan
+from tvimdesign.cad.jobs import main as job
+from tvimdesign.cad.jobs.worker import Work
 
 _whole = plan.build_plan
 

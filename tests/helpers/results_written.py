@@ -26,7 +26,7 @@ def killed(out: Path, *words: str) -> None:
     code = (
         "import os, signal, sys; from pathlib import Path\n"
         "from tvimdesign.report.output.results_folder import ResultsFolder\n"
-        "from tvimdesign.base.whole_files import whole_file\n"
+        "from tvimdesign.base.atomic_files import whole_file\n"
         "folder = ResultsFolder(Path(sys.argv[1]), overwrite='overwrite' in sys.argv)\n"
         "folder.write('results.csv', 'of the killed run')\n"
         "folder.write('front/progress/0001.json', '{}')\n"

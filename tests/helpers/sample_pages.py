@@ -13,7 +13,7 @@ import numpy as np
 import trimesh
 from support import ROOT
 
-from tvimdesign.base.whole_files import write_whole
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
@@ -60,7 +60,7 @@ def run_page(folder: Path, *, parts: bool = True, more: Mapping[str, bytes] | No
         if parts:
             write_parts(results.path / "cad")
             for name, data in (more or {}).items():
-                write_whole(results.path / "cad" / name, data)
+                atomic_write(results.path / "cad" / name, data)
         write_run_page(results, answered, Told(warnings=answered.warnings))
         results.finish("evaluated", {}, {})
     return folder / FILE
@@ -71,17 +71,17 @@ def write_parts(cad: Path) -> None:
     for name in ("springs", "views", "step", "print"):
         (cad / name).mkdir(parents=True)
     for name in _BOXES:
-        write_whole(cad / f"step/{name}.step", f"ISO-10303-21; /* {name} */\n".encode())
-    write_whole(cad / "print/housing.3mf", b"PK of the housing")
+        atomic_write(cad / f"step/{name}.step", f"ISO-10303-21; /* {name} */\n".encode())
+    atomic_write(cad / "print/housing.3mf", b"PK of the housing")
     scene = trimesh.Scene()
     for name, (size, middle) in _BOXES.items():
         place = np.eye(4)
         place[:3, 3] = middle
         scene.add_geometry(trimesh.creation.box(size), node_name=name, geom_name=name, transform=_TO_GLTF @ place)
     scene.add_geometry(_wire(), node_name="spring_right_1", geom_name="spring_right", transform=_TO_GLTF)
-    write_whole(cad / "assembly.glb", scene.export(file_type="glb", include_normals=True))
-    write_whole(cad / "assembly.json", json.dumps(_told()).encode())
-    write_whole(cad / "checks.json", json.dumps({"checks": [_check("pass"), _check("warning")]}).encode())
+    atomic_write(cad / "assembly.glb", scene.export(file_type="glb", include_normals=True))
+    atomic_write(cad / "assembly.json", json.dumps(_told()).encode())
+    atomic_write(cad / "checks.json", json.dumps({"checks": [_check("pass"), _check("warning")]}).encode())
     _table(cad / "bom.csv", {
         "item": 1, "part": "housing", "quantity": 1, "made_or_bought": "made", "title": "PETG", "fit": "",
         "mass_each_g": "45.571", "mass_all_g": "45.571", "files": "step/housing.step print/housing.3mf",
@@ -130,4 +130,4 @@ def _table(path: Path, row: dict[str, Any]) -> None:
     writer = csv.DictWriter(text, list(row))
     writer.writeheader()
     writer.writerow(row)
-    write_whole(path, text.getvalue().encode("utf-8-sig"))
+    atomic_write(path, text.getvalue().encode("utf-8-sig"))

@@ -49,9 +49,9 @@ def test_the_design_of_parts_under_way_is_no_temporary_folder(
     tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("tvimdesign.cad.make.PartsProcess", NoProcess)
-    monkeypatch.setattr(parts_of_design, "give_way", lambda *_: None)
+    monkeypatch.setattr(parts_of_design, "set_low_priority", lambda *_: None)
     out = tmp_path / "out/cad"
-    with parts_of_design.PartsAhead() as parts:
+    with parts_of_design.BackgroundPartsJob() as parts:
         parts.begin(whole(design_of("paper", {})), out)
         assert list(out.iterdir()) == [NoProcess.asked]
         assert read_design(NoProcess.asked).mode == "shear"
@@ -70,7 +70,7 @@ def test_what_is_verified_stands_beside_the_results_while_it_is_solved(
         assert list(temporary.iterdir()) == []
         raise SimulationError("the mesh has no end")
 
-    monkeypatch.setattr(verify_design, "hold_ready", lambda _: None)
+    monkeypatch.setattr(verify_design, "require_fe", lambda _: None)
     monkeypatch.setattr(verify_design, "_export", lambda *_: None)
     monkeypatch.setattr(verify_design, "run_solvers", solve)
     out = tmp_path / "out"

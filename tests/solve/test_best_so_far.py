@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from explored import SMALL
 
-from tvimdesign.base.interrupts import heeding_interrupts
+from tvimdesign.base.interrupts import interrupt_handler
 from tvimdesign.report.run.run_study import run_study
 from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import answer
@@ -29,7 +29,7 @@ def _interrupted(study: Study, at: str) -> Study | None:
         if at in text:
             os.kill(os.getpid(), signal.SIGTERM)
 
-    with heeding_interrupts(), pytest.raises(SearchInterrupted) as interrupted:
+    with interrupt_handler(), pytest.raises(SearchInterrupted) as interrupted:
         optimize(study, progress)
     return interrupted.value.best
 

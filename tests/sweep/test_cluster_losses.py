@@ -11,7 +11,7 @@ from small_sweeps import plan
 from tvimdesign.sweep.chunks import CellQueue
 from tvimdesign.sweep.cluster import Cluster
 from tvimdesign.sweep.job import Job
-from tvimdesign.sweep.run_sweep import Spent
+from tvimdesign.sweep.run_sweep import Usage
 from tvimdesign.sweep.shards import ShardWriter
 from tvimdesign.sweep.work import Cell
 
@@ -50,5 +50,5 @@ def test_cells_whose_reason_does_not_come_are_left(job: Job, tmp_path: Path) -> 
     left, cluster = CellQueue(cells, job, 1), Cluster("tcp://127.0.0.1:9", job, tmp_path)
     client: Any = _Scheduler()
     with ShardWriter(tmp_path, job.columns) as shard, cluster._closing(client):
-        cluster._work(client, left, Spent(), shard, lambda _spent: None)
+        cluster._work(client, left, Usage(), shard, lambda _spent: None)
     assert len(left) == len(cells)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from tvimdesign.api import html
 from tvimdesign.api.shown_progress import shown_progress
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.study import Range, read_tree
 from tvimdesign.study import Study as ResolvedStudy
 from tvimdesign.study.template import example_text
@@ -112,7 +112,7 @@ class Study:
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the study as a file; returns its path."""
-        write_whole(Path(path), self.text.encode())
+        atomic_write(Path(path), self.text.encode())
         return Path(path)
 
     # --- changed copies ---

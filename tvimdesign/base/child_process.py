@@ -32,7 +32,7 @@ def start_child(module: str, arguments: Sequence[str] = (), **options: Any) -> s
     return subprocess.Popen(command, env=environment, **options)
 
 
-def hear(process: subprocess.Popen[str], put: Callable[[str | None], object]) -> None:
+def read_lines(process: subprocess.Popen[str], put: Callable[[str | None], object]) -> None:
     """Hand on every line that a child says on standard output, as it comes, from a thread; None once it has ended."""
 
     def listen() -> None:

@@ -21,11 +21,11 @@ _times: dict[int, float] = {}
 _LATER = 0.02
 """Seconds after which a signal that came within an import is sent again."""
 _heeding: list[int] = []
-"""For each of the `heeding_interrupts` that are entered and not yet left, how many imports were under way then."""
+"""For each of the `interrupt_handler` that are entered and not yet left, how many imports were under way then."""
 
 
 @contextmanager
-def heeding_interrupts(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
+def interrupt_handler(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     """Raise every interrupt as KeyboardInterrupt, and keep it for `raise_pending`; only in the main thread.
 
     What an interrupted library raises instead is turned into the interrupt: CasADi says RuntimeError or SystemError.

@@ -10,7 +10,7 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-from tvimdesign.base.kept_code import find_code, keep_code
+from tvimdesign.base.compile_cache import find_code, keep_code
 
 
 def hexadecimal(value: float) -> str:

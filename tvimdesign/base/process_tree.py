@@ -8,10 +8,10 @@ from enum import IntEnum
 import psutil
 
 
-class Behind(IntEnum):
+class Niceness(IntEnum):
     """How far a process gives way, as its niceness: on Linux each step is a fifth less of a processor that two want."""
 
-    A_LITTLE = 5
+    LOW = 5
     SOME = 10
     FAR = 14
 
@@ -35,17 +35,17 @@ def end_process_tree(process: int) -> None:
     _kill(root)
 
 
-def give_way(process: int, behind: Behind = Behind.SOME) -> None:
+def set_low_priority(process: int, behind: Niceness = Niceness.SOME) -> None:
     """Let a process, and those it starts from now on, compute where others leave a processor free."""
     with contextlib.suppress(psutil.Error):  # Windows has classes in place of numbers
         psutil.Process(process).nice(int(getattr(psutil, "BELOW_NORMAL_PRIORITY_CLASS", behind)))
 
 
-def give_way_further(process: int) -> None:
+def set_lower_priority(process: int) -> None:
     """Let a process that gives way a little give way far; others stay as they are."""
     with contextlib.suppress(psutil.Error):
-        if psutil.Process(process).nice() == Behind.A_LITTLE:
-            give_way(process, Behind.FAR)
+        if psutil.Process(process).nice() == Niceness.LOW:
+            set_low_priority(process, Niceness.FAR)
 
 
 def _descendants(root: psutil.Process) -> list[psutil.Process]:

@@ -14,12 +14,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any
 
-from tvimdesign.base.child_process import hear, start_child
+from tvimdesign.base.atomic_files import make_folder
+from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.extras import require_extra
 from tvimdesign.base.process_tree import end_process_tree
 from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError, wait_for
-from tvimdesign.base.whole_files import make_folder
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
 LIMIT = 3600.0
@@ -28,7 +28,7 @@ PART_LIMIT = 600.0
 """Seconds of processor time for one part with its files, or one set of checks; the longest takes about two."""
 HALF_MADE = ".parts.{}."
 """Prefix of the folder in which a process makes parts, where none are kept between runs."""
-JOB = "tvimdesign.cad.build.main"
+JOB = "tvimdesign.cad.jobs.main"
 WAITING = "--wait"
 """First argument of a child that is told on standard input what to make: a line of JSON with design, folder and
 limit of processor time of a part. The second is the mode of the design that will come, or empty."""
@@ -71,7 +71,7 @@ class PartsProcess:
             )  # fmt: skip
             self._stack = stack.pop_all()
         self._said: queue.Queue[str | None] = queue.Queue()
-        hear(self._process, self._said.put)
+        read_lines(self._process, self._said.put)
         self._out: Path | None = None
 
     @property

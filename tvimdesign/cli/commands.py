@@ -93,11 +93,11 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
     """What verifies a run once it is done. Raises InputError now where finite elements cannot be had."""
     import sys
 
-    from tvimdesign.cad.fe.run_solvers import hold_ready
+    from tvimdesign.cad.fe.run_solvers import require_fe
     from tvimdesign.report.run.run_page.verification_section import folder_of_verification
     from tvimdesign.report.verify.verify_design import verify_design
 
-    hold_ready(fe_python or sys.executable)
+    require_fe(fe_python or sys.executable)
     out = folder_of_verification(run)
     return lambda: verify_design(run, out, fe_python, overwrite=overwrite, pictures=True, as_json=False, told=told)
 

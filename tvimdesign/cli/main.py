@@ -13,7 +13,7 @@ import typer
 
 from tvimdesign.base import interrupts
 from tvimdesign.base.errors import FolderWarning, InputError, OutputError, RenamedWarning, TvimError
-from tvimdesign.base.interrupts import heeding_interrupts, ignore_interrupts, raise_pending
+from tvimdesign.base.interrupts import ignore_interrupts, interrupt_handler, raise_pending
 from tvimdesign.base.one_thread import ask_for_one_thread
 from tvimdesign.cli.commands import app
 from tvimdesign.cli.output_streams import drop_what_cannot_be_written, flush_output, speak_plainly
@@ -28,7 +28,7 @@ def main() -> None:
     ask_for_one_thread()  # before numpy is loaded, here and in the processes that a command starts
     gc.set_threshold(200_000, 20, 20)  # a command makes many objects and keeps most: looking for garbage costs 5 %
     atexit.register(ignore_interrupts)
-    with heeding_interrupts():
+    with interrupt_handler():
         code = _guarded(_command)
         drop_what_cannot_be_written()
     gc.freeze()  # or the interpreter looks through all of them once more on its way out, for nothing: 5 %
@@ -36,7 +36,7 @@ def main() -> None:
 
 
 def _command() -> Any:
-    with heeding_interrupts():  # what an interrupted library raises is the interrupt
+    with interrupt_handler():  # what an interrupted library raises is the interrupt
         code = app(standalone_mode=False)
     flush_output()
     return code

@@ -2,6 +2,21 @@
 
 from __future__ import annotations
 
+from tvimdesign.device.components import (
+    axial_preload,
+    bearing,
+    cover,
+    cutout,
+    dowels,
+    drilled_holes,
+    liner,
+    mounting,
+    preload_adjuster,
+    process,
+    screws,
+    sensor_flange,
+    tang,
+)
 from tvimdesign.device.core import clearances, layout, mass_properties, materials, molten, motor_choice, shrinkage
 from tvimdesign.device.core.heat import heater_form, layer_heater, softening, stiffening, thermal_stack, viscous_heating
 from tvimdesign.device.core.impedance import (
@@ -19,21 +34,6 @@ from tvimdesign.device.core.springs import (
     spring_safety,
     stock_spring,
     torsion_springs,
-)
-from tvimdesign.device.fixtures import (
-    axial_preload,
-    bearing,
-    cover,
-    cutout,
-    dowels,
-    drilled_holes,
-    liner,
-    mounting,
-    preload_adjuster,
-    process,
-    screws,
-    sensor_flange,
-    tang,
 )
 from tvimdesign.device.motor import driven_inertia, motor_clearances, motor_layout, motor_mass_properties
 
@@ -62,7 +62,7 @@ ROOMS = (
     process,
     drilled_holes,
 )
-BOOKS = (
+SHARED_GROUPS = (
     materials.quantities,
     process.limits,
     *(room.quantities for room in ROOMS[1:]),

@@ -9,10 +9,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.journal import digest_of, is_as_written
 from tvimdesign.base.units import pretty
-from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.explore.answers.engine import Stage
 from tvimdesign.explore.answers.shown import value_names
 from tvimdesign.explore.answers.solver import Job, Solver
@@ -156,7 +156,7 @@ class Session:
         path = self.folder / file
         if os.path.lexists(path) and not is_as_written(self.folder, file, {self.kept.saved.get(file, "-")}):
             raise InputError(f"save: {path} is there already, and is not what was saved from here; choose another name")
-        write_whole(path, saved_text(self.source.tree, self.kept.state, self.folder).encode())
+        atomic_write(path, saved_text(self.source.tree, self.kept.state, self.folder).encode())
         self.kept.saved[file] = digest_of(path)
         self._written = write_kept(self.folder, self.kept, self._written)
         return {"kind": "saved", "file": file, "path": str(path)}

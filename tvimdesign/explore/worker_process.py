@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 from tvimdesign.base.child_process import start_child
-from tvimdesign.base.process_tree import give_way
+from tvimdesign.base.process_tree import set_low_priority
 
 Told = dict[str, Any]
 _STARTS = 2
@@ -94,10 +94,10 @@ class WorkerProcess(Generic[Job]):
         self._child = start_child(
             self._module, self._arguments,
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8", bufsize=1,
-            process_group=0,  # no session of its own, between which `give_way` has no meaning on Linux
+            process_group=0,  # no session of its own, between which `set_low_priority` has no meaning on Linux
         )  # fmt: skip
         if self._behind:
-            give_way(self._child.pid)
+            set_low_priority(self._child.pid)
         self._thread = threading.Thread(target=self._read, args=(self._child,), daemon=True)
         self._thread.start()
 

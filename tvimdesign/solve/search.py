@@ -97,8 +97,8 @@ def _optimize(
         trees += building.of(families)
         _leave_time(deadline, trees[0].optimizer.seconds["set_up"])
         listed = any(relaxation.sizes.names for relaxation in trees)
-        hopeless = all(relaxation.hopeless() for relaxation in trees)
-        free = _free_runs(trees, 1 if hopeless else None, deadline)
+        start_infeasible = all(relaxation.start_infeasible() for relaxation in trees)
+        free = _free_runs(trees, 1 if start_infeasible else None, deadline)
         in_time = _in_time(study, free, deadline)
         search = BranchAndBound(trees, study.solver.alternatives, helper)
         if helper is not None and in_time is None:
@@ -127,7 +127,7 @@ def _optimize(
             recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
     margined = study.robust is not None and study.robust.share is not None and run is not nominal
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
-    if hopeless and conflict_set is None and not (run.start.converged or deadline.passed):
+    if start_infeasible and conflict_set is None and not (run.start.converged or deadline.passed):
         refuse_infeasible(study, deadline)
     settled = put_at_bounds(relaxation.optimizer, run)
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
@@ -143,7 +143,7 @@ def _optimize(
         out_of_time=whole.seconds if deadline.met else None,
         left_out=tuple(whole.left_out),
     )
-    return replace(solution, status=_status(study, solution, no_combination=listed and search.hopeless))
+    return replace(solution, status=_status(study, solution, no_combination=listed and search.start_infeasible))
 
 
 def _number(runs: Iterable[Run]) -> None:

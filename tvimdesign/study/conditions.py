@@ -30,7 +30,7 @@ _ASKED_OF_THE_LAYOUT = ("stroke",)
 
 
 @dataclass(frozen=True)
-class Entrant:
+class Case:
     """One study that is to be compared."""
 
     path: Path
@@ -57,7 +57,7 @@ class _Condition:
     words: str
 
 
-def refuse_unequal(entrants: Sequence[Entrant]) -> None:
+def refuse_unequal(entrants: Sequence[Case]) -> None:
     """Raise StudyError with everything in which studies differ that must be the same, each with both places."""
     problems = [*_given_twice(entrants), *_evaluated_only(entrants)]
     first, others = entrants[0], entrants[1:]
@@ -68,12 +68,12 @@ def refuse_unequal(entrants: Sequence[Entrant]) -> None:
         raise StudyError(problems)
 
 
-def _problem(of: Entrant, path: str, message: str, expected: str, hint: str = "") -> Mistake:
+def _problem(of: Case, path: str, message: str, expected: str, hint: str = "") -> Mistake:
     at = of.places.at(path)
     return Mistake(of.places.file, at.line, at.column, path, message, expected, hint)
 
 
-def _given_twice(entrants: Sequence[Entrant]) -> Iterator[Mistake]:
+def _given_twice(entrants: Sequence[Case]) -> Iterator[Mistake]:
     seen: set[Path] = set()
     for entrant in entrants:
         real = entrant.path.resolve()
@@ -82,7 +82,7 @@ def _given_twice(entrants: Sequence[Entrant]) -> Iterator[Mistake]:
         seen.add(real)
 
 
-def _evaluated_only(entrants: Sequence[Entrant]) -> Iterator[Mistake]:
+def _evaluated_only(entrants: Sequence[Case]) -> Iterator[Mistake]:
     """Of studies some of which are optimised: those that are not."""
     optimised = [entrant for entrant in entrants if entrant.study.vary]
     for entrant in entrants:
@@ -94,7 +94,7 @@ def _evaluated_only(entrants: Sequence[Entrant]) -> Iterator[Mistake]:
             )  # fmt: skip
 
 
-def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Mistake]:
+def _unequal_conditions(first: Case, other: Case) -> Iterator[Mistake]:
     theirs, mine = ({condition.name: condition for condition in _conditions(one)} for one in (first, other))
     differing = {name for name in theirs.keys() & mine.keys() if not _same(theirs[name].value, mine[name].value)}
     for name in (name for name in mine if name in differing):
@@ -112,7 +112,7 @@ def _unequal_conditions(first: Entrant, other: Entrant) -> Iterator[Mistake]:
                 yield _problem(another, "operating_points", message, "the same operating points in every study")
 
 
-def _conditions(of: Entrant) -> Iterator[_Condition]:
+def _conditions(of: Case) -> Iterator[_Condition]:
     """Everything that must be the same; requirements apart."""
     study = of.study
     for row in of.study.table.quantities:
@@ -183,7 +183,7 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def _unequal_requirements(entrants: Sequence[Entrant], other: Entrant) -> Iterator[Mistake]:
+def _unequal_requirements(entrants: Sequence[Case], other: Case) -> Iterator[Mistake]:
     """Limits of `other` against those of the first study whose mode has the output."""
     reported: set[str] = set()
     for entrant in entrants[: entrants.index(other)]:
@@ -207,12 +207,12 @@ def _unequal_requirements(entrants: Sequence[Entrant], other: Entrant) -> Iterat
 _ALIKE = "the same limits in every study that is compared"
 
 
-def _limits_on(names: Collection[str], of: Entrant) -> dict[tuple[str, str], Requirement]:
+def _limits_on(names: Collection[str], of: Case) -> dict[tuple[str, str], Requirement]:
     """Requirements on the named outputs, by output and sense."""
     return {(r.output, r.sense): r for r in of.study.require if r.output.partition("@")[0] in names}
 
 
-def _limit(of: Entrant, requirement: Requirement) -> str:
+def _limit(of: Case, requirement: Requirement) -> str:
     value = format_quantity(requirement.limit, of.study.table.unit(requirement.output))
     return f"{requirement.output} {requirement.sense} {value}"
 

@@ -9,8 +9,8 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.catalog import Catalog
 from tvimdesign.study.text.mistakes import At, Mistakes
 from tvimdesign.study.text.named_file import ordinary_bytes, printable
@@ -81,7 +81,7 @@ def design_json(design: Design) -> bytes:
 
 def write_design(design: Design, path: Path) -> Path:
     """Write a design as JSON, whole or not at all; returns the path."""
-    write_whole(path, design_json(design))
+    atomic_write(path, design_json(design))
     return path
 
 

@@ -15,7 +15,7 @@ from tvimdesign import __version__
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.base.extras import require_extra
 from tvimdesign.sweep.chunks import CellQueue, ChunkAnswers
-from tvimdesign.sweep.pool import Heard, Spent
+from tvimdesign.sweep.pool import Heard, Usage
 from tvimdesign.sweep.shards import ShardWriter
 from tvimdesign.sweep.work import Cell, CellAnswer, Work
 
@@ -71,12 +71,12 @@ class Cluster:
         self._distributed, self._address, self._gone = distributed, address, gone
         self._job, self._folder = job, folder
 
-    def answer(self, cells: Sequence[Cell], heard: Heard) -> Spent:
+    def answer(self, cells: Sequence[Cell], heard: Heard) -> Usage:
         """Answer every cell; `heard` is told after each chunk.
 
         Raises InputError where no scheduler answers, TvimError where one that did stays away; cells are kept.
         """
-        left, spent = CellQueue(cells, self._job, 1), Spent()
+        left, spent = CellQueue(cells, self._job, 1), Usage()
         with ShardWriter(self._folder, self._job.columns) as shard:
             client = self._connected(CONNECT)
             while len(left):
@@ -112,7 +112,7 @@ class Cluster:
             with suppress(OSError, TimeoutError, self._distributed.CancelledError):
                 client.close()
 
-    def _work(self, client: Client, left: CellQueue, spent: Spent, shard: ShardWriter, heard: Heard) -> None:
+    def _work(self, client: Client, left: CellQueue, spent: Usage, shard: ShardWriter, heard: Heard) -> None:
         """Ask for chunks until all are answered, or the scheduler is gone: what it had is left again then."""
         asked: dict[Any, list[Cell]] = {}
         try:
@@ -124,7 +124,7 @@ class Cluster:
                 left.put_back(chunk)
 
     def _ask_and_take(
-        self, client: Client, asked: dict[Any, list[Cell]], left: CellQueue, into: tuple[Spent, ShardWriter, Heard]
+        self, client: Client, asked: dict[Any, list[Cell]], left: CellQueue, into: tuple[Usage, ShardWriter, Heard]
     ) -> None:
         spent, shard, heard = into
         job, threads, looked = pickle.dumps(self._job), 1, 0.0
@@ -145,7 +145,7 @@ class Cluster:
         time.sleep(LOOK)
         return [future for future in futures if future.status not in {"pending", "processing"}]
 
-    def _take(self, future: Future, chunk: list[Cell], left: CellQueue, into: tuple[Spent, ShardWriter]) -> None:
+    def _take(self, future: Future, chunk: list[Cell], left: CellQueue, into: tuple[Usage, ShardWriter]) -> None:
         """Keep what a chunk came to; one that was lost with its worker or its scheduler is left again."""
         spent, shard = into
         if future.status == "finished":

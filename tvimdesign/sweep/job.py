@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tvimdesign.sweep.plan import SweepPlan
-from tvimdesign.sweep.work import Answers, SweptStudy, found_anywhere
+from tvimdesign.sweep.work import Answers, SweptStudy, with_absolute_paths
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class Job(SweptStudy):
         """The job of a plan."""
         axes = plan.axes
         return cls(
-            found_anywhere(plan.tree), tuple(axis.name for axis in axes), tuple(axis.number for axis in axes),
+            with_absolute_paths(plan.tree), tuple(axis.name for axis in axes), tuple(axis.number for axis in axes),
             plan.columns, plan.task == "evaluate",
         )  # fmt: skip
 

@@ -13,20 +13,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any
 
-from tvimdesign.base.child_process import hear, start_child
+from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import OutputError, TvimError
 from tvimdesign.sweep.chunks import CellQueue
 from tvimdesign.sweep.shards import Shards, ShardWriter
 from tvimdesign.sweep.work import Cell, CellAnswer, Work
 from tvimdesign.sweep.worker import packed
 
-Heard = Callable[["Spent"], None]
+Heard = Callable[["Usage"], None]
 MOST_DEATHS = 2
 """Workers that a cell may take along before it is left as crashed."""
 
 
 @dataclass
-class Spent:
+class Usage:
     """What a sweep has done and spent so far."""
 
     cells: int = 0
@@ -69,13 +69,13 @@ class Pool:
         self._errors: IO[bytes]
         """What all of them write to standard error."""
 
-    def answer(self, cells: Sequence[Cell], heard: Heard) -> Spent:
+    def answer(self, cells: Sequence[Cell], heard: Heard) -> Usage:
         """Answer every cell; `heard` is told after each chunk. Raises OutputError, TvimError for workers that fail."""
         with tempfile.TemporaryFile() as self._errors:
             return self._answer(CellQueue(cells, self._job, self._count), min(self._count, len(cells)), heard)
 
-    def _answer(self, left: CellQueue, processes: int, heard: Heard) -> Spent:
-        spent = Spent()
+    def _answer(self, left: CellQueue, processes: int, heard: Heard) -> Usage:
+        spent = Usage()
         try:
             for _ in range(processes):
                 self._start(left)
@@ -83,7 +83,7 @@ class Pool:
                 number, line = self._said.get()
                 worker = self._workers[number]
                 if line is None:
-                    self._bury(worker, left, spent)
+                    self._handle_dead_worker(worker, left, spent)
                     continue
                 said = json.loads(line)
                 if "error" in said:
@@ -106,7 +106,7 @@ class Pool:
             "tvimdesign.sweep.worker", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True,
             encoding="utf-8",
         )  # fmt: skip
-        hear(process, lambda line: self._said.put((number, line)))
+        read_lines(process, lambda line: self._said.put((number, line)))
         worker = self._workers[number] = _Worker(number, process)
         self._tell(worker, packed(self._job, self._folder))
         self._feed(worker, left)
@@ -127,7 +127,7 @@ class Pool:
             worker.process.stdin.write(f"{line}\n")
             worker.process.stdin.flush()
 
-    def _bury(self, worker: _Worker, left: CellQueue, spent: Spent) -> None:
+    def _handle_dead_worker(self, worker: _Worker, left: CellQueue, spent: Usage) -> None:
         """Take a worker that has ended from the list; where it had cells, another one tries them again, one by one."""
         code = worker.process.wait()
         del self._workers[worker.number]
@@ -154,7 +154,7 @@ class Pool:
         if len(left):
             self._start(left)
 
-    def _refuse_if_none_works(self, spent: Spent, code: int, complaint: str) -> None:
+    def _refuse_if_none_works(self, spent: Usage, code: int, complaint: str) -> None:
         if not spent.cells and spent.died > self._count * MOST_DEATHS:
             raise TvimError(f"no worker process comes to its first cell: the last ended with code {code}: {complaint}")
 

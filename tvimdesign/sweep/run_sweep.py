@@ -12,7 +12,7 @@ from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.keys import CellKeys
 from tvimdesign.sweep.plan import SweepPlan
 from tvimdesign.sweep.points import Texts
-from tvimdesign.sweep.pool import Pool, Spent
+from tvimdesign.sweep.pool import Pool, Usage
 from tvimdesign.sweep.shards import Shards
 from tvimdesign.sweep.work import Cell, Work
 
@@ -62,7 +62,7 @@ class SweepDone:
     computed: int
     missing: int
     """Cells that other parts still have to compute."""
-    spent: Spent = field(default_factory=Spent)
+    spent: Usage = field(default_factory=Usage)
     keys: tuple[str, ...] = ()
     """Every cell's key, in their order; empty where cells are missing."""
 
@@ -92,7 +92,7 @@ def run_cells(
     known, own = Shards(folder, work.columns), range(first - 1, len(keys), parts)
     waiting = {keys[number]: Cell(keys[number], texts(number)) for number in own if keys[number] not in known}
     reused = len(own) - sum(keys[number] in waiting for number in own)
-    spent, there = Spent(), known
+    spent, there = Usage(), known
     if waiting:
         spent = _answered(work, list(waiting.values()), folder, where, say)
         there = Shards(folder, work.columns)
@@ -100,11 +100,11 @@ def run_cells(
     return SweepDone(len(keys), reused, len(own) - reused, missing, spent, () if missing else tuple(keys))
 
 
-def _answered(work: Work, cells: list[Cell], folder: Path, where: Where, say: Say) -> Spent:
-    def heard(spent: Spent) -> None:
+def _answered(work: Work, cells: list[Cell], folder: Path, where: Where, say: Say) -> Usage:
+    def heard(spent: Usage) -> None:
         say(f"cell {min(spent.cells + 1, len(cells))} of {len(cells)}")
 
-    heard(Spent())
+    heard(Usage())
     if where.scheduler:
         from tvimdesign.sweep.cluster import Cluster
 

@@ -72,6 +72,6 @@ class SweptStudy:
     evaluate: bool
 
 
-def found_anywhere(tree: StudyTree) -> StudyTree:
+def with_absolute_paths(tree: StudyTree) -> StudyTree:
     """The tree with its folder's whole path: a worker may have begun in another one."""
     return replace(tree, folder=tree.folder.resolve())

@@ -12,11 +12,11 @@ from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, TILES, design_o
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.bill_of_materials import _titled, beside, bill, bill_csv
-from tvimdesign.cad.build.build_plan import fits
-from tvimdesign.cad.build.main import _titles
 from tvimdesign.cad.drawing.spring_sheet import spring_lines
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.jobs.build_plan import fits
+from tvimdesign.cad.jobs.main import _titles
 
 DESIGNS = [
     pytest.param("shear", BEARINGS, id="bearings"),

@@ -13,8 +13,8 @@ from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, fixtures
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words, thermistor_in_words, thermistors, wires
 from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.build.main import _titles
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.catalog import Catalog
 from tvimdesign.study.design import Design
 

@@ -3,7 +3,7 @@
 from cad_designs import design_of
 
 from tvimdesign.base.record import Record
-from tvimdesign.cad.build.main import _ordered_by, _titles
+from tvimdesign.cad.jobs.main import _ordered_by, _titles
 from tvimdesign.catalog.catalog import Catalog
 
 

@@ -26,9 +26,9 @@ def python_that(tmp_path: Path, does: str) -> str:
 
 def test_a_python_without_ngsolve_is_refused_with_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"tvimdesign\[fe\].*--fe-python"):
-        run_solvers.hold_ready(python_that(tmp_path, "raise SystemExit(1)"))
+        run_solvers.require_fe(python_that(tmp_path, "raise SystemExit(1)"))
     with pytest.raises(InputError, match="there is no such program"):
-        run_solvers.hold_ready(str(tmp_path / "none"))
+        run_solvers.require_fe(str(tmp_path / "none"))
 
 
 def test_what_each_solver_finds_on_both_meshes_is_given_back(tmp_path: Path) -> None:
@@ -53,10 +53,10 @@ def test_a_solver_that_fails_is_named(tmp_path: Path, does: str) -> None:
 SOLVES = """
 import sys
 from pathlib import Path
-from tvimdesign.base.interrupts import heeding_interrupts
+from tvimdesign.base.interrupts import interrupt_handler
 from tvimdesign.cad.fe.run_solvers import run_solvers
 folder = Path(sys.argv[1])
-with heeding_interrupts():
+with interrupt_handler():
     run_solvers(["link", "joint", "spring"], folder, folder, sys.argv[2], lambda _: None)
 """
 AT_WORK = """

@@ -170,7 +170,7 @@ def test_all_figures_can_be_looked_at_before_any_is_written_for_print(
     found: StudyResult, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     written: list[str] = []
-    monkeypatch.setattr(plot_process, "write_whole", lambda path, _data: written.append(path.name))
+    monkeypatch.setattr(plot_process, "atomic_write", lambda path, _data: written.append(path.name))
     asked = [one for one in drawings(found, table_for(found.design.mode)) if one.file in {"mass", "torque"}]
     plot_process._draw(Path(), asked, {"study": "a test", "endings": ["png", "svg"]})
     names = [one.file for one in asked]

@@ -15,9 +15,9 @@ import psutil
 import pytest
 from results_written import finished, killed, texts
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import FolderInUseError
 from tvimdesign.base.journal import RUN, UNFINISHED
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.report.output.claim import FORMAT
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.shared_folder import gatherer, joined
@@ -96,7 +96,7 @@ def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path: Path) -> None:
     with joined(tmp_path) as first, joined(tmp_path) as second:
         assert first == second
         (first / "shards").mkdir()
-        write_whole(first / "shards/00001.jsonl", b"cells")
+        atomic_write(first / "shards/00001.jsonl", b"cells")
         with pytest.raises(FolderInUseError):
             ResultsFolder(tmp_path, overwrite=True)
         with ExitStack() as stack:

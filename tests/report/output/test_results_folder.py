@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from results_written import FILES, finished, killed, texts
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InputError, OutputError
-from tvimdesign.base.interrupts import heeding_interrupts
+from tvimdesign.base.interrupts import interrupt_handler
 from tvimdesign.base.journal import UNFINISHED
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.report.output import results_folder
 from tvimdesign.report.output.claim import FORMAT
 from tvimdesign.report.output.manifest import MANIFEST, read_manifest
@@ -234,7 +234,7 @@ def test_a_run_that_is_killed_as_its_results_are_put_in_place_is_completed(
     folder = ResultsFolder(tmp_path, overwrite=True)
     for name in "ac":
         folder.write(f"{name}.csv", "new")
-    write_whole(folder.path / "b.csv", b"new")
+    atomic_write(folder.path / "b.csv", b"new")
     monkeypatch.setattr(Path, "replace", ended)
     with pytest.raises(SystemExit):
         folder.finish("optimal", {}, {})
@@ -284,7 +284,7 @@ def test_an_interrupt_while_the_manifest_is_made_is_told_in_it(tmp_path: Path, m
 
 
 def test_what_was_made_after_an_interrupt_that_was_swallowed_is_not_told_as_done(tmp_path: Path) -> None:
-    with heeding_interrupts(), suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
+    with interrupt_handler(), suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
         with suppress(KeyboardInterrupt):  # as some library does
             os.kill(os.getpid(), signal.SIGTERM)
         folder.finish("optimal", {}, {})

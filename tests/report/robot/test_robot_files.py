@@ -17,7 +17,7 @@ from cad_designs import design_of, whole
 from support import ROOT, Command
 from urdf_parser_py.urdf import URDF
 
-from tvimdesign.base.whole_files import TABLE_ENCODING
+from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.study.design import write_design
 
 PAGE = ROOT / "docs/how-to/robot.md"

@@ -11,8 +11,8 @@ import pytest
 from small_sweeps import swept
 from support import Command
 
+from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.errors import GeometryError, InputError
-from tvimdesign.base.whole_files import make_folder, write_whole
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.sweep import cell_parts
 from tvimdesign.report.sweep.cell_parts import chosen_cells, make_parts_of_cells
@@ -57,7 +57,7 @@ def test_each_cell_has_the_parts_of_its_own_module(
     def made(design: Path, out: Path, _: Any) -> CadReport:
         seen.append(read_design(design))
         make_folder(out)
-        write_whole(out / "link.step", b"link")
+        atomic_write(out / "link.step", b"link")
         if len(seen) == 2:
             raise GeometryError("link: cannot be drawn")
         return CadReport(out, (), (), {}, (), ())

@@ -25,7 +25,7 @@ def test_what_finite_elements_lack_is_told_before_the_run(tmp_path: Path, tvimde
 def test_the_run_comes_first_and_its_folder_is_verified(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     done: list[Any] = []
     monkeypatch.setattr("tvimdesign.report.run.run_study.run_study", lambda *_, **__: done.append("run"))
-    monkeypatch.setattr("tvimdesign.cad.fe.run_solvers.hold_ready", done.append)
+    monkeypatch.setattr("tvimdesign.cad.fe.run_solvers.require_fe", done.append)
     monkeypatch.setattr(
         "tvimdesign.report.verify.verify_design.verify_design",
         lambda path, out, _, **given: done.append((path, out, given["told"])),

@@ -12,8 +12,8 @@ from tvimdesign.base.child_process import PARENT
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete import second_process
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task
-from tvimdesign.solve.discrete.second_process import TwoProcesses
-from tvimdesign.solve.discrete.sent_trees import Asked
+from tvimdesign.solve.discrete.second_process import ParallelSolver
+from tvimdesign.solve.discrete.sent_trees import ProblemSpec
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, read_study_text
@@ -63,13 +63,13 @@ def _by_two(study: Study, monkeypatch: pytest.MonkeyPatch) -> Choosing:
 @pytest.mark.gate
 def test_two_processes_find_what_one_finds(study: Study, alone: Choosing, monkeypatch: pytest.MonkeyPatch) -> None:
     used: list[Task] = []
-    use = TwoProcesses._used
+    use = ParallelSolver._used
 
-    def counted(self: TwoProcesses, task: Task) -> Answer:
+    def counted(self: ParallelSolver, task: Task) -> Answer:
         used.append(task)
         return use(self, task)
 
-    monkeypatch.setattr(TwoProcesses, "_used", counted)
+    monkeypatch.setattr(ParallelSolver, "_used", counted)
     together = _by_two(study, monkeypatch)
     assert used  # the other process had a share; how large a one depends on the machine
     assert [one.objective for one in together.best] == [one.objective for one in alone.best]
@@ -83,16 +83,16 @@ def test_a_process_that_dies_leaves_its_tasks(
     study: Study, alone: Choosing, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
     rounds: list[int] = []
-    solve, children = TwoProcesses.solve, []
+    solve, children = ParallelSolver.solve, []
 
-    def dying(self: TwoProcesses, tasks: list[Task], ahead: list[Task]) -> list[Answer]:
+    def dying(self: ParallelSolver, tasks: list[Task], ahead: list[Task]) -> list[Answer]:
         rounds.append(len(tasks))
         children.append(self._child)
         if len(rounds) == 2:
             self._child.kill()
         return solve(self, tasks, ahead)
 
-    monkeypatch.setattr(TwoProcesses, "solve", dying)
+    monkeypatch.setattr(ParallelSolver, "solve", dying)
     together = _by_two(study, monkeypatch)
     assert len(rounds) > 2
     assert [one.objective for one in together.best] == [one.objective for one in alone.best]
@@ -103,7 +103,7 @@ def test_none_is_started_in_a_child_of_ours_nor_for_a_few_combinations(
     study: Study, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[Any] = []
-    monkeypatch.setattr(second_process, "TwoProcesses", started.append)
+    monkeypatch.setattr(second_process, "ParallelSolver", started.append)
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     deadline = Deadline(10.0)
     monkeypatch.setenv(PARENT, "1")
@@ -135,8 +135,8 @@ def test_a_task_of_the_other_process_is_not_waited_for_once_the_time_is_over(
             return None, False
 
     monkeypatch.setattr(second_process, "start_child", lambda *_, **__: None)
-    monkeypatch.setattr(TwoProcesses, "_write", lambda *_: None)
-    both: Any = TwoProcesses(Asked("", None, (), 0.0))
+    monkeypatch.setattr(ParallelSolver, "_write", lambda *_: None)
+    both: Any = ParallelSolver(ProblemSpec("", None, (), 0.0))
     both._trees, task = [Tree()], Task(0, ((0, 0),), None, "within")
     both._under_way = task  # and never answered
     assert both.solve([task]) == [Answer(None, certain=False)]

@@ -10,7 +10,7 @@ from contextlib import suppress
 import pytest
 from explored import SMALL
 
-from tvimdesign.base.interrupts import heeding_interrupts, interrupt_came
+from tvimdesign.base.interrupts import interrupt_came, interrupt_handler
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
@@ -42,7 +42,7 @@ def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer
     optimizer.solve()
     seconds = optimizer.seconds["solve"] - before
     signaling = threading.Timer(share * seconds, os.kill, (os.getpid(), signal.SIGTERM))
-    with heeding_interrupts():
+    with interrupt_handler():
         signaling.start()
         with pytest.raises(KeyboardInterrupt):
             _solve_until_interrupted(optimizer)
@@ -52,7 +52,7 @@ def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optim
     study = optimizer.study
     simulator = Simulator(DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells))
     screen = FeasibilityScreen(optimizer)
-    with heeding_interrupts():
+    with interrupt_handler():
         _swallowed()
         with pytest.raises(KeyboardInterrupt):
             optimizer.solve()

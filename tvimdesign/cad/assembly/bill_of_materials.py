@@ -10,15 +10,15 @@ from dataclasses import dataclass, replace
 
 import cadquery as cq
 
+from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import ZERO_CELSIUS
-from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.heater_leads import pad_count, thermistor_in_words, up, wire_in_words
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, kind_of
 from tvimdesign.cad.geometry.production import PRODUCTION
 from tvimdesign.cad.parts import casting_jig
-from tvimdesign.device.fixtures.tang import BONDED
+from tvimdesign.device.components.tang import BONDED
 from tvimdesign.study.design import Design
 
 _PEAKS = (("peak_voltage", "stiffening_peak_voltage"), ("peak_current", "stiffening_peak_current"))

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, pi, radians, sin, tan
 
 from tvimdesign import __version__
+from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.units import ZERO_CELSIUS
-from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio
 from tvimdesign.cad.drawing.sheet_number import issue_fields, sheet_number
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
-from tvimdesign.device.fixtures.tang import BONDED
+from tvimdesign.device.components.tang import BONDED
 from tvimdesign.study.design import Design, catalog_of
 
 _N_MM = 1e3

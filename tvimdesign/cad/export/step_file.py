@@ -32,8 +32,8 @@ from OCP.XCAFDoc import (
     XCAFDoc_Volume,
 )
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.export.part21 import in_fixed_order, plain_text
 from tvimdesign.cad.geometry.kinds import Rgb
 
@@ -98,7 +98,7 @@ class _Document:
             beside = Path(folder) / path.name
             if writer.Write(str(beside)) != IFSelect_ReturnStatus.IFSelect_RetDone:
                 raise GeometryError(f"{name}: the CAD kernel could not write {path}")
-            write_whole(path, plain_text(in_fixed_order(beside.read_text("utf-8"))))
+            atomic_write(path, plain_text(in_fixed_order(beside.read_text("utf-8"))))
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ class Solved:
     """Surface and its stress: `points`, `triangles`, `values`, `ways`."""
 
 
-def hold_ready(python: str) -> None:
+def require_fe(python: str) -> None:
     """Raise InputError where an interpreter has no netgen and ngsolve, with what to do."""
     if shutil.which(python) is None:
         raise InputError(f"--fe-python {python}: there is no such program; name a Python that has ngsolve")

@@ -11,7 +11,7 @@ from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import blind_hole, block, cylinder, join, polar
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.cad.parts.common_parts import hand_of, scale_dot
-from tvimdesign.device.fixtures.preload_adjuster import FIRST_DOT, LAST_DOT
+from tvimdesign.device.components.preload_adjuster import FIRST_DOT, LAST_DOT
 
 
 def adjuster(dims: Dimensions) -> cq.Shape:

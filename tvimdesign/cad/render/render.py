@@ -26,7 +26,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
-from tvimdesign.base.whole_files import write_whole
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.cad.export.mesh import Array, Mesh
 from tvimdesign.cad.geometry.kinds import KINDS, Rgb
 
@@ -57,7 +57,7 @@ def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer
     stream = BytesIO()
     # VTK's own writer takes many times as long for a file that is no smaller.
     Image.fromarray(np.ascontiguousarray(points[::-1])).save(stream, format="png", compress_level=_COMPRESSION)
-    write_whole(path, stream.getvalue())
+    atomic_write(path, stream.getvalue())
     for renderer in shown:
         window.RemoveRenderer(renderer)
 

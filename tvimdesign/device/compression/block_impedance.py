@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.components.bearing import with_bearings
+from tvimdesign.device.components.dowels import LINK_PARTS
+from tvimdesign.device.components.liner import traction_with_liner
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
-from tvimdesign.device.fixtures.bearing import with_bearings
-from tvimdesign.device.fixtures.dowels import LINK_PARTS
-from tvimdesign.device.fixtures.liner import traction_with_liner
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

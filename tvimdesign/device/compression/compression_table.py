@@ -19,7 +19,7 @@ from tvimdesign.device.compression import (
     vane_stiffness,
     vane_tiles,
 )
-from tvimdesign.device.shared import BOOKS
+from tvimdesign.device.shared import SHARED_GROUPS
 from tvimdesign.device.table.phases import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
@@ -38,4 +38,4 @@ ROOMS = (
     tile_load,
 )
 GROUPS = (*vane_tiles.groups, *vane_liners.groups, *block_shrinkage.groups, *thermistor_place.groups)
-TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "compression"), PHASES)
+TABLE = Table(gather([*SHARED_GROUPS, *(room.quantities for room in ROOMS), *GROUPS], "compression"), PHASES)

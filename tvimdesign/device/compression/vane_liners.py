@@ -6,10 +6,10 @@ squeezes to its sides is free, so the compliance told is the highest.
 
 from __future__ import annotations
 
+from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.impedance.joint_impedance import quantities as impedance
 from tvimdesign.device.core.mass_properties import quantities as bodies
-from tvimdesign.device.fixtures.liner import WITH_LINER
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

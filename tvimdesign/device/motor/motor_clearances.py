@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.components.bearing import BEARINGS, load_per_torque
 from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.impedance.creep_under_hold import quantities as hold
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
-from tvimdesign.device.fixtures.bearing import BEARINGS, load_per_torque
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup

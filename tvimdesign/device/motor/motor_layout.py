@@ -22,9 +22,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.components.drilled_holes import runout
 from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
-from tvimdesign.device.fixtures.drilled_holes import runout
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from tvimdesign.device.components.bearing import BEARINGS, density_as_a_ring, inner_ring
+from tvimdesign.device.components.fastening import screw_moments
+from tvimdesign.device.components.sensor_flange import pattern_holes
 from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
-from tvimdesign.device.fixtures.bearing import BEARINGS, density_as_a_ring, inner_ring
-from tvimdesign.device.fixtures.fastening import screw_moments
-from tvimdesign.device.fixtures.sensor_flange import pattern_holes
 from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar

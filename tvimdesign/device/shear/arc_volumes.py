@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import pi
 
+from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.mass_properties import quantities as shared
-from tvimdesign.device.fixtures.liner import WITH_LINER
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup

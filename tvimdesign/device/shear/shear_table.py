@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.shared import BOOKS
+from tvimdesign.device.shared import SHARED_GROUPS
 from tvimdesign.device.shear import (
     arc_clearances,
     arc_laps,
@@ -39,4 +39,4 @@ GROUPS = (
     *tiles.groups, *pad_pockets.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups,
     *melt_lip.groups,
 )  # fmt: skip
-TABLE = Table(gather([*BOOKS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)
+TABLE = Table(gather([*SHARED_GROUPS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)

@@ -16,7 +16,7 @@ from typing import Any, TextIO
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.interrupts import heeding_interrupts, interrupt_came, raise_pending
+from tvimdesign.base.interrupts import interrupt_came, interrupt_handler, raise_pending
 from tvimdesign.explore.answers.engine import Answer, Engine, refused
 from tvimdesign.explore.answers.report_fragment import design_name, report_fragment
 from tvimdesign.explore.states.source import open_source
@@ -58,7 +58,7 @@ def _done(engine: Engine, job: dict[str, Any], folder: Path, answers: TextIO) ->
         _say(answers, {"number": job["number"], "progress": text})
 
     try:
-        with heeding_interrupts((signal.SIGINT,)):
+        with interrupt_handler((signal.SIGINT,)):
             try:
                 found = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
                 told = _told(found, folder)

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.journal import digest_of, free_name, is_as_written
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.explore.states.state import Pinned, State
 
 FILE = "explore.json"
@@ -114,5 +114,5 @@ def write_kept(folder: Path, kept: Kept, before: str) -> str:
     path = folder / FILE
     if os.path.lexists(path) and not is_as_written(folder, FILE, {before}):
         path.rename(free_name(path))
-    write_whole(path, kept.model_dump_json(indent=1).encode() + b"\n")
+    atomic_write(path, kept.model_dump_json(indent=1).encode() + b"\n")
     return digest_of(path)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tvimdesign.base.child_process import hear, start_child
+from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import TvimError
 from tvimdesign.report.output.progress import Progress
 
@@ -99,7 +99,7 @@ def _start(
             "tvimdesign.report.compare.comparison_job", [*paths[:2], str(how[0]), json.dumps(list(how[1])), *paths[2:]],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
         )  # fmt: skip
-    hear(process, lambda line: said.put((one.label, line)))
+    read_lines(process, lambda line: said.put((one.label, line)))
     return _Child(one.label, process, out, errors, time.perf_counter())
 
 

@@ -25,7 +25,7 @@ from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.check_study import refuse_what_cannot_be
 from tvimdesign.study import read_tree
-from tvimdesign.study.conditions import Entrant, refuse_unequal
+from tvimdesign.study.conditions import Case, refuse_unequal
 from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.named_file import printable
@@ -86,7 +86,7 @@ def _say(reported: dict[str, Any], out: Path, troubles: Sequence[str], *, as_jso
         wide_console().print(f"\nResults are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
 
 
-def labelled(entrants: Sequence[Entrant]) -> dict[str, Entrant]:
+def labelled(entrants: Sequence[Case]) -> dict[str, Case]:
     """Studies by what they are called: their modes where these differ, else their files' names, else their paths."""
     for names in (
         [entrant.study.mode for entrant in entrants],
@@ -98,7 +98,7 @@ def labelled(entrants: Sequence[Entrant]) -> dict[str, Entrant]:
     return dict(zip(names, entrants, strict=True))
 
 
-def _read(paths: Sequence[Path], settings: Sequence[str]) -> list[Entrant]:
+def _read(paths: Sequence[Path], settings: Sequence[str]) -> list[Case]:
     """All studies, read and found comparable. Raises StudyError with everything that is wrong with any of them."""
     if len(paths) < 2:
         raise InputError("compare takes two studies or more; `tvimdesign run` answers one")
@@ -114,7 +114,7 @@ def _read(paths: Sequence[Path], settings: Sequence[str]) -> list[Entrant]:
             shown = printable(path)
             problems.append(Mistake(shown, 0, 0, "", str(error).removeprefix(f"{shown}: ").removeprefix(f"{shown} ")))
         else:
-            found.append(Entrant(path, study))
+            found.append(Case(path, study))
     if problems:
         raise StudyError(problems)
     refuse_unequal(found)

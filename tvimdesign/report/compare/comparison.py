@@ -11,10 +11,10 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.compare.comparison_table import Row, common_rows, lone_values, plain
-from tvimdesign.report.compare.sentence import Contest, against, ahead, conditions, held_back, standing, wins
+from tvimdesign.report.compare.sentence import ParetoComparison, against, ahead, conditions, held_back, standing, wins
 from tvimdesign.report.output.number_format import head
 from tvimdesign.solve.pareto.front_leads import leads
-from tvimdesign.study.conditions import Entrant
+from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
 
 COMPARISONS = {"drawn": "as drawn", "optimised": "each optimised for itself"}
@@ -24,7 +24,7 @@ _SAID_FIRST = ("envelope_diameter", "module_mass", "cycle_time", "response_time"
 class Outcome:
     """All studies' answers under their labels; the first study is what the others are held against."""
 
-    def __init__(self, entrants: Mapping[str, Entrant], found: Mapping[str, dict[str, Any]]) -> None:
+    def __init__(self, entrants: Mapping[str, Case], found: Mapping[str, dict[str, Any]]) -> None:
         """`found` holds what each child process wrote."""
         self.entrants, self.found = dict(entrants), dict(found)
         self.tables = {label: entrant.study.table for label, entrant in entrants.items()}
@@ -78,7 +78,7 @@ class Outcome:
         return next(table.unit(name) for table in self.tables.values() if name.partition("@")[0] in table.by_name)
 
     @cached_property
-    def contests(self) -> list[Contest]:
+    def contests(self) -> list[ParetoComparison]:
         """Who leads where: each pair of outputs with a limit on either of them."""
         found = []
         for (first, second), fronts in self.fronts.items():
@@ -89,7 +89,7 @@ class Outcome:
             ):
                 led = tuple(leads(curves))
                 if led and len(fronts) > 1:
-                    found.append(Contest(gained, limited, self.unit(gained), self.unit(limited), led))
+                    found.append(ParetoComparison(gained, limited, self.unit(gained), self.unit(limited), led))
         return found
 
     def fronts_plain(self) -> dict[str, Any]:

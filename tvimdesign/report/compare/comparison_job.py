@@ -18,10 +18,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, TvimError
 from tvimdesign.base.units import from_si
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.device import Table
 from tvimdesign.report.output.tables import check_row
 from tvimdesign.report.output.thresholds import soft_in_words
@@ -200,7 +200,7 @@ def main(arguments: list[str]) -> int:
     found = ComparisonJob(
         tree_of_file(path, settings), int(points), lambda: [tree_of_file(other, settings) for other in others], say
     ).run()
-    write_whole(Path(out), json.dumps(found).encode())
+    atomic_write(Path(out), json.dumps(found).encode())
     return 0
 
 

@@ -11,7 +11,7 @@ from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.report.compare.comparison_table import Row
 from tvimdesign.report.output.tables import number
 from tvimdesign.solve.pareto.front_leads import Lead
-from tvimdesign.study.conditions import Entrant
+from tvimdesign.study.conditions import Case
 
 _TIMES_FROM = 1.5
 """Ratio from which on people say `times` and not `%`."""
@@ -23,7 +23,7 @@ _WORDS = {
 
 
 @dataclass(frozen=True)
-class Contest:
+class ParetoComparison:
     """Two outputs that every study trades: who leads in `gained`, by limits on `limited`."""
 
     gained: str
@@ -45,7 +45,7 @@ class Contest:
         }  # fmt: skip
 
 
-def conditions(entrants: Mapping[str, Entrant]) -> list[str]:
+def conditions(entrants: Mapping[str, Case]) -> list[str]:
     """What holds for every study, in words: requirements all share, temperatures, current, materials, surroundings."""
     first = next(iter(entrants.values()))
     study, table, values = first.study, first.study.table, first.values
@@ -97,7 +97,7 @@ def _listed(words: Sequence[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
-def standing(contest: Contest) -> str:
+def standing(contest: ParetoComparison) -> str:
     """Who leads where, in one sentence."""
     word = _WORDS.get(pretty(contest.gained_unit), ("better", ""))[0]
     parts = []
@@ -122,7 +122,7 @@ def _span(lead: Lead) -> str:
     return f"{least} %" if least == most else f"{least} to {most} %"
 
 
-def wins(label: str, contests: Sequence[Contest]) -> str:
+def wins(label: str, contests: Sequence[ParetoComparison]) -> str:
     """For which requirements a study wins, from the fronts."""
     every = [(contest, lead) for contest in contests for lead in contest.leads]
     mine = [(contest, lead) for contest, lead in every if lead.best == label]

@@ -21,11 +21,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, NamedTuple
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import Behind, end_process_tree, give_way
+from tvimdesign.base.process_tree import Niceness, end_process_tree, set_low_priority
 from tvimdesign.base.processor_time import ProcessorTimeError, communicate
-from tvimdesign.base.whole_files import write_whole
 
 PROCESSOR_LIMIT = 600.0
 """Seconds of processor time for all plots of a command; they take about five."""
@@ -49,7 +49,7 @@ class PlotProcess:
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
         if gives_way:
-            give_way(self._child.pid, Behind.FAR)
+            set_low_priority(self._child.pid, Niceness.FAR)
 
     def __enter__(self) -> PlotProcess:
         """Return itself."""
@@ -130,11 +130,11 @@ def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) ->
         file, _, function = drawing.figure.partition(".")
         figure = getattr(import_module(f"tvimdesign.report.figures.{file}"), function)(drawing.data)
         sign(figure, request["study"])
-        write_whole(folder / f"{drawing.file}.{first}", as_file(figure, first))
+        atomic_write(folder / f"{drawing.file}.{first}", as_file(figure, first))
         figures[drawing.file] = figure
     for name, figure in figures.items():
         for ending in others:
-            write_whole(folder / f"{name}.{ending}", as_file(figure, ending))
+            atomic_write(folder / f"{name}.{ending}", as_file(figure, ending))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.status import Status
 
-from tvimdesign.base.interrupts import heeding_interrupts, raise_pending
+from tvimdesign.base.interrupts import interrupt_handler, raise_pending
 from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.remaining_time import RemainingTime, clock
 
@@ -42,7 +42,7 @@ def progress_output() -> Iterator[Progress]:
         raise_pending()
         shown.say(text)
 
-    with heeding_interrupts():
+    with interrupt_handler():
         try:
             yield say
         finally:

@@ -15,10 +15,10 @@ from types import TracebackType
 from typing import Any
 
 from tvimdesign import __version__
+from tvimdesign.base.atomic_files import TABLE_ENCODING, atomic_write, make_folder
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.base.journal import ANY, UNFINISHED, digest_of, is_as_written, recorded
-from tvimdesign.base.whole_files import TABLE_ENCODING, make_folder, write_whole
 from tvimdesign.report.output.claim import FORMAT, RUNNING, Claim, is_run
 from tvimdesign.report.output.manifest import MANIFEST, Manifest, manifest_text, read_manifest
 from tvimdesign.report.output.replace_results import (
@@ -151,7 +151,7 @@ class ResultsFolder:
         """Write one file of a run that was interrupted. Raises OutputError."""
         path = self.path / name
         make_folder(path.parent)
-        write_whole(
+        atomic_write(
             path, data.encode(TABLE_ENCODING if path.suffix == ".csv" else "utf-8") if isinstance(data, str) else data
         )
         return path
@@ -269,9 +269,9 @@ def rewrite(folder: Path, name: str, data: bytes) -> bool:
     manifest = read_manifest(folder)
     if not is_as_written(folder, name, {manifest.files.get(name, "-")}):
         return False
-    write_whole(folder / name, data)
+    atomic_write(folder / name, data)
     files = {**manifest.files, name: digest_of(folder / name)}
-    write_whole(folder / MANIFEST, manifest_text({**manifest.content, "files": files}).encode())
+    atomic_write(folder / MANIFEST, manifest_text({**manifest.content, "files": files}).encode())
     return True
 
 

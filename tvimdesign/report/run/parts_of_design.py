@@ -6,9 +6,9 @@ import json
 from contextlib import ExitStack
 from pathlib import Path
 
-from tvimdesign.base.errors import GeometryError
-from tvimdesign.base.process_tree import Behind, give_way
-from tvimdesign.base.whole_files import make_folder, write_whole
+from tvimdesign.base.atomic_files import atomic_write, make_folder
+from tvimdesign.base.process_tree import Niceness, set_low_priority
+from tvimdesign.base.process_tree import set_low_priority
 from tvimdesign.cad.cad_report import CadReport
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts
@@ -20,12 +20,12 @@ _ASKED = ".design.json.part"
 
 def make_parts_of(design: Path, out: Path, progress: Progress) -> CadReport:
     """Make the parts of a design.json beside their checks.json. Raises GeometryError where they cannot be made."""
-    with PartsAhead() as parts:
+    with BackgroundPartsJob() as parts:
         parts.begin_with(design, out)
         return parts.finish(progress)
 
 
-class PartsAhead:
+class BackgroundPartsJob:
     """Parts made while a run goes on: the CAD kernel is loaded as the solver works, and begins with the answer."""
 
     def __init__(self, mode: str = "", *, gives_way: bool = True) -> None:
@@ -38,10 +38,10 @@ class PartsAhead:
         self._stack = ExitStack()
         self._process = self._stack.enter_context(PartsProcess(mode=mode))
         if gives_way:
-            give_way(self._process.process, Behind.A_LITTLE)
+            set_low_priority(self._process.process, Niceness.LOW)
         self._out = Path()
 
-    def __enter__(self) -> PartsAhead:
+    def __enter__(self) -> BackgroundPartsJob:
         """Return itself."""
         return self
 
@@ -72,7 +72,7 @@ class PartsAhead:
             report = self._process.finish(lambda text: progress(f"parts: {text}"))
         finally:
             self.stop()
-        write_whole(self._out / "checks.json", (json.dumps(plain_report(report), indent=2) + "\n").encode())
+        atomic_write(self._out / "checks.json", (json.dumps(plain_report(report), indent=2) + "\n").encode())
         progress("")
         return report
 

@@ -26,7 +26,7 @@ def refuse_unfit(study: Study, progress: Callable[[str], None] = lambda _: None)
 
 
 @contextmanager
-def leaving_the_reason(
+def write_failure(
     folder: ResultsFolder, tree: StudyTree, study: Study, progress: Progress, *, as_json: bool
 ) -> Iterator[None]:
     """Where a study is found to have no design, write why, and the study, before the error goes on."""

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from tvimdesign.report.output.results_format import Parts
     from tvimdesign.report.run.answered_study import AnsweredStudy
     from tvimdesign.report.run.first_screen.run_screen import RunScreen
-    from tvimdesign.report.run.parts_of_design import PartsAhead
+    from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
     from tvimdesign.solve.result import Designed
     from tvimdesign.study.design import Design
 
@@ -54,7 +54,7 @@ def run_study(
         from tvimdesign.report.run.answered_study import answer_study, drawings
         from tvimdesign.report.run.first_screen.run_screen import RunScreen
         from tvimdesign.report.run.keep_best import keeping_best
-        from tvimdesign.report.run.refusal import leaving_the_reason
+        from tvimdesign.report.run.refusal import write_failure
         from tvimdesign.report.run.run_page.run_page import write_run_page
         from tvimdesign.report.run.write_answer import finish, write_answer, write_results
         from tvimdesign.solve.search import optimize
@@ -62,7 +62,7 @@ def run_study(
         best = stack.enter_context(keeping_best(folder))
         progress = stack.enter_context(progress_output())
         screen = stack.enter_context(RunScreen(study))
-        with leaving_the_reason(folder, tree, study, progress, as_json=as_json):
+        with write_failure(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
                 tree,
                 progress,
@@ -99,10 +99,10 @@ def run_study(
     _end_as(answered)
 
 
-def _parts_ahead(mode: str) -> PartsAhead:
-    from tvimdesign.report.run.parts_of_design import PartsAhead
+def _parts_ahead(mode: str) -> BackgroundPartsJob:
+    from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
 
-    return PartsAhead(mode)
+    return BackgroundPartsJob(mode)
 
 
 def _plots_ahead() -> PlotProcess:
@@ -111,7 +111,7 @@ def _plots_ahead() -> PlotProcess:
     return PlotProcess(gives_way=True)
 
 
-def _asked_of_design(making: PartsAhead | None, folder: ResultsFolder, screen: RunScreen) -> Designed:
+def _asked_of_design(making: BackgroundPartsJob | None, folder: ResultsFolder, screen: RunScreen) -> Designed:
     """What is asked of a design as soon as it is there: its parts, where they are made, and how sure it is."""
 
     def asked(design: Design) -> None:
@@ -171,7 +171,7 @@ def _say_last(
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
     """Make the parts of a design.json, or of a study, which is answered first."""
-    from tvimdesign.report.run.parts_of_design import PartsAhead
+    from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
 
     if source.suffix != ".json":
         run_study(source, out, overwrite=overwrite, cad=True, plots=False, as_json=as_json)
@@ -180,7 +180,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     failures: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
         kept = write_design(design, folder.path / "design.json")
-        alone = PartsAhead(design.mode, gives_way=False)
+        alone = BackgroundPartsJob(design.mode, gives_way=False)
         with progress_output() as progress, noting(failures), alone as making:
             making.begin_with(kept, folder.path)
             report = _parts(making, progress, as_json, in_full=True)
@@ -193,7 +193,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
         raise done_in_part(failures)
 
 
-def _parts(making: PartsAhead, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
+def _parts(making: BackgroundPartsJob, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
     """Wait for the parts and print what was found. Raises GeometryError where a check fails."""
     from tvimdesign.report.run.first_screen.layout import block
     from tvimdesign.report.run.first_screen.run_screen import show

@@ -31,7 +31,7 @@ from tvimdesign.report.tolerate.tolerance_tables import (
     output_rows,
     reported,
 )
-from tvimdesign.report.tolerate.unknown import unknown_data, unknown_rows, unknown_sentences, what_nobody_knows
+from tvimdesign.report.tolerate.unknown import epistemic_uncertainty, unknown_data, unknown_rows, unknown_sentences
 from tvimdesign.report.tolerate.words import sentences
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import power_of_two
@@ -78,7 +78,7 @@ def tolerate_study(
         table, study = subject.resolved.table, subject.resolved.study
         data = reported(found, preload, table, study, count)
         progress("moving what nobody has measured")
-        unknown = what_nobody_knows(subject.resolved, found, threads)
+        unknown = epistemic_uncertainty(subject.resolved, found, threads)
         data["not_known"] = unknown_data(unknown, table)
         data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
         data["sentences"] = [*sentences(found, preload, table), *unknown_sentences(unknown, found)]

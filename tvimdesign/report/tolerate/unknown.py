@@ -19,7 +19,7 @@ _FEWEST = 4
 """Modules drawn for a yield that is not told here: the analysis has its own."""
 
 
-def what_nobody_knows(resolved: ResolvedModule, found: Spread, workers: int) -> DesignUncertainty:
+def epistemic_uncertainty(resolved: ResolvedModule, found: Spread, workers: int) -> DesignUncertainty:
     """Intervals of what is asked of a module, and how far its limits hold, parts as drawn."""
     return UncertaintyModel(resolved, found.asked).at(resolved, _FEWEST, workers=workers)
 

@@ -14,7 +14,7 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
-from tvimdesign.cad.fe.run_solvers import Solved, hold_ready, run_solvers
+from tvimdesign.cad.fe.run_solvers import Solved, require_fe, run_solvers
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
@@ -45,7 +45,7 @@ def verify_design(
     source = path / "design.json" if path.is_dir() else path
     design = read_design(source)
     python = fe_python or sys.executable
-    hold_ready(python)
+    require_fe(python)
     module = resolve_design(design)
     refuse_other_parts(module)
     with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
@@ -118,7 +118,7 @@ def _verified(
 
 
 def _export(design: Design, folder: Path) -> None:
-    from tvimdesign.cad.build.load_kernel import load_kernel
+    from tvimdesign.cad.jobs.load_kernel import load_kernel
 
     load_kernel()
     from tvimdesign.cad.fe.exported_parts import export_parts

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.base.units import from_si
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.measure_files import Measured
 from tvimdesign.study import Catalog
@@ -70,7 +70,7 @@ def write_records(
             raise InputError(f"{path}: there is such a record already; --overwrite replaces it")
         earlier[path] = path.read_bytes() if path.exists() else None
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, text.encode())
+        atomic_write(path, text.encode())
         try:
             Catalog(folder).record(category, name)
         except CatalogError as error:
@@ -104,7 +104,7 @@ def _put_back(earlier: Mapping[Path, bytes | None]) -> None:
         if text is None:
             path.unlink(missing_ok=True)
         else:
-            write_whole(path, text)
+            atomic_write(path, text)
 
 
 def _nothing(measured: Measured) -> str:

@@ -118,7 +118,7 @@ class BranchAndBound:
         return self.trees[0].optimizer.deadline.passed
 
     @property
-    def hopeless(self) -> bool:
+    def start_infeasible(self) -> bool:
         """Whether no combination has a design, as far as searches from all optima see."""
         return not (self.found or self.unknown or self.stopped)
 

@@ -63,7 +63,7 @@ class Relaxation:
     def _screen(self) -> FeasibilityScreen:
         return FeasibilityScreen(self.optimizer)
 
-    def hopeless(self) -> bool:
+    def start_infeasible(self) -> bool:
         """Whether a search from the study's own start comes to no design that keeps the arithmetic limits."""
         return self._screen.impossible({}, [self.optimizer.model.start])
 

@@ -1,8 +1,8 @@
 """A second process that answers tasks of a search, with the same problems built from the same study.
 
 Run as `python -m tvimdesign.solve.discrete.second_process`: reads pickles on standard input and writes them on standard
-output, to the process that started it alone. `TwoProcesses` is the other end. As no answer depends on who gives it, two
-processes find what one finds.
+output, to the process that started it alone. `ParallelSolver` is the other end. As no answer depends on who gives it,
+two processes find what one finds.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task, answer
 from tvimdesign.solve.discrete.discrete_choices import Box
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.discrete.sent_trees import Asked, Begun
+from tvimdesign.solve.discrete.sent_trees import ProblemSpec, SearchState
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.study import Study
 
@@ -42,14 +42,14 @@ class _Heard(NamedTuple):
     work: SolverEffort
 
 
-class TwoProcesses:
+class ParallelSolver:
     """The process, and this one: each answers the next task, the other one those ahead where none is left.
 
     What the other one has answered is used where it is asked, so that the search goes the way that it goes alone. One
     that has died leaves this one to answer all.
     """
 
-    def __init__(self, asked: Asked) -> None:
+    def __init__(self, asked: ProblemSpec) -> None:
         """Start it, and let it build its problems."""
         self._trees: Sequence[Relaxation] = ()
         self._alive = True
@@ -67,7 +67,7 @@ class TwoProcesses:
         )  # fmt: skip
         self._write(asked)
 
-    def __enter__(self) -> TwoProcesses:
+    def __enter__(self) -> ParallelSolver:
         """Return itself."""
         return self
 
@@ -82,7 +82,7 @@ class TwoProcesses:
     def begin(self, trees: Sequence[Relaxation]) -> None:
         """Say what the starts came to; tasks are of these trees from now on."""
         self._trees = trees
-        self._write(Begun.of(trees))
+        self._write(SearchState.of(trees))
         threading.Thread(target=self._hand_on, daemon=True).start()
 
     def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
@@ -159,11 +159,11 @@ def second_process(
     objectives: Sequence[str],
     deadline: Deadline,
     combinations: int,
-) -> contextlib.AbstractContextManager[TwoProcesses | None]:
+) -> contextlib.AbstractContextManager[ParallelSolver | None]:
     """A second process where it is worth one; not in a child of ours, as that shares the processors with others."""
     if combinations < WORTH or (os.cpu_count() or 1) < 2 or PARENT in os.environ:
         return contextlib.nullcontext()
-    return TwoProcesses(Asked(study.model_dump_json(), reference, list(objectives), deadline.remaining))
+    return ParallelSolver(ProblemSpec(study.model_dump_json(), reference, list(objectives), deadline.remaining))
 
 
 def main() -> None:
@@ -172,7 +172,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     heard, told = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not stand among the answers
-    asked: Asked = pickle.load(heard)
+    asked: ProblemSpec = pickle.load(heard)
     trees = asked.built()
     for tree, begun in zip(trees, pickle.load(heard), strict=True):
         begun.take(tree)

@@ -14,7 +14,7 @@ from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.study import Study
 
 
-class Asked(NamedTuple):
+class ProblemSpec(NamedTuple):
     """What the problems are built from."""
 
     study: str
@@ -32,7 +32,7 @@ class Asked(NamedTuple):
         return Trees(study, self.reference, lambda _: None, self.objectives, deadline, sizes).of(families)
 
 
-class Begun(NamedTuple):
+class SearchState(NamedTuple):
     """What the starts of one tree came to."""
 
     sizes: Sizes
@@ -41,7 +41,7 @@ class Begun(NamedTuple):
     found_in_boxes: bool
 
     @classmethod
-    def of(cls, trees: Sequence[Relaxation]) -> list[Begun]:
+    def of(cls, trees: Sequence[Relaxation]) -> list[SearchState]:
         """That of each tree."""
         return [cls(tree.sizes, tree.optima, tree.ends, tree.found_in_boxes) for tree in trees]
 

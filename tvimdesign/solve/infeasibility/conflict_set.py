@@ -16,7 +16,7 @@ from typing import Literal
 import numpy as np
 
 from tvimdesign.base.units import format_quantity
-from tvimdesign.solve.infeasibility.elastic_mode import AT_PEACE, ElasticMode, Settled
+from tvimdesign.solve.infeasibility.elastic_mode import FEASIBILITY_TOL, ElasticMode, ElasticSolution
 from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
 from tvimdesign.solve.nlp.solver_run import Array, Progress, Run
@@ -88,10 +88,10 @@ def _weights(elastic: ElasticMode) -> Array:
     return np.array([1.0 if limit.origin == "require" else _HEAVY for limit in elastic.limits])
 
 
-def _least_violation(elastic: ElasticMode, failed: Sequence[Run]) -> Settled | None:
+def _least_violation(elastic: ElasticMode, failed: Sequence[Run]) -> ElasticSolution | None:
     """The least sum of slacks from where the starts ended, else from where they began."""
     weights = _weights(elastic)
-    found: list[Settled] = []
+    found: list[ElasticSolution] = []
     for run in failed[:_MOST_STARTS]:
         settled = elastic.settle(weights, run.inputs, run.unknowns)
         if not settled.converged:
@@ -110,23 +110,23 @@ def _begin(optimizer: Optimizer, run: Run) -> Array:
     return inputs
 
 
-def _conflicting(elastic: ElasticMode, least: Settled) -> tuple[list[int], Array]:
+def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int], Array]:
     """An irreducible set of limits that cannot be kept together, and what the ends of ranges have to do with it."""
     limits, weights = elastic.limits, np.ones(elastic.count)
 
-    def kept_apart(within: Collection[int]) -> Settled | None:
+    def kept_apart(within: Collection[int]) -> ElasticSolution | None:
         """The settlement where the limits cannot all be kept; None where they can, or it is not known."""
         settled = elastic.settle(weights, least.run.inputs, least.run.unknowns, within)
         return None if settled.conflict_search or not settled.converged else settled
 
-    candidates = [int(k) for k in np.flatnonzero((least.pressing > _FAINT) | (least.slacks > AT_PEACE))]
+    candidates = [int(k) for k in np.flatnonzero((least.pressing > _FAINT) | (least.slacks > FEASIBILITY_TOL))]
     settled = kept_apart(candidates)
     if settled is None:
         candidates, settled = list(range(elastic.count)), least
     else:
         candidates = [k for k in candidates if settled.pressing[k] > _FAINT]
     # The machine's rules leave first, and the study's requirements last: those are what a user can move.
-    for k in sorted(candidates, key=lambda one: (limits[one].origin == "require", least.slacks[one] > AT_PEACE)):
+    for k in sorted(candidates, key=lambda one: (limits[one].origin == "require", least.slacks[one] > FEASIBILITY_TOL)):
         fewer = [one for one in candidates if one != k]
         without = kept_apart(fewer) if fewer else None
         if without is not None:
@@ -134,9 +134,11 @@ def _conflicting(elastic: ElasticMode, least: Settled) -> tuple[list[int], Array
     return candidates, settled.ends
 
 
-def _told(elastic: ElasticMode, least: Settled, members: Sequence[int], ends: Array, progress: Progress) -> ConflictSet:
+def _told(
+    elastic: ElasticMode, least: ElasticSolution, members: Sequence[int], ends: Array, progress: Progress
+) -> ConflictSet:
     optimizer, limits = elastic.optimizer, elastic.limits
-    broken = [int(k) for k in np.flatnonzero(least.slacks > AT_PEACE)]
+    broken = [int(k) for k in np.flatnonzero(least.slacks > FEASIBILITY_TOL)]
     sides = []
     for k in members:
         progress(f"how far {limits[k].name} must move")
@@ -153,14 +155,14 @@ def _told(elastic: ElasticMode, least: Settled, members: Sequence[int], ends: Ar
     )
 
 
-def _alone(elastic: ElasticMode, least: Settled, member: int) -> tuple[float | None, list[int]]:
+def _alone(elastic: ElasticMode, least: ElasticSolution, member: int) -> tuple[float | None, list[int]]:
     """How far one limit must move, in its scale, for all others to hold; else which others do not, none if unknown."""
     weights = np.full(elastic.count, _HEAVY)
     weights[member] = 1.0
     settled = elastic.settle(weights, least.run.inputs, least.run.unknowns)
     if not settled.converged:
         return None, []
-    others = [int(k) for k in np.flatnonzero(settled.slacks > AT_PEACE) if k != member]
+    others = [int(k) for k in np.flatnonzero(settled.slacks > FEASIBILITY_TOL) if k != member]
     return (None, others) if others else (float(settled.slacks[member]), [])
 
 

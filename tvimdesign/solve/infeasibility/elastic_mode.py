@@ -25,14 +25,14 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 TRACE = 1e-4
 """Weight of the study's own objective beside the slacks."""
-AT_PEACE = 1e-5
+FEASIBILITY_TOL = 1e-5
 """Slack, as a share of a limit's scale, below which it counts as none."""
 _ROOM = 1e-2
 """What slacks begin with beyond what the first point needs."""
 
 
 @dataclass(frozen=True)
-class Settled:
+class ElasticSolution:
     """What one run of the elastic problem came to."""
 
     run: Run
@@ -52,7 +52,7 @@ class Settled:
     @property
     def conflict_search(self) -> bool:
         """Whether all limits that counted can be kept."""
-        return self.converged and bool(np.max(self.slacks, initial=0.0) <= AT_PEACE)
+        return self.converged and bool(np.max(self.slacks, initial=0.0) <= FEASIBILITY_TOL)
 
 
 class ElasticMode:
@@ -70,7 +70,7 @@ class ElasticMode:
 
     def settle(
         self, weights: Array, begin: Array, unknowns: Array | None = None, within: Collection[int] = ()
-    ) -> Settled:
+    ) -> ElasticSolution:
         """Run it from inputs, or from another run's unknowns; `within` are the limits that count, all unless given."""
         optimizer, problem = self.optimizer, self.optimizer.problem
         clock = time.perf_counter()
@@ -103,7 +103,7 @@ class ElasticMode:
         problem = self.optimizer.problem
         return solver_of(problem.unknown_count + self.count, problem.row_count, self.optimizer.study.solver)
 
-    def _settled(self, answer: dict[str, Any], begin: Array, parameters: Parameters, seconds: float) -> Settled:
+    def _settled(self, answer: dict[str, Any], begin: Array, parameters: Parameters, seconds: float) -> ElasticSolution:
         problem = self.optimizer.problem
         size, found = problem.unknown_count, np.asarray(answer["x"]).ravel()
         first, last = self.equations, self.equations + len(self._slack_of)
@@ -112,7 +112,7 @@ class ElasticMode:
         ends = np.asarray(answer["lam_x"]).ravel()[: len(self.optimizer.free)]
         bare = {"x": found[:size], "f": answer["f"], "lam_g": np.zeros(problem.row_count), "lam_x": np.zeros(size)}
         run = self.optimizer.record(bare, self._solver.stats(), begin, seconds, parameters)
-        return Settled(run, np.maximum(found[size:], 0.0), pressing, ends)
+        return ElasticSolution(run, np.maximum(found[size:], 0.0), pressing, ends)
 
 
 class _Elastic:

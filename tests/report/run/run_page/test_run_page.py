@@ -14,7 +14,7 @@ import pytest
 import sample_pages
 from support import ROOT, Command
 
-from tvimdesign.base.whole_files import write_whole
+from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.page.blocks import Facts, Grid
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
@@ -69,7 +69,7 @@ def test_the_first_screen_says_what_the_terminal_says(tvimdesign: Command, tmp_p
 def test_a_page_costs_a_run_less_than_a_second(answered: AnsweredStudy, tmp_path: Path) -> None:
     with ResultsFolder(tmp_path / "run") as results:
         sample_pages.write_parts(results.path / "cad")
-        write_whole(results.path / "cad/print/housing.3mf", np.random.default_rng(1).bytes(4_000_000))
+        atomic_write(results.path / "cad/print/housing.3mf", np.random.default_rng(1).bytes(4_000_000))
         began = time.process_time()
         write_run_page(results, answered, Told(warnings=answered.warnings))
         assert time.process_time() - began < 1.0

@@ -16,10 +16,10 @@ from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from tvimdesign.base.atomic_files import whole_file
 from tvimdesign.base.command_group import CommandGroup
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.processor_time import ProcessorTimeError
-from tvimdesign.base.whole_files import whole_file
 from tvimdesign.report.robot.fmu.fmu_variables import Variable, fmu_variables
 from tvimdesign.report.robot.fmu.joint_equations import JointEquations, joint_equations, listed, sizes
 from tvimdesign.report.robot.fmu.model_description import IDENTIFIER, model_description

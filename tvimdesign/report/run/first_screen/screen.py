@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tvimdesign.device import Table
-from tvimdesign.report.run.first_screen.held_back import held_back_lines, margin_lines, yield_lines
+from tvimdesign.report.run.first_screen.active_constraints import active_constraint_lines, margin_lines, yield_lines
 from tvimdesign.report.run.first_screen.measured import measured_lines
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
 from tvimdesign.report.run.first_screen.requirements import Line, lines_of, screen_lines
@@ -56,7 +56,7 @@ def first_screen(answer: StudyResult, table: Table, told: Told, width: int) -> l
         top += chosen_lines(answer, table, width) + current_lines(answer, table, width)
         top += trade_lines(told.front, table, width)
         top += measured_lines(told.uncertainty, width)
-        top += margin_lines(answer, table, width) + held_back_lines(answer, width)
+        top += margin_lines(answer, table, width) + active_constraint_lines(answer, width)
     bottom = []
     if told.uncertainty or not told.left_out:
         bottom = yield_lines(answer, told.uncertainty, width, timed=told.seconds is not None)

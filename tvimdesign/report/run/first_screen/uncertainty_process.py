@@ -22,7 +22,7 @@ from typing import Any
 from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import Behind, end_process_tree, give_way
+from tvimdesign.base.process_tree import Niceness, end_process_tree, set_low_priority
 from tvimdesign.base.processor_time import CHECK_EVERY, ProcessorLimit, ProcessorTimeError
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
@@ -42,7 +42,7 @@ class UncertaintyProcess:
             "tvimdesign.report.run.first_screen.uncertainty_process",
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
         )  # fmt: skip
-        give_way(self._child.pid, Behind.A_LITTLE)  # to the solver
+        set_low_priority(self._child.pid, Niceness.LOW)  # to the solver
         self._lines: SimpleQueue[str] = SimpleQueue()
         self._lines.put(study.model_dump_json() + "\n")
         self._writing = threading.Thread(target=self._write, daemon=True)

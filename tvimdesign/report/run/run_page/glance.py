@@ -8,7 +8,7 @@ from tvimdesign.page.blocks import Block, Facts, Folded, Grid, Points, Section, 
 from tvimdesign.report.output.page_sections import grid, grid_of
 from tvimdesign.report.output.tables import headline_rows, point_rows, variable_rows
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.first_screen.held_back import held_back_lines, margin_lines, yield_lines
+from tvimdesign.report.run.first_screen.active_constraints import active_constraint_lines, margin_lines, yield_lines
 from tvimdesign.report.run.first_screen.layout import LABEL
 from tvimdesign.report.run.first_screen.measured import measured_lines
 from tvimdesign.report.run.first_screen.qualifications import qualification_lines
@@ -44,7 +44,7 @@ def glance(answered: AnsweredStudy, told: Told) -> list[Block]:
         *trade_lines(told.front, table, _WIDE),
         *measured_lines(told_of, _WIDE),
         *margin_lines(answer, table, _WIDE),
-        *held_back_lines(answer, _WIDE),
+        *active_constraint_lines(answer, _WIDE),
         *(yield_lines(answer, told_of, _WIDE, timed=False) if told_of else ()),
     ]
     found = facts_of(lines)

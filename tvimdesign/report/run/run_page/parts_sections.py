@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import pretty
-from tvimdesign.base.whole_files import TABLE_ENCODING
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
 from tvimdesign.report.output.page_sections import grid

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tvimdesign.simulation.measurement.fitting.identifiability import correlation, in_words
 from tvimdesign.simulation.measurement.fitting.intervals import Spread, moved_by, profile_end, spread
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Problem
 from tvimdesign.simulation.measurement.fitting.residuals import Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import RobustFit, robust_fit
-from tvimdesign.simulation.measurement.fitting.told_apart import correlation, in_words
 
 _UNKNOWN = float(np.log(1e6))
 """Half the width of a logarithm's interval from which on the data say nothing of what follows."""

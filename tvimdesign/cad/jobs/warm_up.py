@@ -5,10 +5,10 @@ from __future__ import annotations
 from importlib import import_module
 
 from tvimdesign.cad.assembly import assembly_note
-from tvimdesign.cad.build.cache import code_digest
 from tvimdesign.cad.drawing import drawing_requirements, iso_286
 from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
 from tvimdesign.cad.inspection import ray_code
+from tvimdesign.cad.jobs.cache import code_digest
 from tvimdesign.device import table_for
 
 _PICTURES = ("preview", "exploded", "section")

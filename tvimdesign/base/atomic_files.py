@@ -15,7 +15,7 @@ TABLE_ENCODING = "utf-8-sig"
 """Of a CSV file: with a byte order mark, without which Excel shows N·m as NÂ·m. Readers name it, too."""
 
 
-def write_whole(path: Path, data: bytes) -> None:
+def atomic_write(path: Path, data: bytes) -> None:
     """Write beside, flush to disk, rename: a reader never sees half a file. Raises OutputError."""
     with whole_file(path) as beside:
         beside.write_bytes(data)

@@ -1,4 +1,4 @@
-"""The child process that makes the rigid bodies: `python -m tvimdesign.cad.build.bodies.main DESIGN OUT SECONDS`."""
+"""The child process that makes the rigid bodies: `python -m tvimdesign.cad.jobs.bodies.main DESIGN OUT SECONDS`."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TextIO
 
-from tvimdesign.base.whole_files import write_whole
-from tvimdesign.cad.build import main as build_main
+from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.cad.jobs import main as build_main
 from tvimdesign.study.design import Design, read_design
 
 BODIES = "bodies.json"
@@ -32,9 +32,9 @@ def run(design_path: Path, out: Path, _part_limit: float, lines: TextIO) -> None
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
     from tvimdesign.cad.assembly.assembly import drawn_parts, place
-    from tvimdesign.cad.build.bodies.body_meshes import body_stl, coarse_meshes
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.inspection.size_checks import size_checks
+    from tvimdesign.cad.jobs.bodies.body_meshes import body_stl, coarse_meshes
 
     dims = dimensions(design)
     drawn = drawn_parts(dims, lambda part: say(progress=part))
@@ -44,8 +44,8 @@ def run(design_path: Path, out: Path, _part_limit: float, lines: TextIO) -> None
     meshes, bodies = coarse_meshes(dims, drawn), names_of_bodies(placed)
     (out / MESHES).mkdir(exist_ok=True)
     for body, names in bodies.items():
-        write_whole(out / MESHES / f"{body}.stl", body_stl(meshes, placed, names))
-    write_whole(out / BODIES, (json.dumps(_weighed(design, placed, bodies), indent=2) + "\n").encode())
+        atomic_write(out / MESHES / f"{body}.stl", body_stl(meshes, placed, names))
+    atomic_write(out / BODIES, (json.dumps(_weighed(design, placed, bodies), indent=2) + "\n").encode())
     files = [BODIES, *(f"{MESHES}/{body}.stl" for body in bodies)]
     say(checks=checks, files=files, notes=[], reused=[], seconds=time.perf_counter() - started)
 
@@ -60,8 +60,8 @@ def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
 
 def _weighed(design: Design, placed: Mapping[str, Any], bodies: Mapping[str, list[str]]) -> dict[str, Any]:
     """Mass properties of each body as plain data."""
-    from tvimdesign.cad.build.bodies.mass_properties import of_solid, together
     from tvimdesign.cad.geometry.kinds import KINDS, kind_of
+    from tvimdesign.cad.jobs.bodies.mass_properties import of_solid, together
 
     return {
         body: together(of_solid(placed[name], design.value(KINDS[kind_of(name)].density)) for name in names).plain()

@@ -14,7 +14,7 @@ from tvimdesign.solve.result import StudyResult
 _NAMED = 3
 
 
-def held_back_lines(answer: StudyResult, width: int) -> list[str]:
+def active_constraint_lines(answer: StudyResult, width: int) -> list[str]:
     """Three lines at most; what a share is of stands where there is place for it."""
     held = binding(answer)[:_NAMED]
     if not held:

@@ -8,9 +8,9 @@ import psutil
 import pytest
 from cad_designs import design_of
 
-from tvimdesign.cad.build.build_plan import PICTURES, build_plan
-from tvimdesign.cad.build.worker import Turn
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.jobs.build_plan import PICTURES, build_plan
+from tvimdesign.cad.jobs.worker import Turn
 from tvimdesign.cad.make import PartsProcess
 
 

@@ -20,12 +20,12 @@ from support import ROOT, are_gone, is_at_work
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import make_cad
-from tvimdesign.cad.build.build_plan import build_plan
-from tvimdesign.cad.build.cache import Cache, Result
-from tvimdesign.cad.build.read_tracking import TrackedDesign
-from tvimdesign.cad.build.worker import Done, Job, Turn, Work, WorkerPool
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.jobs.build_plan import build_plan
+from tvimdesign.cad.jobs.cache import Cache, Result
+from tvimdesign.cad.jobs.read_tracking import TrackedDesign
+from tvimdesign.cad.jobs.worker import Done, Job, Turn, Work, WorkerPool
 from tvimdesign.study.design import Design, write_design
 
 Run = Callable[..., Done]
@@ -201,7 +201,7 @@ def test_a_damaged_result_is_told(tmp_path: Path) -> None:
 
 def test_other_code_makes_all_kept_results_void(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     run(PLATE)
-    monkeypatch.setattr("tvimdesign.cad.build.cache.code_digest", lambda: "other")
+    monkeypatch.setattr("tvimdesign.cad.jobs.cache.code_digest", lambda: "other")
     assert run(PLATE).reused == []
 
 
@@ -263,9 +263,9 @@ from types import SimpleNamespace
 
 from cad_designs import design_of
 from tvimdesign.base import child_process
-from tvimdesign.cad.build import worker
-from tvimdesign.cad.build.cache import Cache, Result
-from tvimdesign.cad.build.read_tracking import TrackedDesign
+from tvimdesign.cad.jobs import worker
+from tvimdesign.cad.jobs.cache import Cache, Result
+from tvimdesign.cad.jobs.read_tracking import TrackedDesign
 
 child_process.sys = worker.sys = SimpleNamespace(platform="darwin")
 
@@ -302,14 +302,14 @@ def of_elsewhere(folder: Path, monkeypatch: pytest.MonkeyPatch) -> WorkerPool:
     """The pool of a system that is no Linux, with one child."""
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     with monkeypatch.context() as patched:
-        patched.setattr("tvimdesign.cad.build.worker.sys.platform", "darwin")
+        patched.setattr("tvimdesign.cad.jobs.worker.sys.platform", "darwin")
         pool = WorkerPool(subject, Cache(folder / "kept"), lambda _: None, hands=1)
     assert pool._context.get_start_method() == "spawn"
     return pool
 
 
 def test_the_oldest_results_go_when_there_are_many(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tvimdesign.cad.build.cache._MOST", 2)
+    monkeypatch.setattr("tvimdesign.cad.jobs.cache._MOST", 2)
     for thickness in (4.0e-3, 4.1e-3, 4.2e-3):
         run(PLATE, link_thickness=thickness)
     assert len(list((tmp_path / "kept/plate").iterdir())) == 2
@@ -330,7 +330,7 @@ def test_a_thicker_layer_leaves_the_pins_as_they_were(run: Run) -> None:
 STUCK = """
 import sys
 import time
-from tvimdesign.cad.build import main as job
+from tvimdesign.cad.jobs import main as job
 from tvimdesign.cad.parts import shear_parts
 
 def stuck(dims):

@@ -19,21 +19,21 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.cache_folder import FOLDER_VARIABLE, cache_folder
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
-from tvimdesign.base.kept_folder import FOLDER_VARIABLE, kept_folder
 from tvimdesign.base.record import Record
-from tvimdesign.base.whole_files import write_whole
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
-from tvimdesign.cad.build.load_kernel import load_kernel
+from tvimdesign.cad.jobs.load_kernel import load_kernel
 from tvimdesign.cad.make import HALF_MADE, WAITING
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
 
 if TYPE_CHECKING:
-    from tvimdesign.cad.build.cache import Result
+    from tvimdesign.cad.jobs.cache import Result
 
-_NEEDED = "tvimdesign.cad.build.build_plan"
+_NEEDED = "tvimdesign.cad.jobs.build_plan"
 """What loads the CAD kernel, and all that draws with it."""
 
 _KEPT = "cad"
@@ -51,15 +51,15 @@ def run(design_path: Path, out: Path, part_limit: float, lines: TextIO) -> None:
     design = read_design(design_path)
     say(progress="loading the CAD kernel")
     load_kernel()
-    from tvimdesign.cad.build.build_plan import PICTURES, build_plan
-    from tvimdesign.cad.build.cache import Cache
-    from tvimdesign.cad.build.read_tracking import TrackedDesign
-    from tvimdesign.cad.build.worker import WorkerPool
     from tvimdesign.cad.geometry.dimensions import dimensions
+    from tvimdesign.cad.jobs.build_plan import PICTURES, build_plan
+    from tvimdesign.cad.jobs.cache import Cache
+    from tvimdesign.cad.jobs.read_tracking import TrackedDesign
+    from tvimdesign.cad.jobs.worker import WorkerPool
 
     with ExitStack() as stack:
         prefix = HALF_MADE.format(os.getpid())
-        own = kept_folder(_KEPT) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
+        own = cache_folder(_KEPT) or stack.enter_context(tempfile.TemporaryDirectory(dir=out, prefix=prefix))
         store = Cache(Path(own))
         workshop = WorkerPool(
             TrackedDesign(design, _titles(design)), store, lambda step: say(progress=step), part_limit,
@@ -82,7 +82,7 @@ def run(design_path: Path, out: Path, part_limit: float, lines: TextIO) -> None:
 def _not_kept() -> list[str]:
     """A word where the user names a folder for kept results that cannot be one."""
     named = os.environ.get(FOLDER_VARIABLE)
-    if not named or kept_folder(_KEPT) is not None:
+    if not named or cache_folder(_KEPT) is not None:
         return []
     return [f"nothing is kept for the next run: {named} ({FOLDER_VARIABLE}) is no folder that only you can change"]
 
@@ -115,7 +115,7 @@ def _hand_out(result: Result, out: Path) -> None:
     """Copy a result into the user's folder, each file whole: the first are there long before the last."""
     for name in result.out:
         (out / name).parent.mkdir(parents=True, exist_ok=True)
-        write_whole(out / name, (result.folder / "out" / name).read_bytes())
+        atomic_write(out / name, (result.folder / "out" / name).read_bytes())
 
 
 def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] = run) -> int:
@@ -131,7 +131,7 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] 
     try:
         if arguments[0] == WAITING:
             load_kernel()
-            from tvimdesign.cad.build.warm_up import warm_up
+            from tvimdesign.cad.jobs.warm_up import warm_up
 
             import_module(_NEEDED)
             warm_up(arguments[1])

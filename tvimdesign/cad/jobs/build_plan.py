@@ -19,7 +19,6 @@ from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
-from tvimdesign.cad.build.worker import Job, Turn, Work
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet
@@ -35,6 +34,7 @@ from tvimdesign.cad.geometry.tight_box import tight_box
 from tvimdesign.cad.inspection.casting import casting_checks
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
+from tvimdesign.cad.jobs.worker import Job, Turn, Work
 from tvimdesign.cad.parts import casting_jig, dowel_parts
 from tvimdesign.study.design import Design
 

@@ -11,10 +11,10 @@ import hashlib
 import os
 from pathlib import Path
 
+from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.cache_folder import cache_folder
 from tvimdesign.base.errors import OutputError
 from tvimdesign.base.file_owner import read_own_file
-from tvimdesign.base.kept_folder import kept_folder
-from tvimdesign.base.whole_files import write_whole
 
 _KIND = "code"
 _MOST = 300
@@ -24,7 +24,7 @@ _DIGEST = hashlib.sha256().digest_size
 
 def find_code(*compiled: str) -> bytes | None:
     """What was kept of a text and its compiler, or what else it is of; None where there is none that is whole."""
-    folder = kept_folder(_KIND)
+    folder = cache_folder(_KIND)
     if folder is None:
         return None
     path = folder / _name(compiled)
@@ -39,12 +39,12 @@ def find_code(*compiled: str) -> bytes | None:
 
 def keep_code(code: bytes, *compiled: str) -> None:
     """Keep what was made for the next run, where there is a place for it; nothing is lost where there is none."""
-    folder = kept_folder(_KIND)
+    folder = cache_folder(_KIND)
     if folder is None:
         return
     name = _name(compiled)
     with contextlib.suppress(OutputError):
-        write_whole(folder / name, _seal(name, code) + code)
+        atomic_write(folder / name, _seal(name, code) + code)
         _tidy(folder)
 
 

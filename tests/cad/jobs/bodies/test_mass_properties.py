@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from tvimdesign.cad.build.bodies.mass_properties import of_solid, together
 from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.jobs.bodies.mass_properties import of_solid, together
 
 DENSITY = 1270.0
 

@@ -11,7 +11,7 @@ FOLDER_VARIABLE = "TVIMDESIGN_CACHE"
 """Environment variable that names the folder of all that is kept; empty keeps nothing from one run to the next."""
 
 
-def kept_folder(kind: str) -> Path | None:
+def cache_folder(kind: str) -> Path | None:
     """Return the user's cache folder of a kind; None where there shall be none, or others could change it.
 
     The folder is made private. What others put there before is still in it: read it with `read_own_file`.

@@ -23,8 +23,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.file_owner import is_own_folder, read_own_file
-from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.jobs.read_tracking import Reads, TrackedDesign
 
 _MOST = 16
 """Results of one piece of work that are kept; the one not used for the longest goes first."""

@@ -25,12 +25,12 @@ from typing import Any
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import give_way_further
+from tvimdesign.base.process_tree import set_lower_priority
 from tvimdesign.base.processor_time import CHECK_EVERY, LIMIT, ProcessorLimit, ProcessorTimeError
-from tvimdesign.cad.build.cache import Cache, Result
-from tvimdesign.cad.build.read_tracking import Reads, TrackedDesign
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.jobs.cache import Cache, Result
+from tvimdesign.cad.jobs.read_tracking import Reads, TrackedDesign
 from tvimdesign.study.design import Design
 
 Progress = Callable[[str], None]
@@ -266,7 +266,7 @@ def _child(plan: Sequence[Work], subject: TrackedDesign, line: Connection) -> No
         while True:
             place, needs, folder = line.recv()
             line.send(_done(plan[place], subject, needs, folder, lambda step: line.send({"step": step})))
-            give_way_further(os.getpid())  # people wait for the first part
+            set_lower_priority(os.getpid())  # people wait for the first part
 
 
 def _end_with(parent: BaseProcess) -> None:
