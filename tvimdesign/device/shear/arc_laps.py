@@ -28,7 +28,7 @@ def driven_share(m: Module) -> Scalar:
 
 
 @quantities.helper(requires=WITH_LINER)
-def liner_compliance(m: Module) -> Scalar:
+def liner_areal_compliance(m: Module) -> Scalar:
     """How far a liner shears under a traction [m/Pa]; zero without."""
     return m.liner_thickness / m.liner_shear_modulus
 
@@ -36,7 +36,7 @@ def liner_compliance(m: Module) -> Scalar:
 @quantities.helper()
 def lap_of_arcs(m: Module) -> tuple[Scalar, Scalar, Scalar]:
     """Frozen layer and pads per area [Pa/m], and the sheets on both sides, plate and floor [1/(Pa*m)]."""
-    layer = m.pcl_thickness / m.frozen_shear_modulus + m.liner_compliance
+    layer = m.pcl_thickness / m.frozen_shear_modulus + m.liner_areal_compliance
     per_area = 1.0 / (layer + m.peltier_thickness / m.peltier_shear_modulus)
     sheet = (
         np.sqrt(m.driven_share) / m.structure_shear_modulus
@@ -63,7 +63,7 @@ def lap_on_spreader(m: Module) -> annular_lap.AnnularLap:
     metal = m.driven_share * m.spreader_shear_modulus * m.spreader_depth
     modules = m.tiled_share * m.peltier_shear_modulus * m.peltier_thickness
     floor = (1.0 - m.windowed_share) * m.structure_shear_modulus * m.floor_web
-    layer = m.driven_share / (m.pcl_thickness / m.frozen_shear_modulus + m.liner_compliance)
+    layer = m.driven_share / (m.pcl_thickness / m.frozen_shear_modulus + m.liner_areal_compliance)
     below, radii = (
         m.tiled_share * m.peltier_shear_modulus / m.peltier_thickness,
         (m.pcl_inner_radius, m.pcl_outer_radius),
@@ -145,8 +145,8 @@ def liner_rim_rise(m: Module) -> Scalar:
     layer's rims. What these bear more, all of the layer bears less.
     """
     on_tiles = m.lap_on_spreader is not None
-    others = m.pcl_thickness / m.frozen_shear_modulus if on_tiles else 1.0 / m.lap_of_arcs[0] - m.liner_compliance
-    held, inner, outer = m.liner_compliance / others, m.pcl_inner_radius, m.pcl_outer_radius
+    others = m.pcl_thickness / m.frozen_shear_modulus if on_tiles else 1.0 / m.lap_of_arcs[0] - m.liner_areal_compliance
+    held, inner, outer = m.liner_areal_compliance / others, m.pcl_inner_radius, m.pcl_outer_radius
     rims = m.arc_count * (m.arc_span * (inner**3 + outer**3) + 2.0 / 3.0 * (outer**3 - inner**3))  # of r^2, all around
     more = m.liner_thickness * sheet_in_recess.rim_width(held) * rims / m.layer_polar_moment
     return sheet_in_recess.rim_rise(held, m.pcl_thickness / m.liner_thickness) / (1.0 + more)
