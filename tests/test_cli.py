@@ -75,7 +75,7 @@ main.main()
 
 @pytest.mark.parametrize(
     "command",
-    [[], ["run"], ["check"], ["new"], ["cad"], ["simulate"], ["compare"], ["ledger"], ["rows"]],
+    [[], ["run"], ["check"], ["new"], ["cad"], ["simulate"], ["compare"], ["paper-check"], ["rows"]],
     ids=lambda words: " ".join(words) or "tvimdesign",
 )
 def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) -> None:

@@ -192,16 +192,3 @@ def test_files_are_those_a_command_reads(tmp_path: Path, monkeypatch: pytest.Mon
     assert completions.study_files("nowhere/x") == []
     assert completions.settings("require.holding_t") == ["require.holding_torque="]
     assert completions.examples("") == list(examples())
-
-
-# --- the old word ---
-
-
-@pytest.mark.slow
-def test_ledger_is_paper_check_with_a_warning(tvimdesign: Command) -> None:
-    new, old = tvimdesign("paper-check", "--json"), tvimdesign("ledger", "--json")
-    assert (new.returncode, old.returncode) == (0, 0)
-    assert json.loads(old.stdout) == json.loads(new.stdout)
-    assert new.stderr == ""
-    assert old.stderr.startswith("Warning: `ledger` is called `paper-check` now")
-    assert "ledger" not in tvimdesign("--help").stdout

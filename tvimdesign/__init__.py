@@ -16,7 +16,7 @@ _PUBLIC = {
     "tvimdesign.api.study": ("Study", "example", "load"),
     "tvimdesign.api.sweep": ("Cell", "Sweep"),
     "tvimdesign.base.errors": (
-        "CatalogError", "GeometryError", "InfeasibleError", "InputError", "RenamedWarning", "SimulationError",
+        "CatalogError", "GeometryError", "InfeasibleError", "InputError", "SimulationError",
         "TvimError", "UnitError",
     ),
     "tvimdesign.study.design": ("Design", "read_design"),

@@ -16,7 +16,6 @@ from tvimdesign.base.errors import CatalogError as CatalogError
 from tvimdesign.base.errors import GeometryError as GeometryError
 from tvimdesign.base.errors import InfeasibleError as InfeasibleError
 from tvimdesign.base.errors import InputError as InputError
-from tvimdesign.base.errors import RenamedWarning as RenamedWarning
 from tvimdesign.base.errors import SimulationError as SimulationError
 from tvimdesign.base.errors import TvimError as TvimError
 from tvimdesign.base.errors import UnitError as UnitError

@@ -26,7 +26,7 @@ require:
   peak_power: "<= 9 W"
   layer_holding_torque: ">= 40 N.m"
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, cells: 6, elements: 2, max_iterations: 100}
+solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100}
 """
 
 

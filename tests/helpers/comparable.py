@@ -34,7 +34,7 @@ vary:
 """
     + _TASK
 )
-COARSE = SHEAR.replace("{starts: 1}", "{starts: 1, cells: 6, elements: 2}")
+COARSE = SHEAR.replace("{starts: 1}", "{starts: 1, cells: 6, fineness: 0.67}")
 """The first on half the cells, for what does not hang on how exact its times are: half the work."""
 COMPRESSION = (
     """mode: compression

@@ -29,7 +29,7 @@ vary:
 require: {holding_torque: ">= 2 N.m"}
 accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 6, cells: 6, elements: 2, time_limit: 5 min}
+solver: {starts: 6, cells: 6, fineness: 0.67, time_limit: 5 min}
 """
 LISTED = SEARCHED.replace("starts: 6", "starts: 1").replace(
     "wire_diameter: [1.2 mm, 3.2 mm]",
@@ -177,7 +177,7 @@ accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temp
 minimize: peak_power
 tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
 robust: {sigma: 1.5}
-solver: {starts: 1, cells: 12, elements: 3, time_limit: 5 min}
+solver: {starts: 1, cells: 12, time_limit: 5 min}
 """
 
 

@@ -68,9 +68,5 @@ class OutputError(TvimError):
     exit_code = 4
 
 
-class RenamedWarning(FutureWarning):
-    """A study uses a name that has changed; it is read as the new one until the next release."""
-
-
 class FolderWarning(UserWarning):
     """A folder of records is a link, or another user's."""

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tvimdesign.base.errors import InputError, RenamedWarning
+from tvimdesign.base.errors import InputError
 from tvimdesign.cli import completions
 from tvimdesign.cli.compare_command import compare
 from tvimdesign.cli.explore_command import explore
@@ -285,14 +284,6 @@ def paper_check(out: PaperOut = None, overwrite: Overwrite = False, json: AsJson
         from tvimdesign.report.paper.level_sets import print_level_sets
 
         print_level_sets(out, overwrite=overwrite, as_json=json)
-
-
-@app.command(hidden=True)
-def ledger(out: PaperOut = None, overwrite: Overwrite = False, json: AsJson = False) -> None:
-    """What `paper-check` was called before."""
-    said = "`ledger` is called `paper-check` now; the old word is understood until the next release"
-    warnings.warn(said, RenamedWarning, stacklevel=1)
-    paper_check(out, overwrite, json)
 
 
 @app.command()

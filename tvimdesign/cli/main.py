@@ -12,7 +12,7 @@ from typing import Any
 import typer
 
 from tvimdesign.base import interrupts
-from tvimdesign.base.errors import FolderWarning, InputError, OutputError, RenamedWarning, TvimError
+from tvimdesign.base.errors import FolderWarning, InputError, OutputError, TvimError
 from tvimdesign.base.interrupts import ignore_interrupts, interrupt_handler, raise_pending
 from tvimdesign.base.one_thread import ask_for_one_thread
 from tvimdesign.cli.commands import app
@@ -44,7 +44,7 @@ def _command() -> Any:
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
     """What a user can act on, in plain words; libraries' own warnings are for developers and stay unsaid."""
-    if issubclass(category, (FolderWarning, RenamedWarning)):
+    if issubclass(category, FolderWarning):
         sys.stderr.write(f"Warning: {message}\n")
 
 

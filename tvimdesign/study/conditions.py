@@ -126,7 +126,7 @@ def _conditions(of: Case) -> Iterator[_Condition]:
             yield _Condition(f"{point}.{name}", f"operating_points.{point}.{name}", value, words)
     for phase, pieces in study.profile.model_dump().items():
         yield _Condition(f"profile of {phase}", f"profile.{phase}", pieces, f"{pieces} pieces")
-    for name in ("cells", "elements"):
+    for name in ("cells", "fineness"):
         value = getattr(study.solver, name)
         yield _Condition(name, f"solver.{name}", value, str(value))
     robust = study.robust and (study.robust.sigma, study.robust.share)

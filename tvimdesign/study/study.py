@@ -87,8 +87,11 @@ class SolverOptions(_Part):
     starts: int = Field(3, ge=1, le=1000, description="number of starting points; the first is the study's own")
     seed: int = Field(1, ge=0, le=2**32 - 1, description="seed of the random starting points")
     cells: int = Field(28, ge=2, le=200, description="cells through the polymer layer")
-    elements: int = Field(
-        3, ge=2, le=200, description="fineness of the steps in time: with twice as many, their errors are an eighth"
+    fineness: float = Field(
+        1.0,
+        ge=0.5,
+        le=50.0,
+        description="fineness of the time steps; 2 doubles their number and divides their error by 8",
     )
     max_iterations: int = Field(300, ge=1, le=100_000, description="iterations before the solver gives up")
     tolerance: float = Field(1e-8, ge=1e-14, le=1e-2, description="relative tolerance of convergence")

@@ -12,7 +12,6 @@ from typing import Any
 from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, quoted, step
 from tvimdesign.study.text.named_file import printable
 from tvimdesign.study.text.python_values import node_of
-from tvimdesign.study.text.renamed import new_name, renamed, renamed_value
 from tvimdesign.study.text.source import check_characters, read_text
 from tvimdesign.study.text.values import misfit
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text, compose
@@ -77,7 +76,7 @@ def tree_of_text(source: str, file: str, name: str, folder: Path) -> StudyTree:
         misfit(problems, root, "", "a study: lines such as 'mode: shear'")
         problems.stop()
     assert isinstance(root, Mapping)  # else the problems have stopped it
-    return StudyTree(renamed(root, file), file, name, folder, problems=tuple(problems.found))
+    return StudyTree(root, file, name, folder, problems=tuple(problems.found))
 
 
 def tree_of_file(path: str | os.PathLike[str], settings: Sequenced[str] = ()) -> StudyTree:
@@ -93,7 +92,7 @@ def tree_of_values(values: Mapped[str, Any], file: str, folder: Path) -> StudyTr
     problems = Mistakes(file)
     root = node_of(values, file, problems)
     assert isinstance(root, Mapping)  # as `values` is one
-    return StudyTree(renamed(root, file), file, "study", folder, problems=tuple(problems.found))
+    return StudyTree(root, file, "study", folder, problems=tuple(problems.found))
 
 
 def without_section(tree: StudyTree, name: str) -> StudyTree:
@@ -172,10 +171,9 @@ def with_value(tree: StudyTree, name: str, value: Node, source: str, problems: t
         mistakes.stop()
     root = tree.root
     if len(steps) == 1 and name not in SECTIONS:
-        root = _without_variable(root, new_name(name))
+        root = _without_variable(root, name)
         steps = ["module", name]
-    value = renamed_value(value, steps[0], source)
-    root = _put(root, [new_name(word) for word in steps], value, source, "")
+    root = _put(root, steps, value, source, "")
     changes = tree.changes if tree.changes[-1:] == (source,) else (*tree.changes, source)
     return replace(tree, root=root, changes=changes, problems=(*tree.problems, *problems))
 

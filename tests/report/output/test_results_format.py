@@ -33,7 +33,7 @@ vary:
 require: {spring_stiffness: ">= 4 N.m/rad"}
 minimize: {module_mass: 1, response_time: 1}
 profile: {softening: 2}
-solver: {starts: 1, cells: 6, elements: 2}
+solver: {starts: 1, cells: 6, fineness: 0.67}
 """
 
 

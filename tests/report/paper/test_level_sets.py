@@ -1,4 +1,4 @@
-"""`ledger --out` writes the designs that take the paper's time, as tables and a figure."""
+"""`paper-check --out` writes the designs that take the paper's time, as tables and a figure."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(level_sets, "THICKNESSES", level_sets.THICKNESSES[::3])
         patch.setattr(level_sets, "AGAINST", {"hot_contact": [100.0, 1e4], "current": [1.5, 2.0, 2.5]})
-        return write_level_sets(tmp_path_factory.mktemp("ledger") / "out", overwrite=False)
+        return write_level_sets(tmp_path_factory.mktemp("paper") / "out", overwrite=False)
 
 
 def _rows(path: Path) -> list[dict[str, str]]:

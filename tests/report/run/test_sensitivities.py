@@ -24,7 +24,7 @@ vary:
   current: [0.5 A, 2 A]
 require: {spring_stiffness: ">= 5 N.m/rad", peltier_temperature_margin: ">= 0 K"}
 minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 1, cells: 8, elements: 2}
+solver: {starts: 1, cells: 8, fineness: 0.67}
 """
 
 

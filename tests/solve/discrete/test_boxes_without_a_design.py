@@ -62,7 +62,7 @@ minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
 operating_points:
   cold: {temperature: 30 degC, frequency: 1 Hz}
   hot: {temperature: 80 degC, frequency: 1 Hz}
-solver: {starts: 2, seed: 1, cells: 6, elements: 2, alternatives: 32}
+solver: {starts: 2, seed: 1, cells: 6, fineness: 0.67, alternatives: 32}
 """
 """`benchmarks/shelf.yaml` with four of its heaters, two of which are too large for three arcs."""
 COMPRESSION = """
@@ -88,7 +88,7 @@ require:
   peltier_temperature_margin: ">= 0 K"
 accept: [structure_temperature_margin, stiffening_structure_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, seed: 1, cells: 6, elements: 2, alternatives: 32}
+solver: {starts: 2, seed: 1, cells: 6, fineness: 0.67, alternatives: 32}
 """
 """The same of `benchmarks/shelf_compression.yaml`: wire too thin, and heaters that the cycle alone rules out."""
 SEVERAL = 3

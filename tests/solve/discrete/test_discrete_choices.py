@@ -48,7 +48,7 @@ vary:
   coil_diameter: [10 mm, 16 mm]
 """
     + COMPRESSION_BLOCKS
-    + "solver: {starts: 3, cells: 6, elements: 2}\n"
+    + "solver: {starts: 3, cells: 6, fineness: 0.67}\n"
 )
 
 

@@ -39,7 +39,7 @@ require:
   layer_holding_torque: ">= 40 N.m"
 accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin, current_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, cells: 6, elements: 2, max_iterations: 100, alternatives: 3}
+solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100, alternatives: 3}
 """
 COMPRESSION = """
 mode: compression
@@ -64,7 +64,7 @@ require:
   peak_voltage: "<= 24 V"
 accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin, current_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 2, cells: 6, elements: 2, max_iterations: 100, alternatives: 3}
+solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100, alternatives: 3}
 """
 
 

@@ -30,7 +30,7 @@ vary:
 require:
   holding_torque: ">= 8 N.m"
 minimize: {module_mass: 1}
-solver: {starts: 1, cells: 6, elements: 2}
+solver: {starts: 1, cells: 6, fineness: 0.67}
 """
 
 

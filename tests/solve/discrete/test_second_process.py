@@ -33,7 +33,7 @@ require:
   holding_torque: ">= 12 N.m"
 accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin, current_margin]
 minimize: {envelope_volume: 1, module_mass: 1, response_time: 1}
-solver: {starts: 1, cells: 6, elements: 2, alternatives: 3}
+solver: {starts: 1, cells: 6, fineness: 0.67, alternatives: 3}
 """
 
 

@@ -27,7 +27,7 @@ require:
   peak_power: "<= 9 W"
 accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin]
 minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 1, cells: 6, elements: 2}
+solver: {starts: 1, cells: 6, fineness: 0.67}
 """
 
 

@@ -21,7 +21,7 @@ require:
   envelope_diameter: "<= 400 mm"
   pcl_area: ">= 100 mm^2"
 minimize: {module_mass: 1, response_time: 1}
-solver: {starts: 1, cells: 6, elements: 2}
+solver: {starts: 1, cells: 6, fineness: 0.67}
 """
 )
 

@@ -41,7 +41,7 @@ require: {response_time: "<= 300 s", pcl_stiffness@hot: "<= 3.5 N.m/rad"}
 accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]
 minimize: peak_power
 tolerances: {current: 3 %, peltier_resistance: 10 %, pcl_thickness: 0.1 mm, ambient_temperature: 3 K}
-solver: {starts: 1, cells: 12, elements: 3}
+solver: {starts: 1, cells: 12}
 """
 
 

@@ -29,8 +29,6 @@ from tvimdesign.solve.optimizer.multistart import Multistart
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
-USUAL_ELEMENTS = 3
-"""`solver.elements` of a study that sets none."""
 SETTLED = 1e-4
 """Change of the objective or of a limit's residual below which an optimum stays where steps are placed anew."""
 MOST_GRIDS = 4
@@ -141,7 +139,7 @@ class Optimizer:
     def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
         return Problem(
             self.model, self.free, kept, tuple(self.study.minimize), self.currents, objectives, self.mixtures,
-            self.study.solver.elements / USUAL_ELEMENTS,
+            self.study.solver.fineness,
         )  # fmt: skip
 
     def kept_constraints(self, limits: list[Constraint]) -> list[Constraint]:

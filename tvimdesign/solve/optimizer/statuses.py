@@ -77,7 +77,7 @@ MEANINGS = {
     "Invalid_Option": Meaning("was given an option it does not know", _REPORT),
     "Unrecoverable_Exception": Meaning("failed inside", _REPORT),
     "NonIpopt_Exception_Thrown": Meaning("failed inside one of its libraries", _REPORT),
-    "Insufficient_Memory": Meaning("ran out of memory", "ask for fewer `solver.cells` or `solver.elements`"),
+    "Insufficient_Memory": Meaning("ran out of memory", "ask for fewer `solver.cells` or a lower `solver.fineness`"),
     "Internal_Error": Meaning("failed inside", _REPORT),
 }
 
