@@ -1,13 +1,15 @@
-"""Makes the reference from the table: every quantity of both modes by group, with unit, limits and source."""
+"""Makes the reference: the sections of a study, and every quantity of both modes by group, with unit and source."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
+from tvimdesign.study.sections.all_sections import SECTIONS
 
 Quantity = Input | Choice | Output
 
@@ -32,7 +34,7 @@ _WIDE = "---\nhide: [toc]\n---\n"
 
 
 def reference_pages() -> dict[str, str]:
-    """The pages by path: one for each group, and a list of the groups.
+    """Return the pages by path: one for each group, a list of the groups, and the sections of a study.
 
     Raises KeyError where a group of the table has no sentence in `ABOUT`.
     """
@@ -44,6 +46,7 @@ def reference_pages() -> dict[str, str]:
                 known[1].append(mode)
     order = sorted(groups, key=list(ABOUT).index)
     pages = {f"reference/{_file_name(group)}.md": _page(group, groups[group].values()) for group in order}
+    pages["reference/study.md"] = _sections_page()
     pages["reference/index.md"] = _index({group: len(groups[group]) for group in order})
     return pages
 
@@ -59,6 +62,7 @@ def _index(counts: dict[str, int]) -> str:
         "- An **input** is a number that a study may set under `module`. A **variable** may also stand under `vary`.",
         "- A **choice** is a word: a record of the catalogue, or one of a few options.",
         "- An **output** is a result. A study may `require` and `minimize` it; `name@point` is at an operating point.",
+        "- The [sections of a study](study.md) are listed with their keys.",
         "- *Allowed* are the ends of an input, or the rules that every study keeps unless it sets its own limit.",
         "",
         "| group | quantities | about |",
@@ -66,6 +70,22 @@ def _index(counts: dict[str, int]) -> str:
         *rows,
         "",
     ])  # fmt: skip
+
+
+def _sections_page() -> str:
+    """Return the page of a study's sections: the meaning of each, and of its keys if these are no quantities."""
+    table = table_for(MODES[0])
+    rows = []
+    for section in SECTIONS:
+        keys = section.describe(table).get("properties", {})
+        rows.append(f"| **`{section.name}`** | | {_text(section.meaning)} |")
+        for name, key in keys.items() if table.by_name.keys().isdisjoint(keys) else ():
+            rows.append(f"| `{section.name}.{name}` | {_default(key)} | {_text(key.get('description', ''))} |")
+    return "\n".join(["# Sections of a study", "", "| key | default | meaning |", "|---|---|---|", *rows, ""])
+
+
+def _default(key: dict[str, Any]) -> str:
+    return f"`{key['default']}`" if "default" in key else ""
 
 
 def _page(group: str, entries: Iterable[tuple[Quantity, list[str]]]) -> str:

@@ -14,8 +14,8 @@ from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study import StudyError, read_study, read_tree
 from tvimdesign.study.design import read_design
+from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.tree import tree_of_values
-from tvimdesign.study.written_study import written
 
 
 def test_a_design_that_lacks_an_input_is_told_to_be_of_another_version(tmp_path: Path) -> None:

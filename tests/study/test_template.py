@@ -3,7 +3,7 @@
 import re
 
 from tvimdesign.study import given, read_study_text, template_text
-from tvimdesign.study.tree import SECTIONS
+from tvimdesign.study.sections.all_sections import NAMES
 
 
 def test_the_template_is_a_study() -> None:
@@ -22,4 +22,4 @@ def test_its_commented_lines_are_good_too() -> None:
 
 def test_it_shows_every_section_but_the_users_catalogue() -> None:
     shown = re.findall(r"^(\w+):", template_text(), re.MULTILINE)
-    assert [name for name in SECTIONS if name not in shown] == ["catalog"]
+    assert [name for name in NAMES if name not in shown] == ["catalog"]

@@ -20,13 +20,13 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Table, table_for
 from tvimdesign.study.reader import read_tree
+from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.json_places import JsonPlaces
 from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, quoted, step
 from tvimdesign.study.text.named_file import is_folder, ordinary_bytes, printable
 from tvimdesign.study.text.values import below, limits
 from tvimdesign.study.tree import tree_of_values
-from tvimdesign.study.written_study import written
 
 MAX_BYTES = 10_000_000
 _AGAIN = "write it anew with `tvimdesign run` from its study"

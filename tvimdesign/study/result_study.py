@@ -9,9 +9,9 @@ from pathlib import Path
 from tvimdesign.device import Choice, Input, table_for
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.study.design import Design
+from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.study import GivenCurrent, ProfileOptions, Range, Study
 from tvimdesign.study.tree import tree_of_values, tree_yaml
-from tvimdesign.study.written_study import written
 
 
 def result_text(design: Design, source: str, folder: Path) -> str:

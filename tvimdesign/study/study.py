@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
-from pydantic.fields import FieldInfo
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
@@ -99,16 +98,12 @@ class SolverOptions(_Part):
         1800.0, gt=0.0, le=1e7, json_schema_extra={"unit": "s"},
         description="time after which the search ends with the best design found, such as 10 min",
     )  # fmt: skip
-    alternatives: int = Field(5, ge=1, le=100, description="combinations of listed choices that are told, best first")
+    alternatives: int = Field(
+        5, ge=1, le=100, description="combinations of listed choices that are reported, best first"
+    )
     prove: bool = Field(
         False, description="solve every combination of listed choices, not only those that branch and bound leaves"
     )
-
-
-def unit_of(field: FieldInfo) -> str:
-    """The unit a setting is written in; none where it is a count, a share or a flag."""
-    extra = field.json_schema_extra
-    return str(extra["unit"]) if isinstance(extra, dict) and "unit" in extra else ""
 
 
 class ProfileOptions(_Part):
@@ -125,15 +120,14 @@ class ProfileOptions(_Part):
 class GivenCurrent(_Part):
     """A phase's current [A] at some moments [s] from its start, straight between them; the last one lasts."""
 
-    moments: tuple[float, ...]
-    """Rising from zero."""
-    currents: tuple[float, ...]
+    moments: tuple[float, ...] = Field(description="moments, rising from zero", json_schema_extra={"unit": "s"})
+    currents: tuple[float, ...] = Field(description="the current at each moment", json_schema_extra={"unit": "A"})
 
 
 class FrontOptions(_Part):
     """Two or three outputs to be traded against one another."""
 
-    of: Annotated[tuple[str, ...], Field(min_length=2, max_length=3)]
+    of: tuple[str, ...] = Field(min_length=2, max_length=3, description="outputs that are traded")
     points: int = Field(12, ge=FEWEST_POINTS, le=MOST_POINTS, description="designs on the front, its ends included")
 
 
@@ -143,7 +137,7 @@ class WriteOptions(_Part):
     plots: bool = Field(True, description="plots of the result")
     vector: bool = Field(False, description="plots as PDF and SVG too, as a run that makes parts always writes")
     cad: bool = Field(True, description="STEP, STL and GLB of the parts")
-    sensitivities: bool = Field(False, description="what every variable does to every output at the design")
+    sensitivities: bool = Field(False, description="sensitivity of every output to every variable at the design")
 
 
 class Study(_Part):

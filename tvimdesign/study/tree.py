@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.study.sections.all_sections import NAMES
 from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, quoted, step
 from tvimdesign.study.text.named_file import printable
 from tvimdesign.study.text.python_values import node_of
@@ -17,28 +18,6 @@ from tvimdesign.study.text.values import misfit
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text, compose
 from tvimdesign.study.text.yaml_writer import yaml_of
 
-SECTIONS = (
-    "tvimdesign",
-    "name",
-    "description",
-    "mode",
-    "catalog",
-    "module",
-    "vary",
-    "require",
-    "accept",
-    "minimize",
-    "front",
-    "operating_points",
-    "profile",
-    "currents",
-    "tolerances",
-    "robust",
-    "solver",
-    "sweep",
-    "write",
-)
-"""The keys of a study, in the order in which it is usually written."""
 _OF_A_SEARCH = ("vary", "minimize", "front")
 """The sections that go with the last variable."""
 _LONGEST_SETTING = 100
@@ -165,12 +144,12 @@ def with_value(tree: StudyTree, name: str, value: Node, source: str, problems: t
     """
     source = _short(source)
     steps = name.split(".")
-    if len(steps) > 1 and steps[0] not in SECTIONS:
+    if len(steps) > 1 and steps[0] not in NAMES:
         mistakes = Mistakes(source)
-        mistakes.unknown(At(0, 0), "", f"section: {quoted(steps[0])}", steps[0], SECTIONS)
+        mistakes.unknown(At(0, 0), "", f"section: {quoted(steps[0])}", steps[0], NAMES)
         mistakes.stop()
     root = tree.root
-    if len(steps) == 1 and name not in SECTIONS:
+    if len(steps) == 1 and name not in NAMES:
         root = _without_variable(root, name)
         steps = ["module", name]
     root = _put(root, steps, value, source, "")

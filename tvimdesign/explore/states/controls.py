@@ -11,7 +11,7 @@ from tvimdesign.device import Choice, Input
 from tvimdesign.explore.states.state import State, text_of
 from tvimdesign.study import Options, Study, given
 from tvimdesign.study.resolve import words_of
-from tvimdesign.study.written_study import exactly
+from tvimdesign.study.text.values import exactly
 
 Shown = dict[str, Any]
 

@@ -15,8 +15,8 @@ from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.sweep.swept_cells import SweptCells, is_sweep, open_cells
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design
+from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_values, tree_yaml
-from tvimdesign.study.written_study import written
 
 
 @dataclass(frozen=True)

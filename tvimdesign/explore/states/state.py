@@ -14,8 +14,8 @@ from tvimdesign.explore.states.messages import Change, SetLimits, SetRange, SetV
 from tvimdesign.study import Range, Study, given, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.text.python_values import node_of
+from tvimdesign.study.text.values import exactly
 from tvimdesign.study.tree import StudyTree, with_value
-from tvimdesign.study.written_study import exactly
 
 SOURCE = "explore"
 """What messages call the place a change was made in."""

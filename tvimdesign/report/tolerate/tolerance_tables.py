@@ -14,7 +14,7 @@ from tvimdesign.report.output.number_format import head
 from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.tolerance import Preload, Spread
 from tvimdesign.study import Study
-from tvimdesign.study.sections.tolerances import difference_unit
+from tvimdesign.study.text.values import difference_unit
 
 Row = dict[str, str | float | None]
 _NO_SPREAD = 1e-9

@@ -1,19 +1,20 @@
-"""Reads the section `accept`: the ratings of materials and bought parts beyond which the design may be."""
+"""The section `accept`: the ratings of materials and bought parts beyond which the design may be."""
 
 from __future__ import annotations
 
 from tvimdesign.device import Table
+from tvimdesign.study.sections.section import Schema, Section
 from tvimdesign.study.text.mistakes import one_of, quoted
 from tvimdesign.study.text.values import Reading, misfit, text
 from tvimdesign.study.text.yaml_text import Node, Sequence, Text
 
 
 def rating_names(table: Table) -> list[str]:
-    """The quantities that a study may accept to be beyond their rating."""
+    """Return the quantities that a study may accept to be beyond their rating."""
     return [row.name for row in table.outputs if row.ratings]
 
 
-def read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
+def _read(reading: Reading, node: Node | None) -> tuple[str, ...]:
     """Return the accepted ratings by the quantity's name, one name or a list of them; every problem is noted."""
     known = rating_names(reading.table)
     if node is None or (isinstance(node, Text) and node.empty):
@@ -37,3 +38,14 @@ def read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
         else:
             reading.unknown_quantity(item, path, "rating", name, known)
     return tuple(found)
+
+
+def _schema(table: Table) -> Schema:
+    name = {"enum": rating_names(table)}
+    return {"anyOf": [{"type": "array", "uniqueItems": True, "items": name}, name, {"type": "null"}]}
+
+
+ACCEPT = Section(
+    "accept", "ratings of materials and bought parts that the design may exceed",
+    _read, _schema, lambda study: list(study.accept),
+)  # fmt: skip

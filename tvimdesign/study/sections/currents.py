@@ -1,27 +1,29 @@
-"""Reads the section `currents`: how the current of a phase is given over time, instead of searched or constant."""
+"""The section `currents`: how the current of a phase is given over time, instead of searched or constant."""
 
 from __future__ import annotations
 
 from itertools import pairwise
 
 from tvimdesign.base.units import format_quantity
+from tvimdesign.study.sections.fields import changed, field_schemas, unit_of
+from tvimdesign.study.sections.section import Section, mapping, shape
 from tvimdesign.study.study import GivenCurrent, ProfileOptions
 from tvimdesign.study.text.mistakes import step
 from tvimdesign.study.text.values import Reading, entries, in_unit, misfit, unknown_keys
 from tvimdesign.study.text.yaml_text import Node, Sequence, Text
 
 MOST_MOMENTS = 1000
-_SERIES = {"moments": "s", "currents": "A"}
+_SERIES = {name: unit_of(field) for name, field in GivenCurrent.model_fields.items()}
 _EXPECTED = "moments: [0 s, 0.4 s, 8 s] and currents: [0 A, 4 A, 3.8 A], for one"
 
 
-def read_currents(reading: Reading, node: Node | None, *, searched: bool) -> dict[str, GivenCurrent]:
+def _read(reading: Reading, node: Node | None) -> dict[str, GivenCurrent]:
     """Return the current given for each phase; every problem is noted. A study that searches has none."""
     problems = reading.problems
     phases = list(ProfileOptions.model_fields)
     expected = f"phases, each with its moments and currents: {', '.join(phases)}"
     found = entries(problems, node, "currents", expected)
-    if searched and found and node is not None:
+    if reading.has("vary") and found and node is not None:
         hint = "a search finds them: `profile`, or the inputs of constant currents under `vary`"
         problems.add(node, "currents", "given currents belong to a module that is evaluated", "no `vary` beside", hint)
     read = {}
@@ -69,3 +71,10 @@ def _series(reading: Reading, node: Node, path: str, unit: str) -> tuple[float, 
             for place, item in enumerate(node.items)]  # fmt: skip
     values = tuple(value for value in read if value is not None)
     return values if len(values) == len(read) else None
+
+
+CURRENTS = Section(
+    "currents", "currents of an evaluated module over time, by phase: moments from its start, and a current at each",
+    _read, mapping(dict.fromkeys(ProfileOptions.model_fields, shape(field_schemas(GivenCurrent), list(_SERIES)))),
+    lambda study: {phase: changed(current) for phase, current in study.currents.items()},
+)  # fmt: skip

@@ -1,29 +1,42 @@
-"""Reads the sections `require`, `minimize` and `front`: what must hold, what is to be small, what is to be traded."""
+"""The sections `require`, `minimize` and `front`: limits, objective, and outputs that are traded."""
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Collection
 
-from tvimdesign.base.units import format_quantity
-from tvimdesign.device import FirstOscillation, Output
-from tvimdesign.study.study import FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement
+from tvimdesign.base.errors import UnitError
+from tvimdesign.base.units import format_quantity, parse_quantity
+from tvimdesign.device import FirstOscillation, Output, Table
+from tvimdesign.study.sections.fields import field_schemas
+from tvimdesign.study.sections.section import LIMIT, NUMBER_VALUE, Schema, Section, by_output, mapping, output_name
+from tvimdesign.study.study import FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement, Study
 from tvimdesign.study.text.mistakes import one_of, quoted, step
-from tvimdesign.study.text.values import Reading, below, entries, misfit, number, si_value, text, unknown_keys, whole
+from tvimdesign.study.text.values import (
+    Reading,
+    below,
+    entries,
+    exactly,
+    misfit,
+    number,
+    si_value,
+    text,
+    unknown_keys,
+    whole,
+)
 from tvimdesign.study.text.yaml_text import Node, Sequence, Text
 
 MOST_LIMITS = 10
-_FRONT = ["of", "points"]
 _INSTEAD = "limit `backlash` or `relaxation_loss`"
 _LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
 
 
-def read_require(reading: Reading, node: Node | None, points: Collection[str]) -> tuple[Requirement, ...]:
+def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...]:
     """Return every limit the study sets; every problem is noted."""
     found: list[Requirement] = []
     for name, (key, value) in entries(reading.problems, node, "require", "outputs, each with its limits").items():
         path = step("require", name)
-        row = named_output(reading, key, path, name, points)
+        row = named_output(reading, key, path, name)
         if row is None:
             continue
         read = _limits(reading, value, path, name, row)
@@ -32,16 +45,23 @@ def read_require(reading: Reading, node: Node | None, points: Collection[str]) -
     return tuple(found)
 
 
-def read_minimize(reading: Reading, node: Node | None, points: Collection[str]) -> dict[str, float]:
+def _read_minimize(reading: Reading, node: Node | None) -> dict[str, float]:
     """Return the weight of each output that is to be small; every problem is noted."""
+    found = _weights(reading, node)
+    if node is not None and reading.has("minimize") and not reading.has("vary"):
+        reading.problems.add(node, "minimize", "nothing may change: `vary` is missing", "both or neither")
+    return found
+
+
+def _weights(reading: Reading, node: Node | None) -> dict[str, float]:
     if isinstance(node, Text) and not node.empty:
-        row = named_output(reading, node, "minimize", node.value, points)
+        row = named_output(reading, node, "minimize", node.value)
         return {} if row is None else {node.value: 1.0}
     found: dict[str, float] = {}
     expected = "the name of an output, or outputs with their weights"
     for name, (key, value) in entries(reading.problems, node, "minimize", expected).items():
         path = step("minimize", name)
-        if named_output(reading, key, path, name, points) is None:
+        if named_output(reading, key, path, name) is None:
             continue
         weight = number(reading.problems, value, path, "a weight, a number above 0")
         if weight is not None and weight <= 0:
@@ -51,10 +71,19 @@ def read_minimize(reading: Reading, node: Node | None, points: Collection[str]) 
     return found
 
 
-def read_front(reading: Reading, node: Node | None, points: Collection[str]) -> FrontOptions | None:
+def _read_front(reading: Reading, node: Node | None) -> FrontOptions | None:
     """Return the outputs to be traded and the count of points; every problem is noted."""
+    found = _traded_outputs(reading, node)
+    if node is not None and reading.has("front") and not reading.has("vary"):
+        expected = "`vary` and `minimize` with it"
+        reading.problems.add(node, "front", "nothing may change: `vary` is missing", expected)
+    return found
+
+
+def _traded_outputs(reading: Reading, node: Node | None) -> FrontOptions | None:
     expected = "'{of: [response_time, module_mass], points: 12}'"
-    found = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", _FRONT)
+    known = list(FrontOptions.model_fields)
+    found = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", known)
     if node is None or not found:
         return None
     outputs = found.get("of")
@@ -63,7 +92,7 @@ def read_front(reading: Reading, node: Node | None, points: Collection[str]) -> 
             outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]"
         )
         return None
-    names = [_traded(reading, item, f"front.of[{i}]", points) for i, item in enumerate(outputs.items)]
+    names = [_traded(reading, item, f"front.of[{i}]") for i, item in enumerate(outputs.items)]
     count = whole(reading.problems, found["points"], "front.points") if "points" in found else None
     if None in names:
         return None
@@ -77,16 +106,17 @@ def read_front(reading: Reading, node: Node | None, points: Collection[str]) -> 
     return FrontOptions(of=tuple(filter(None, names)), **({} if count is None else {"points": count}))
 
 
-def _traded(reading: Reading, node: Node, path: str, points: Collection[str]) -> str | None:
+def _traded(reading: Reading, node: Node, path: str) -> str | None:
     word = text(reading.problems, node, path, "the name of an output")
     if word is None or not isinstance(node, Text):
         return None
-    return word if named_output(reading, node, path, word, points) else None
+    return word if named_output(reading, node, path, word) else None
 
 
-def named_output(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> Output | None:
+def named_output(reading: Reading, key: Text, path: str, name: str) -> Output | None:
     """Return the output a full name means, None (and a problem) where it means none."""
     base, at, point = name.partition("@")
+    points = reading.points
     row = reading.table.by_name.get(base)
     add = reading.problems.add
     if row is None or (isinstance(row, Output) and row.hidden):
@@ -144,3 +174,50 @@ def _contradictions(reading: Reading, node: Node, path: str, row: Output, read: 
         floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
         found = f"cannot be both at least {floor} and at most {ceiling}"
         reading.problems.add(node, path, found, "limits that leave room between them")
+
+
+def _write_require(study: Study) -> dict[str, list[str]]:
+    found: dict[str, list[str]] = {}
+    for limit in study.require:
+        unit = study.table.unit(limit.output)
+        same = limit.text.startswith(limit.sense) and _reads_as(limit.text.removeprefix(limit.sense), unit, limit.limit)
+        text = limit.text if same else f"{limit.sense} {exactly(limit.limit, unit)}"
+        found.setdefault(limit.output, []).append(text)
+    return found
+
+
+def _reads_as(text: str, unit: str, value: float) -> bool:
+    try:
+        return math.isclose(parse_quantity(text, unit), value, rel_tol=1e-15)
+    except UnitError:
+        return False
+
+
+def _require_schema(table: Table) -> Schema:
+    limits = [LIMIT, {"type": "array", "minItems": 1, "items": LIMIT}]
+    return mapping({}, by_output(table, {"anyOf": limits}))
+
+
+def _minimize_schema(table: Table) -> Schema:
+    return {"anyOf": [mapping({}, by_output(table, NUMBER_VALUE)), output_name(table)]}
+
+
+def _front_schema(table: Table) -> Schema:
+    fields = field_schemas(FrontOptions)
+    fields["of"] |= {"uniqueItems": True, "items": output_name(table)}
+    return mapping(fields)
+
+
+REQUIRE = Section("require", "limits on outputs", _read_require, _require_schema, _write_require)
+MINIMIZE = Section(
+    "minimize",
+    "objective: outputs to minimise, with weights",
+    _read_minimize,
+    _minimize_schema,
+    lambda study: study.minimize,
+)
+FRONT = Section(
+    "front", "two or three outputs to trade against one another, and the number of designs",
+    _read_front, _front_schema,
+    lambda study: study.front and {"of": list(study.front.of), "points": study.front.points},
+)  # fmt: skip

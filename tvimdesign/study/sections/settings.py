@@ -1,20 +1,22 @@
-"""Reads the sections `module` and `operating_points`: what the study fixes."""
+"""The sections `module`, `operating_points`, `profile`, `solver` and `write`: what the study fixes."""
 
 from __future__ import annotations
 
 import re
 
-from tvimdesign.device import Choice, Input
-from tvimdesign.study.study import STANDARD_POINTS
-from tvimdesign.study.text.mistakes import one_of, quoted, step
-from tvimdesign.study.text.values import Reading, choice, entries, quantity
-from tvimdesign.study.text.yaml_text import Node
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.study.sections.fields import settings
+from tvimdesign.study.sections.section import POINT, Schema, Section, mapping, set_schema, settable
+from tvimdesign.study.study import STANDARD_POINTS, ProfileOptions, Range, SolverOptions, Study, WriteOptions
+from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted, step
+from tvimdesign.study.text.values import Reading, choice, entries, exactly, quantity
+from tvimdesign.study.text.yaml_text import Mapping, Node, Text
 
 MOST_POINTS = 20
-_POINT = re.compile(r"[a-z][a-z0-9_]{0,31}")
+_POINT = re.compile(POINT)
 
 
-def read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
+def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
     """Return the inputs (SI) and choices the study sets; every problem is noted."""
     found: dict[str, float | str] = {}
     for name, (key, value) in entries(
@@ -33,14 +35,13 @@ def read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
         elif row is not None:
             reading.problems.add(key, path, "is a result and cannot be set", "an input", "limit it under `require`")
         else:
-            names = [row.name for row in reading.table.quantities if isinstance(row, Choice) or _fixed(row)]
-            reading.unknown_quantity(key, path, "input or choice", name, names)
+            reading.unknown_quantity(key, path, "input or choice", name, [row.name for row in settable(reading.table)])
         if read is not None:
             found[name] = read
     return found
 
 
-def read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, float]]:
+def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, float]]:
     """Return every operating point in full (SI): the study's values over the standard ones over the defaults."""
     rows = {row.name: row for row in reading.table.inputs if row.per_point}
     found = {name: _standard(name, rows) for name in STANDARD_POINTS}
@@ -56,16 +57,11 @@ def read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, floa
         else:
             own = _point(reading, value, path, rows)
             found[name] = _standard(name, rows) | own
-            given = value_names(value)
+            given = list(value.entries) if isinstance(value, Mapping) else []
             missing = [row.name for row in rows.values() if _unset(row, found[name]) and row.name not in given]
             if missing:
                 reading.problems.add(key, path, f"has no {' and no '.join(missing)}", _examples(missing, rows))
     return found
-
-
-def value_names(node: Node) -> list[str]:
-    """The keys of a mapping, none of anything else."""
-    return list(getattr(node, "entries", {}))
 
 
 def _point(reading: Reading, node: Node, path: str, rows: dict[str, Input]) -> dict[str, float]:
@@ -97,5 +93,53 @@ def _examples(names: list[str], rows: dict[str, Input]) -> str:
     return ", ".join(f"'{name}: 1{units[name]}'" for name in names) or one_of([])
 
 
-def _fixed(row: object) -> bool:
-    return isinstance(row, Input) and not row.per_point
+def written_value(table: Table, name: str, value: float | str) -> str:
+    """Return the value of an input or a choice as it is written."""
+    return value if isinstance(value, str) else exactly(value, table.unit(name))
+
+
+def _write_points(study: Study) -> dict[str, dict[str, str]]:
+    return {
+        point: {name: written_value(study.table, name, value) for name, value in values.items()}
+        for point, values in study.operating_points.items()
+    }
+
+
+def _points_schema(table: Table) -> Schema:
+    point = mapping({row.name: set_schema(row) for row in table.inputs if row.per_point})
+    return mapping({}, {f"^{POINT}$": {"description": "one operating point", **point}})
+
+
+def _check_profile(reading: Reading) -> None:
+    """Note each profile of a current that has no range in which it could change."""
+    if not reading.mode:
+        return
+    vary, asked = reading.section("vary"), reading.nodes.get("vary")
+    for phase, (_, node) in entries(Mistakes(""), reading.nodes.get("profile"), "profile", "").items():
+        if phase not in ProfileOptions.model_fields:
+            continue  # it has been noted
+        row = reading.table.phase(phase).current_input
+        if row not in vary and isinstance(asked, Mapping) and row in asked.entries:
+            continue  # what is wrong with that range has been noted
+        if not isinstance(vary.get(row), Range) and not (isinstance(node, Text) and node.value.strip() == "0"):
+            found = f"the current of this phase has no range: `vary.{row}` is missing"
+            reading.problems.add(node, step("profile", phase), found, f"{row}: [0.1 A, 3 A] under `vary`, for one")
+
+
+MODULE = Section(
+    "module", "inputs and choices of the module", _read_module,
+    lambda table: mapping({row.name: set_schema(row) for row in settable(table)}),
+    lambda study: {name: written_value(study.table, name, value) for name, value in study.module.items()},
+)  # fmt: skip
+POINTS = Section(
+    "operating_points", "temperatures and frequencies for stiffness and damping; `cold` and `hot` always exist",
+    _read_points, _points_schema, _write_points,
+)  # fmt: skip
+PROFILE = settings(
+    "profile",
+    "straight pieces in which the current of a phase changes with time; 0 keeps it constant",
+    ProfileOptions,
+    _check_profile,
+)
+SOLVER = settings("solver", "effort of the search and fineness of the heat model", SolverOptions)
+WRITE = settings("write", "files in the results folder besides the numbers", WriteOptions)

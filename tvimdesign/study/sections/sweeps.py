@@ -1,15 +1,17 @@
-"""Reads the section `sweep`: which cells are laid over which axes, and what is done in each."""
+"""The section `sweep`: which cells are laid over which axes, and what is done in each."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
 
-from tvimdesign.device import Choice, Input
+from tvimdesign.device import Choice, Input, Table
 from tvimdesign.study.sections.goals import named_output, read_limit
+from tvimdesign.study.sections.section import Schema, Section, mapping, output_name, set_schema, settable, shape
 from tvimdesign.study.sections.sweep_block import (
     EVERY_OUTPUT,
     METHODS,
+    MOST_CELLS,
     SAMPLED,
     TASKS,
     Sense,
@@ -17,12 +19,12 @@ from tvimdesign.study.sections.sweep_block import (
     SweptAxis,
     SweptRange,
 )
-from tvimdesign.study.sections.tolerances import difference_unit
 from tvimdesign.study.text.mistakes import one_of, quoted, step
 from tvimdesign.study.text.values import (
     ROUNDING,
     Reading,
     below,
+    difference_unit,
     entries,
     in_unit,
     misfit,
@@ -33,31 +35,44 @@ from tvimdesign.study.text.values import (
 )
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
-_KEYS = ["method", "over", "cells", "task", "count", "seed", "outputs", "most"]
-SWEPT_SECTIONS = ("require", "operating_points", "profile", "solver", "minimize", "robust")
+_SWEPT_SECTIONS = ("require", "operating_points", "profile", "solver", "minimize", "robust")
 """Sections in which what stands at a path can be swept."""
 _RANGE_KEYS = ["from", "to", "count", "step", "spacing"]
-SPACINGS = ("linear", "logarithmic")
+_SPACINGS = ("linear", "logarithmic")
+_COUNT: Schema = {"type": "integer", "minimum": 1}
+_FIELDS: Schema = {
+    "method": {"enum": list(METHODS), "description": "arrangement of the cells; default: a grid"},
+    "over": {"description": "axes: lists of values, or ranges"},
+    "cells": {"type": "array", "minItems": 1, "description": "the cells of a list, one by one"},
+    "task": {"enum": list(TASKS), "description": "task in each cell; default: what the study asks"},
+    "count": {**_COUNT, "description": f"cells of a sample ({', '.join(SAMPLED)})"},
+    "seed": {"type": "integer", "minimum": 0, "description": "seed of a sample; default 1"},
+    "outputs": {"description": "further outputs in the tables"},
+    "most": {**_COUNT, "description": f"largest number of cells; default {MOST_CELLS}"},
+}
+"""The keys; those that depend on the mode are completed by `_schema`."""
 _MOST_SEED = 2**32 - 1
 _EXAMPLE = "'over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 20}}'"
 
 
-def read_sweep(reading: Reading, node: Node | None, points: Collection[str]) -> SweepBlock | None:
+def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
     """Return what is swept, None where nothing is; every problem is noted."""
-    found = unknown_keys(reading.problems, entries(reading.problems, node, "sweep", _EXAMPLE), "sweep", "key", _KEYS)
+    found = unknown_keys(
+        reading.problems, entries(reading.problems, node, "sweep", _EXAMPLE), "sweep", "key", list(_FIELDS)
+    )
     if node is None or not found:
         return None
     method = _word(reading, found.get("method"), "sweep.method", METHODS) or ("list" if "cells" in found else "grid")
     before = len(reading.problems.found)
     if method == "list":
-        axes, rows = _listed(reading, found, node, points)
+        axes, rows = _listed(reading, found, node)
     else:
-        axes, rows = _axes(reading, found, node, points, method), ()
+        axes, rows = _axes(reading, found, node, method), ()
     count = _count(reading, found, node, method)
     block = SweepBlock(
         method=method, axes=axes, rows=rows, task=_word(reading, found.get("task"), "sweep.task", TASKS),
         count=count, seed=_number(reading, found, "seed", 0, _MOST_SEED) or 0 if "seed" in found else 1,
-        outputs=_outputs(reading, found.get("outputs"), points),
+        outputs=_outputs(reading, found.get("outputs")),
     )  # fmt: skip
     most = _number(reading, found, "most", 1, 10**9)
     if len(reading.problems.found) > before:
@@ -94,7 +109,7 @@ def _count(reading: Reading, found: dict[str, Node], node: Node, method: str) ->
     return _number(reading, found, "count", 1, 10**9) or 0
 
 
-def _outputs(reading: Reading, node: Node | None, points: Collection[str]) -> tuple[str, ...]:
+def _outputs(reading: Reading, node: Node | None) -> tuple[str, ...]:
     if node is None:
         return ()
     if isinstance(node, Text) and node.value == EVERY_OUTPUT:
@@ -106,7 +121,7 @@ def _outputs(reading: Reading, node: Node | None, points: Collection[str]) -> tu
     for i, item in enumerate(node.items):
         path = f"sweep.outputs[{i}]"
         word = text(reading.problems, item, path, "the name of an output")
-        if word and isinstance(item, Text) and named_output(reading, item, path, word, points):
+        if word and isinstance(item, Text) and named_output(reading, item, path, word):
             names.append(word)
     return tuple(names)
 
@@ -114,9 +129,7 @@ def _outputs(reading: Reading, node: Node | None, points: Collection[str]) -> tu
 # --- axes ---
 
 
-def _axes(
-    reading: Reading, found: dict[str, Node], node: Node, points: Collection[str], method: str
-) -> tuple[SweptAxis, ...]:
+def _axes(reading: Reading, found: dict[str, Node], node: Node, method: str) -> tuple[SweptAxis, ...]:
     if "cells" in found:
         reading.problems.add(found["cells"], "sweep.cells", f"a {method} has no list of cells", "'method: list'")
     over = found.get("over")
@@ -126,7 +139,7 @@ def _axes(
     axes = []
     for name, (key, value) in named.items():
         path = step("sweep.over", name)
-        axis = _axis(reading, key, path, name, points)
+        axis = _axis(reading, key, path, name)
         if axis is None:
             continue
         if isinstance(value, Mapping):
@@ -138,7 +151,7 @@ def _axes(
 
 
 def _listed(
-    reading: Reading, found: dict[str, Node], node: Node, points: Collection[str]
+    reading: Reading, found: dict[str, Node], node: Node
 ) -> tuple[tuple[SweptAxis, ...], tuple[tuple[Text, ...], ...]]:
     """The axes and rows of `cells: [{pcl_thickness: 1 mm, current: 1 A}, ...]`."""
     expected = "a list such as [{pcl_thickness: 1 mm, current: 1 A}, ...]"
@@ -156,7 +169,7 @@ def _listed(
         path = f"sweep.cells[{i}]"
         named = entries(reading.problems, item, path, expected)
         for name, (key, value) in named.items():
-            axis = axes.get(name) or _axis(reading, key, step(path, name), name, points)
+            axis = axes.get(name) or _axis(reading, key, step(path, name), name)
             if i and axis and name not in axes:
                 reading.problems.add(key, step(path, name), "is not in the first cell", "the same names in each cell")
             elif axis:
@@ -170,16 +183,16 @@ def _listed(
     return tuple(axes.values()), tuple(rows)
 
 
-def _axis(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> SweptAxis | None:
+def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis | None:
     """What a name on the left of `over` means, still without values."""
     section, _, rest = name.partition(".")
     if not rest:
         return _of_module(reading, key, path, name)
-    if section not in SWEPT_SECTIONS:
-        reading.problems.unknown(key, path, f"section to sweep in: {quoted(section)}", section, SWEPT_SECTIONS)
+    if section not in _SWEPT_SECTIONS:
+        reading.problems.unknown(key, path, f"section to sweep in: {quoted(section)}", section, _SWEPT_SECTIONS)
         return None
     if section == "require":
-        row = named_output(reading, key, path, rest, points)
+        row = named_output(reading, key, path, rest)
         return SweptAxis(name, row.unit, whole=False, number=False) if row else None
     point = rest.partition(".")[2] if section == "operating_points" else ""
     value = reading.table.by_name.get(point)
@@ -225,7 +238,7 @@ def _range(reading: Reading, node: Mapping, path: str, axis: SweptAxis, method: 
     if ends is None:
         return None
     (lower, sense), (upper, other) = ends
-    logarithmic = _word(reading, parts.get("spacing"), f"{path}.spacing", SPACINGS) == "logarithmic"
+    logarithmic = _word(reading, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
     if sense != other:
         reading.problems.add(node, path, f"begins with {sense} and ends with {other}", "the same sense at both ends")
     elif not below(lower, upper):
@@ -293,3 +306,35 @@ def _steps(
         reading.problems.add(parts["step"], f"{path}.step", "leads nowhere", "a step above zero")
         return 0
     return int((ends[1] - ends[0]) / width * (1.0 + ROUNDING) + ROUNDING) + 1
+
+
+# --- schema ---
+
+
+def _schema(table: Table) -> Schema:
+    values = {row.name: set_schema(row) for row in settable(table)}
+    words = {row.name for row in settable(table) if isinstance(row, Choice)}
+    quantity: Schema = {"type": ["string", "number"]}
+    paths = rf"^({'|'.join(_SWEPT_SECTIONS)})\."
+    over = shape({name: _axis_schema(value, ranged=name not in words) for name, value in values.items()}, [])
+    del over["required"]
+    over |= {"minProperties": 1, "patternProperties": {paths: _axis_schema(quantity, ranged=True)}}
+    cell = {
+        "type": "object", "additionalProperties": False, "properties": values, "patternProperties": {paths: quantity},
+    }  # fmt: skip
+    outputs = [{"const": EVERY_OUTPUT}, {"type": "array", "items": output_name(table)}]
+    by_mode: Schema = {"over": over, "cells": {"items": cell}, "outputs": {"anyOf": outputs}}
+    return mapping({name: {**field, **by_mode.get(name, {})} for name, field in _FIELDS.items()})
+
+
+def _axis_schema(value: Schema, *, ranged: bool) -> Schema:
+    listed: Schema = {"type": "array", "minItems": 1, "items": value}
+    if not ranged:
+        return listed
+    steps: Schema = {
+        "count": {"type": "integer", "minimum": 2}, "step": value, "spacing": {"enum": list(_SPACINGS)},
+    }  # fmt: skip
+    return {"anyOf": [listed, shape({"from": value, "to": value, **steps}, ["from", "to"])]}
+
+
+SWEEP = Section("sweep", "many cells of the study, which `tvimdesign sweep` answers", _read, _schema)

@@ -1,9 +1,9 @@
-"""Reads the sections `tolerances` and `robust`: how far inputs lie from what is drawn, and what must hold anyway."""
+"""The sections `tolerances` and `robust`: how far inputs lie from what is drawn, and what must hold anyway."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Iterable
 from functools import cache
 from importlib import resources
 from typing import Any, Literal
@@ -12,14 +12,39 @@ from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Input, Output, Table
-from tvimdesign.study.study import Robust, Tolerance
+from tvimdesign.study.sections.section import (
+    NUMBER,
+    NUMBER_VALUE,
+    POINT,
+    Schema,
+    Section,
+    described,
+    mapping,
+    shape,
+)
+from tvimdesign.study.study import Robust, Study, Tolerance
 from tvimdesign.study.text.mistakes import one_of, quoted, step
-from tvimdesign.study.text.values import Reading, entries, flag, misfit, number, si_value, text, unknown_keys
+from tvimdesign.study.text.values import (
+    Reading,
+    difference_unit,
+    entries,
+    exactly,
+    flag,
+    misfit,
+    number,
+    si_value,
+    text,
+    unknown_keys,
+)
 from tvimdesign.study.text.yaml_text import Mapping, Node, Text
 
 STANDARD = "standard"
 _SHARE = re.compile(r"(?P<number>[^%]*[0-9.])\s*%")
 _KEYS = ["plus_minus", "row", "distribution", "sigma", "adjustable", "adjusted_to"]
+_ROBUST_KEYS: Schema = {
+    "sigma": {"description": "standard deviations between each limit and the nominal design", **NUMBER_VALUE},
+    "yield": {"description": "share of modules that must satisfy all limits", **NUMBER_VALUE},
+}
 _MOST_SIGMAS = 6.0
 
 
@@ -53,17 +78,12 @@ def _size(written: str, unit: str) -> dict[str, float]:
     return {"plus_minus": parse_quantity(written, unit)}
 
 
-def difference_unit(unit: str) -> str:
-    """Unit of a difference: a temperature's is the kelvin."""
-    return "K" if unit == "degC" else unit
-
-
 def tolerance_rows(table: Table) -> list[str]:
     """The outputs that say how far an input may lie from what is drawn."""
     return [row.name for row in table.outputs if row.name.endswith("_tolerance") and not row.per_point]
 
 
-def read_tolerances(reading: Reading, node: Node | None, points: Collection[str]) -> dict[str, Tolerance]:
+def _read_tolerances(reading: Reading, node: Node | None) -> dict[str, Tolerance]:
     """Return the tolerance of each input by full name; every problem is noted."""
     if isinstance(node, Text) and node.value == STANDARD:
         return standard_tolerances(reading.table)
@@ -76,18 +96,18 @@ def read_tolerances(reading: Reading, node: Node | None, points: Collection[str]
         if name == STANDARD:
             continue
         path = step("tolerances", name)
-        row = _input(reading, key, path, name, points)
+        row = _input(reading, key, path, name)
         read = None if row is None else _tolerance(reading, value, path, row, found.get(name))
         if read is not None:
             found[name] = read
     return found
 
 
-def _input(reading: Reading, key: Text, path: str, name: str, points: Collection[str]) -> Input | None:
+def _input(reading: Reading, key: Text, path: str, name: str) -> Input | None:
     base, _, point = name.partition("@")
     row = reading.table.by_name.get(base)
-    if point and isinstance(row, Input) and row.per_point and point not in points:
-        reading.problems.unknown(key, path, f"operating point: {quoted(point)}", point, points)
+    if point and isinstance(row, Input) and row.per_point and point not in reading.points:
+        reading.problems.unknown(key, path, f"operating point: {quoted(point)}", point, reading.points)
         return None
     if isinstance(row, Input) and not row.integer and row.per_point == bool(point):
         return row
@@ -216,26 +236,21 @@ def _sigmas(reading: Reading, node: Node, path: str) -> float | None:
     return value
 
 
-def read_robust(
-    reading: Reading, node: Node | None, tolerances: dict[str, Tolerance], *, searched: bool
-) -> Robust | None:
-    """Return how far within its limits a design must stay, or how many modules must keep all; every problem is noted.
-
-    `searched` says whether the study varies anything, without which there is no optimum to be robust.
-    """
+def _read_robust(reading: Reading, node: Node | None) -> Robust | None:
+    """Return how far within its limits a design must stay, or how many modules must keep all."""
     expected = "{sigma: 3} or {yield: 99 %}"
     found = entries(reading.problems, node, "robust", expected)
-    parts = unknown_keys(reading.problems, found, "robust", "key", ["sigma", "yield"])
+    parts = unknown_keys(reading.problems, found, "robust", "key", list(_ROBUST_KEYS))
     if not parts:
         return None
     assert node is not None
     if len(parts) == 2:
         reading.problems.add(node, "robust", "both 'sigma' and 'yield'", expected)
         return None
-    if not tolerances:
+    if not reading.section("tolerances"):
         said = "there is nothing to be robust against: `tolerances` is missing"
         reading.problems.add(node, "robust", said, "`tolerances: standard`, for one")
-    if not searched:
+    if not reading.has("vary"):
         said = "nothing may change: `vary` is missing"
         reading.problems.add(node, "robust", said, "both or neither", "`tvimdesign tolerate` evaluates as well")
     if "sigma" in parts:
@@ -248,3 +263,66 @@ def read_robust(
         reading.problems.add(parts["yield"], "robust.yield", f"{share:g} is out of range", "above 50 % and below 100 %")
         return None
     return Robust(share=share)
+
+
+# --- schema and writer ---
+
+
+def tolerance_schema(tables: Iterable[Table]) -> Schema:
+    """Return the schema of one tolerance of any input."""
+    size = {"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^\s*{NUMBER}"}]}
+    rows = sorted({name for table in tables for name in tolerance_rows(table)})
+    full = {
+        "plus_minus": size, "row": {"enum": rows}, "distribution": {"enum": ["normal", "uniform"]},
+        "sigma": NUMBER_VALUE, "adjustable": {"type": "boolean"}, "adjusted_to": size,
+    }  # fmt: skip
+    return {"anyOf": [size, shape(full, [])]}
+
+
+def _tolerances_schema(table: Table) -> Schema:
+    one: Schema = {"allOf": [{"$ref": "#/definitions/tolerance"}]}
+    rows = [row for row in table.inputs if not row.integer]
+    points = {f"^{row.name}@{POINT}$": {"description": described(row), **one} for row in rows if row.per_point}
+    named = {row.name: {"description": described(row), **one} for row in rows if not row.per_point}
+    return {"anyOf": [mapping({STANDARD: {"type": "boolean"}, **named}, points), {"const": STANDARD}]}
+
+
+def _write_tolerances(study: Study) -> dict[str, Any]:
+    """Return each tolerance; if all the usual ones are there, only that they are and what differs from them."""
+    table, tolerances, usual = study.table, study.tolerances, standard_tolerances(study.table)
+    usual = usual if usual.keys() <= tolerances.keys() else {}
+    found: dict[str, Any] = {STANDARD: "true"} if usual else {}
+    for name, one in tolerances.items():
+        if one != usual.get(name):
+            found[name] = _written(table, name, one, usual.get(name))
+    return found
+
+
+def _written(table: Table, name: str, one: Tolerance, usual: Tolerance | None) -> dict[str, Any]:
+    row = table.by_name[name.partition("@")[0]]
+    unit = difference_unit(row.unit if isinstance(row, Input) else "1")
+    size: dict[str, Any] = {"row": one.row} if one.row else {"plus_minus": _written_size(one, unit)}
+    size = {} if usual and one.source == usual.source else size
+    left = {} if one.adjusted_to is None else {"adjusted_to": exactly(one.adjusted_to, unit)}
+    return {**size, "distribution": one.distribution, "sigma": one.sigma, "adjustable": one.adjustable, **left}
+
+
+def _written_size(one: Tolerance, unit: str) -> str | None:
+    if one.share is not None:
+        return exactly(one.share, "percent").replace(" percent", " %")
+    return None if one.plus_minus is None else exactly(one.plus_minus, unit)
+
+
+def _write_robust(study: Study) -> dict[str, float]:
+    sizes = (study.robust.sigma, study.robust.share) if study.robust else ()
+    return {key: size for key, size in zip(_ROBUST_KEYS, sizes, strict=False) if size is not None}
+
+
+TOLERANCES = Section(
+    "tolerances", "deviations of inputs from their nominal values; `standard` takes the usual ones",
+    _read_tolerances, _tolerances_schema, _write_tolerances,
+)  # fmt: skip
+ROBUST = Section(
+    "robust", "distance from each limit in standard deviations, or the share of modules that must satisfy all limits",
+    _read_robust, mapping(_ROBUST_KEYS) | {"maxProperties": 1}, _write_robust,
+)  # fmt: skip

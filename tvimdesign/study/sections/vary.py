@@ -1,14 +1,17 @@
-"""Reads the section `vary`: which inputs may change, and between what or among which values."""
+"""The section `vary`: which inputs may change, and between what or among which values."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import Any
 
+from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.units import format_quantity
-from tvimdesign.device import Choice, Input
-from tvimdesign.study.sections.sizes import read_sizes
-from tvimdesign.study.study import Options, Range, Vary
+from tvimdesign.device import Choice, Input, Table
+from tvimdesign.study.sections.section import Schema, Section, described, mapping, settable, shape, value_schema
+from tvimdesign.study.sections.settings import written_value
+from tvimdesign.study.study import Options, Range, Study, Vary
 from tvimdesign.study.text.mistakes import one_of, quoted, step
 from tvimdesign.study.text.values import (
     ROUNDING,
@@ -20,6 +23,8 @@ from tvimdesign.study.text.values import (
     in_unit,
     misfit,
     quantity,
+    record,
+    text,
     unknown_keys,
 )
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
@@ -27,8 +32,16 @@ from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 MOST_OPTIONS = 200
 
 
-def read_vary(reading: Reading, node: Node | None) -> dict[str, Vary]:
+def _read(reading: Reading, node: Node | None) -> dict[str, Vary]:
     """Return what may change by row; every problem is noted."""
+    vary, module = _ranges(reading, node), reading.section("module")
+    _check_against_module(reading, vary, module)
+    if node is not None and reading.has("vary") and not reading.has("minimize"):
+        reading.problems.add(node, "vary", "there is nothing to improve: `minimize` is missing", "both or neither")
+    return _with_start(vary, module)
+
+
+def _ranges(reading: Reading, node: Node | None) -> dict[str, Vary]:
     rows: dict[str, Input | Choice] = {row.name: row for row in reading.table.inputs if row.variable}
     rows |= {row.name: row for row in reading.table.choices}
     found: dict[str, Vary] = {}
@@ -76,7 +89,7 @@ def _input(reading: Reading, node: Node, path: str, row: Input) -> Vary | None:
     if "choose" in parts:
         return _listed(reading, parts["choose"], path, row)
     if "catalog" in parts:
-        return read_sizes(reading, parts, path, row)
+        return _read_sizes(reading, parts, path, row)
     return _steps(reading, node, parts, path, row) if steps else _span(reading, node, parts, path, row)
 
 
@@ -202,10 +215,9 @@ def _listed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Opt
     return Options(values=tuple(values)) if len(values) == len(node.items) else None
 
 
-def check_against_module(
-    reading: Reading, vary: dict[str, Vary], module: dict[str, float | str], node: Node | None
-) -> None:
+def _check_against_module(reading: Reading, vary: dict[str, Vary], module: dict[str, float | str]) -> None:
     """Note each value under `module` that lies outside what `vary` allows for the same row."""
+    node = reading.nodes.get("module")
     values = node.entries if isinstance(node, Mapping) else {}
     for name in [name for name in vary if name in module and name in values]:
         allowed, value, place, row = vary[name], module[name], values[name][1], reading.table.by_name[name]
@@ -223,7 +235,7 @@ def check_against_module(
         reading.problems.add(place, step("module", name), found, span, "widen the range or change the value")
 
 
-def with_start(vary: dict[str, Vary], module: dict[str, float | str]) -> dict[str, Vary]:
+def _with_start(vary: dict[str, Vary], module: dict[str, float | str]) -> dict[str, Vary]:
     """Give each range without a start of its own the value under `module`."""
     started = dict(vary)
     for name, allowed in vary.items():
@@ -246,3 +258,94 @@ def _has(values: list[float | str], value: float | str) -> bool:
 
 def _shown(node: Node) -> str:
     return quoted(node.value) if isinstance(node, Text) else "the value"
+
+
+# --- sizes one can buy ---
+
+
+def _read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> Options | None:
+    """Return the sizes a catalogue record lists for an input, within `from` and `to` where they are given."""
+    node = parts["catalog"]
+    ends = {key: quantity(reading.problems, parts[key], f"{path}.{key}", row) for key in ("from", "to") if key in parts}
+    name = text(reading.problems, node, f"{path}.catalog", f"the name of a record in the category {row.sizes_in[0]}")
+    sizes = [] if name is None else _sizes(reading, node, f"{path}.catalog", name, row)
+    if not sizes or None in ends.values():
+        return None
+    lower, upper = ends.get("from"), ends.get("to")
+    low = row.lower if lower is None else lower
+    high = row.upper if upper is None else upper
+    if below(high, low):
+        reading.problems.add(parts.get("from", node), path, "the range is upside down", "from < to", "swap the two")
+        return None
+    within = tuple(size for size in sizes if not below(size, low) and not below(high, size))
+    if within:
+        return Options(values=within, source=name)
+    first, last = format_quantity(sizes[0], row.unit), format_quantity(sizes[-1], row.unit)
+    message = f"{name} has no size from {format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
+    reading.problems.add(node, path, message, f"part of {first} to {last}")
+    return None
+
+
+def _sizes(reading: Reading, node: Node, path: str, name: str, row: Input) -> list[float]:
+    """Return every size the record lists, smallest first; none (and a problem) where it lists none."""
+    category, of, column = row.sizes_in
+    found = record(reading, node, path, category, name)
+    if found is None:
+        return []
+    try:
+        table = found.table(of)
+    except CatalogError as error:
+        reading.problems.add(node, path, str(error))
+        return []
+    sizes = sorted({float(line[column]) for line in table if column in line})
+    if not sizes:
+        columns = ", ".join(sorted({listed for line in table for listed in line}))
+        message = f"{name} lists no {column}, only {columns or 'nothing'}"
+        reading.problems.add(node, path, message, "a record that lists it")
+    return sizes
+
+
+# --- schema and writer ---
+
+
+def _schema(table: Table) -> Schema:
+    rows = [row for row in settable(table) if isinstance(row, Choice) or row.variable]
+    return mapping({row.name: {"description": described(row), "anyOf": _schemas(row)} for row in rows})
+
+
+def _schemas(row: Input | Choice) -> list[Schema]:
+    value = value_schema(row)
+    forms = [shape({"choose": {"type": "array", "minItems": 1, "items": value}}, ["choose"])]
+    if isinstance(row, Choice):
+        return forms
+    about = f"a record of the category {row.sizes_in[0]} that lists the sizes one can buy"
+    ends = {"from": value, "to": value}
+    forms.append(shape({"catalog": {"type": "string", "description": about}, **ends}, ["catalog"]))
+    forms.append(shape({**ends, "step": value}, ["from", "to", *([] if row.integer else ["step"])]))
+    if not row.integer:
+        forms.append({"type": "array", "minItems": 2, "maxItems": 2, "items": value})
+        forms.append(shape({**ends, "start": value}, ["from", "to"]))
+    return forms
+
+
+def _write(study: Study) -> dict[str, Any]:
+    return {name: _written(study.table, name, allowed) for name, allowed in study.vary.items()}
+
+
+def _written(table: Table, name: str, allowed: Vary) -> dict[str, Any]:
+    if isinstance(allowed, Options):
+        values = [written_value(table, name, value) for value in allowed.values]
+        if allowed.source is None:
+            return {"choose": values}
+        return {"catalog": allowed.source, "from": values[0], "to": values[-1]}
+    ends = {"from": allowed.lower, "to": allowed.upper, "start": allowed.start}
+    return {key: written_value(table, name, end) for key, end in ends.items() if end is not None}
+
+
+VARY = Section(
+    "vary",
+    "variables of the search, each with a range, a list or the sizes of a catalogue record",
+    _read,
+    _schema,
+    _write,
+)

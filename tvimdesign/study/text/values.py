@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable
+from collections.abc import Mapping as Mapped
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
 
 from tvimdesign.base.errors import CatalogError, UnitError
 from tvimdesign.base.record import Record
-from tvimdesign.base.units import format_quantity, parse_quantity
+from tvimdesign.base.units import format_quantity, from_si, parse_quantity, si_unit
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
 from tvimdesign.study.text.mistakes import Mistakes, Place, quoted, step
@@ -25,12 +28,36 @@ _FLAGS = {"true": True, "True": True, "false": False, "False": False}
 
 @dataclass(frozen=True)
 class Reading:
-    """What the sections are read against, and where their problems go."""
+    """A study while it is read: its nodes, what they are read against, and where their problems go."""
 
     problems: Mistakes
     mode: str
+    """Empty if it is not known."""
     table: Table
     catalog: Catalog
+    nodes: Mapped[str, Node]
+    """The sections as they are written."""
+    readers: Mapped[str, Callable[[Reading, Node | None], Any]]
+    values: dict[str, Any] = field(default_factory=dict)
+    """The sections that have been read."""
+
+    def section(self, name: str) -> Any:
+        """Return the value of a section; it is read when it is first asked for."""
+        if name not in self.values:
+            self.values[name] = self.readers[name](self, self.nodes.get(name))
+        return self.values[name]
+
+    @property
+    def points(self) -> Collection[str]:
+        """The study's operating points."""
+        points: Collection[str] = self.section("operating_points")
+        return points
+
+    def has(self, name: str) -> bool:
+        """Return whether anything stands in a section."""
+        node = self.nodes.get(name)
+        empty = (isinstance(node, Text) and node.empty) or (isinstance(node, Mapping) and not node.entries)
+        return node is not None and not empty
 
     def unknown_quantity(self, place: Place, path: str, what: str, name: str, known: Iterable[str]) -> None:
         """Note a name that is no such row; of a row that only another mode has, which one."""
@@ -122,6 +149,22 @@ def si_value(problems: Mistakes, node: Node, path: str, word: str, unit: str) ->
     except UnitError as error:
         problems.add(node, path, str(error))
         return None
+
+
+def exactly(value: float, unit: str) -> str:
+    """Write a quantity in a unit, or else in the SI one, with the fewest digits that read as the same number."""
+    for digits in range(1, 18):
+        number = float(f"{from_si(value, unit):.{digits}g}")
+        text = f"{number:.{max(digits, 6)}g} {unit}".removesuffix(" 1")
+        with suppress(UnitError):  # rounded, a temperature may lie below absolute zero
+            if parse_quantity(text, unit) == value:
+                return text
+    return f"{value!r} {si_unit(unit)}".removesuffix(" 1")
+
+
+def difference_unit(unit: str) -> str:
+    """Return the unit of a difference: a temperature's is the kelvin."""
+    return "K" if unit == "degC" else unit
 
 
 def quantity(problems: Mistakes, node: Node, path: str, row: Input) -> float | None:
