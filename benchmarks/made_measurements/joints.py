@@ -6,7 +6,7 @@ import numpy as np
 
 from made_measurements.made import Made, block, numbers
 from tvimdesign.physics.motions import motion
-from tvimdesign.simulation.measurement.kinds.joint import frozen_torque, swing, torque_angle
+from tvimdesign.simulation.measurement.kinds.joint import frozen_torque, release, torque_angle
 
 
 def torque_angle_data(noise: np.random.Generator) -> Made:
@@ -24,7 +24,7 @@ def release_data(noise: np.random.Generator) -> Made:
     moments = np.linspace(0.0, 0.5, 250)
     known = {**truth, "inertia": 4e-4, "first_angle": 0.12, "first_speed": 0.0}
     corner = 0.01 * 0.22 * np.pi / 0.0562
-    angle = numbers(swing.swing(moments, known, 6, corner)) + noise.normal(0.0, 1e-3, len(moments))
+    angle = numbers(release.swing(moments, known, 6, corner)) + noise.normal(0.0, 1e-3, len(moments))
     follows = {
         "first_angle": 0.12, "first_speed": 0.0, "natural_frequency": np.sqrt(5.0 / 4e-4) / (2.0 * np.pi),
         "damping_ratio": 3e-3 / (2.0 * np.sqrt(5.0 * 4e-4)),
@@ -42,7 +42,7 @@ def sine_data(noise: np.random.Generator) -> Made:
         angle, speed = 0.1 * np.sin(omega * time), 0.1 * omega * np.cos(omega * time)
         spring = motion.kelvin_voigt_torque(angle - truth["zero_angle"], speed, truth["damping"], truth["stiffness"])
         torque = -truth["inertia"] * omega**2 * angle - spring
-        torque = torque + truth["friction"] * np.tanh(speed / (swing.CORNER * 0.1 * omega))
+        torque = torque + truth["friction"] * np.tanh(speed / (release.CORNER * 0.1 * omega))
         blocks.append(
             block(time=time, angle=angle + noise.normal(0.0, 5e-4, 150), torque=torque + noise.normal(0.0, 0.01, 150))
         )

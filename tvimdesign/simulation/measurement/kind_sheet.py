@@ -26,7 +26,8 @@ class KindSheet:
     """A kind of measurement."""
 
     name: str
-    room: str
+    function: str
+    """That fits its tables: folder, file and name in `kinds/`."""
     about: str
     needs: tuple[tuple[str, ...], ...]
     """Columns; of each tuple one."""
@@ -60,7 +61,7 @@ class KindSheet:
         for need in self.needs:
             if self.column(block, need) is None:
                 why = next((block.problems[name] for name in need if name in block.problems), "")
-                return why or f"{block.file}:{block.lines[0]}: no column is {' or '.join(need)}"
+                return why or f"{block.place}: no column is {' or '.join(need)}"
         return ""
 
     def values(self, given: Mapping[str, str]) -> dict[str, Any]:
@@ -116,7 +117,7 @@ def kind_sheets() -> dict[str, KindSheet]:
     tree = plain_data(_FILE.read_text(encoding="utf-8"))
     return {
         name: KindSheet(
-            name, entry["room"], entry["about"], tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ())),
+            name, entry["function"], entry["about"], tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ())),
             entry.get("category", ""), entry["settings"], _words(entry.get("varies", "")),
             _words(entry.get("constant", "")), entry.get("only_asked", False),
         )

@@ -60,7 +60,7 @@ def measure_files(
     fitting = tuple(block for block in blocks if sheet.fits(block) and _rows(block, sheet) >= LEAST_ROWS)
     if not fitting:
         most = max(blocks, key=lambda block: sum(sheet.column(block, need) is not None for need in sheet.needs))
-        why = sheet.lacking(most) or f"{most.file}:{most.lines[0]}: fewer than {LEAST_ROWS} whole rows"
+        why = sheet.lacking(most) or f"{most.place}: fewer than {LEAST_ROWS} whole rows"
         raise InputError(
             f"{why}; {sheet.name} needs {_needed(sheet)}. A column map (--columns) says which column is what"
         )
@@ -69,7 +69,8 @@ def measure_files(
 
 def measure_of(sheet: KindSheet) -> Callable[..., Measurement]:
     """What fits tables of a kind."""
-    measure: Callable[..., Measurement] = import_module(f"{__package__}.kinds.{sheet.room}.{sheet.name}").measure
+    module, _, function = sheet.function.rpartition(".")
+    measure: Callable[..., Measurement] = getattr(import_module(f"{__package__}.kinds.{module}"), function)
     return measure
 
 

@@ -13,8 +13,15 @@ from scipy.stats import t as student
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.fit import Fit, fitted
 from tvimdesign.simulation.measurement.fitting.intervals import spread
-from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.fitting.residuals import Residuals
+from tvimdesign.simulation.measurement.fitting.problem import (
+    Array,
+    Channel,
+    Derived,
+    Parameter,
+    Problem,
+    Residuals,
+    Values,
+)
 from tvimdesign.simulation.measurement.fitting.robust_fit import robust_fit
 
 X = np.linspace(0.1, 5.0, 60)

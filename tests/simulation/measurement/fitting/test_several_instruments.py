@@ -7,8 +7,7 @@ import pytest
 
 from tvimdesign.simulation.measurement.fitting.fit import Fit, fitted
 from tvimdesign.simulation.measurement.fitting.intervals import effective_freedom, spread
-from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Parameter, Problem
-from tvimdesign.simulation.measurement.fitting.residuals import Residuals
+from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Parameter, Problem, Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import robust_fit
 
 TRUTH = 5.0

@@ -17,8 +17,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from scipy.special import stdtrit
 
-from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter
-from tvimdesign.simulation.measurement.fitting.residuals import Residuals
+from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import (
     RobustFit,
     cost,

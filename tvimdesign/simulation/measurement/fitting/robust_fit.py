@@ -12,8 +12,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.fitting.problem import Array
-from tvimdesign.simulation.measurement.fitting.residuals import Residuals
+from tvimdesign.simulation.measurement.fitting.problem import Array, Residuals
 
 LINEAR_UP_TO = 2.0
 """Deviations from which on a residual pulls as its size and no more as its square; 3 % wider intervals without

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+
+if TYPE_CHECKING:
+    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Settings = Mapping[str, Any]
 """By name: numbers in SI, texts as they are."""
@@ -16,7 +20,7 @@ LEAST_ROWS = 3
 
 
 @dataclass(frozen=True)
-class RecordTableFound:
+class RecordTable:
     """A table of a record: columns with their units, rows in SI."""
 
     columns: Mapping[str, str]
@@ -24,7 +28,7 @@ class RecordTableFound:
 
 
 @dataclass(frozen=True)
-class RecordFound:
+class OtherRecord:
     """Values of a record of another category than the kind's, which the same data tell."""
 
     category: str
@@ -43,10 +47,10 @@ class Measurement:
     """What a reader has to know: what was taken for what, what was left out."""
     record_values: Mapping[str, Estimate] = field(default_factory=dict)
     """Values of a record, by their names there."""
-    record_tables: Mapping[str, RecordTableFound] = field(default_factory=dict)
+    record_tables: Mapping[str, RecordTable] = field(default_factory=dict)
     record_conditions: Mapping[str, tuple[float, str]] = field(default_factory=dict)
     """Values of a record that were chosen, not measured, and go with the others: in SI, with the unit to write."""
-    more_records: Sequence[RecordFound] = ()
+    more_records: Sequence[OtherRecord] = ()
 
     def with_note(self, note: str) -> Measurement:
         """The same with one more note, first."""
@@ -60,13 +64,26 @@ def required(settings: Settings, name: str, why: str) -> Any:
     return settings[name]
 
 
+def endings(blocks: Sequence[Block]) -> list[str]:
+    """Return what the names of parameters of each table end with: nothing where there is one table."""
+    return [""] if len(blocks) == 1 else [f"_{i}" for i in range(1, len(blocks) + 1)]
+
+
+def resolve_measured(source: Path) -> ResolvedModule:
+    """Return the module of a study, or of a result's design.json."""
+    from tvimdesign.simulation.working_cycle.resolved_module import resolve_design, resolve_study
+    from tvimdesign.study import read_study
+    from tvimdesign.study.design import read_design
+
+    return resolve_design(read_design(source)) if source.suffix == ".json" else resolve_study(read_study(source))
+
+
 def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
     """These columns of a block, the rows in which all of them stand. Raises InputError where there are too few."""
     count = block.complete(quantities)
     if count < LEAST_ROWS:
         raise InputError(
-            f"{block.file}:{block.lines[0]}: {count} rows have {', '.join(quantities)} all at once; "
-            f"at least {LEAST_ROWS} are needed"
+            f"{block.place}: {count} rows have {', '.join(quantities)} all at once; at least {LEAST_ROWS} are needed"
         )
     import numpy as np
 
@@ -86,5 +103,5 @@ def series_of(block: Block, quantities: Sequence[str], most: int = 0) -> list[Ar
     step = -(-len(every[0]) // most) if most else 1
     taken = [one[::step] for one in every]
     if np.any(np.diff(taken[0]) <= 0.0):
-        raise InputError(f"{block.file}:{block.lines[0]}: {quantities[0]} does not rise from row to row")
+        raise InputError(f"{block.place}: {quantities[0]} does not rise from row to row")
     return taken

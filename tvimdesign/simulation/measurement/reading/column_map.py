@@ -12,7 +12,7 @@ import yaml
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty, si_unit
 from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, unit_of
-from tvimdesign.simulation.measurement.reading.separated import DECIMALS, SEPARATORS
+from tvimdesign.simulation.measurement.reading.sheets import DECIMALS, SEPARATORS
 
 _WORDS: dict[str, Mapping[str, str]] = {"separator": SEPARATORS, "decimal": DECIMALS, "units": {"SI": ""}}
 _ENTRY = ("heading", "column", "unit")

@@ -13,12 +13,9 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
-from tvimdesign.simulation.measurement.reading.decoded import decoded, file_bytes
 from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, unit_of
-from tvimdesign.simulation.measurement.reading.separated import Sheet, separated
+from tvimdesign.simulation.measurement.reading.sheets import Sheet, file_bytes, read_sheets
 from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blocks_of
-from tvimdesign.simulation.measurement.reading.trios_json import json_sheets
-from tvimdesign.simulation.measurement.reading.workbook import ENDINGS, workbook_sheets
 
 Array = NDArray[np.float64]
 _COLDEST = 1.0  # K; nothing that is measured here is as cold
@@ -50,6 +47,11 @@ class Block:
     """Lines among the rows that hold no number."""
     problems: Mapping[str, str] = field(default_factory=dict)
     """Why a column of a known name could not be read, by its quantity: with line and column."""
+
+    @property
+    def place(self) -> str:
+        """File and first line, for messages."""
+        return f"{self.file}:{self.lines[0]}"
 
     def values(self, quantity: str) -> Array:
         """The values of a column in SI. Raises KeyError where the block lacks it."""
@@ -113,7 +115,7 @@ def read_data_file(path: Path, columns: ColumnMap | None = None) -> DataFile:
     """
     columns = columns or ColumnMap()
     data = file_bytes(path)
-    sheets, how = _sheets(path, data, columns)
+    sheets, how = read_sheets(path, data, columns.separator, columns.decimal)
     raw = [(sheet, block) for sheet in sheets for block in blocks_of(sheet, _place(path, sheet), path.suffix)]
     if not raw:
         raise InputError(f"{path}: no table of numbers under headings was found")
@@ -123,16 +125,6 @@ def read_data_file(path: Path, columns: ColumnMap | None = None) -> DataFile:
 
 def _place(path: Path, sheet: Sheet) -> str:
     return f"{path} ({sheet.title})" if sheet.separator == "sheet" and sheet.title else str(path)
-
-
-def _sheets(path: Path, data: bytes, columns: ColumnMap) -> tuple[list[Sheet], str]:
-    if path.suffix.lower() in ENDINGS:
-        return workbook_sheets(data, str(path)), "workbook"
-    text, encoding = decoded(data, str(path))
-    if text.lstrip()[:1] in {"{", "["} and path.suffix.lower() == ".json":
-        return json_sheets(text, str(path)), "JSON"
-    sheet = separated(text, str(path), columns.separator, columns.decimal)
-    return [sheet], f"{encoding}, separated by {sheet.separator}, decimal {sheet.decimal}"
 
 
 def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:

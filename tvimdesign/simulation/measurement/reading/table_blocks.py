@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.reading.headings import Heading, heading, is_unit, known, plain, setting_name
-from tvimdesign.simulation.measurement.reading.separated import Row, Sheet
+from tvimdesign.simulation.measurement.reading.sheets import Row, Sheet
 
 _LEAST_NUMBERS = 2
 _HEADING_ROWS = 4

@@ -78,7 +78,7 @@ def _at_new_times(block: Block, which: str) -> list[Array]:
     columns = rows_of(block, ["time", "temperature", which])
     steps = np.diff(columns[0])
     if np.any(steps < 0.0):
-        raise InputError(f"{block.file}:{block.lines[0]}: time falls from one row to the next")
+        raise InputError(f"{block.place}: time falls from one row to the next")
     new = np.append(True, steps > 0.0)
     return [column[new] for column in columns]
 
@@ -86,9 +86,7 @@ def _at_new_times(block: Block, which: str) -> list[Array]:
 def _mass(block: Block, settings: Settings) -> float:
     mass = settings.get("sample_mass", block.number("sample_mass"))
     if mass is None:
-        raise InputError(
-            f"{block.file}:{block.lines[0]}: the heat flow is not per mass; say --set sample_mass='5.2 mg'"
-        )
+        raise InputError(f"{block.place}: the heat flow is not per mass; say --set sample_mass='5.2 mg'")
     return float(mass)
 
 

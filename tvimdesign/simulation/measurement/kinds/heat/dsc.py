@@ -12,18 +12,20 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
-from tvimdesign.simulation.measurement.kinds.heat.freezing_start import freezing_start
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings
-from tvimdesign.simulation.measurement.reading.data_file import Block
+from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 _TYPICAL_HEAT = 70e3  # J/kg
 _RECORD = ("latent_heat", "melting_start", "melting_end", "crystallization_half_time", "nucleation_constant",
            "avrami_exponent")  # fmt: skip
+_HALF_TIMES = np.geomspace(3.0, 3000.0, 13)  # s
+_CONSTANTS = np.geomspace(3e4, 6e5, 11)  # K^2
 _SMOOTHING = 500.0  # J/kg, of `Melting`; the equations used here do not depend on it
 
 
@@ -35,7 +37,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     if melting:
         parameters += _window_start(melting)
     if freezing:
-        half_time, constant = freezing_start(freezing, settings)
+        half_time, constant = _freezing_start(freezing, settings)
         parameters += [
             Parameter("crystallization_half_time", "s", "Half-time of freezing at the reference", half_time),
             Parameter("nucleation_constant", "K^2", "K_g of Hoffman and Lauritzen", constant),
@@ -147,6 +149,37 @@ def _window_start(runs: Sequence[Run]) -> list[Parameter]:
                   scale=width),
         Parameter("melting_width", "K", "Width of the melting window", width),
     ]  # fmt: skip
+
+
+def _freezing_start(runs: Sequence[Run], settings: Settings) -> tuple[float, float]:
+    """Return half-time [s] and K_g [K^2] of least misfit, baseline and heat of each run being whatever suits it best.
+
+    Raises InputError where a polymer would be glass at the reference temperature, and not freeze.
+    """
+    glass, reference = settings["glass_transition"], settings["reference_temperature"]
+    if glass >= reference:
+        raise InputError(
+            f"glass_transition is {glass:.6g} K, reference_temperature {reference:.6g} K: a glass does not freeze; "
+            "the first must be below the second"
+        )
+    best = (np.inf, 60.0, 1e5)
+    for half_time in _HALF_TIMES:
+        for constant in _CONSTANTS:
+            kinetics = kinetics_of({"crystallization_half_time": half_time, "nucleation_constant": constant}, settings)
+            best = min(best, (sum(_misfit(run, kinetics) for run in runs), float(half_time), float(constant)))
+    return best[1], best[2]
+
+
+def _misfit(run: Run, kinetics: crystallization.Kinetics) -> float:
+    """Return the squares left of a run's heat, over what they are about their mean."""
+    constants = crystallization.rate_constant(run.temperature, kinetics)
+    psi = np.concatenate([[0.0], np.cumsum(0.5 * (constants[1:] + constants[:-1]) * np.diff(run.time))])
+    freezing: Array = np.gradient(crystallization.solid_fraction(psi, kinetics), run.time)
+    table = np.column_stack([np.ones_like(freezing), run.time / run.time[-1], freezing])
+    weights = np.linalg.lstsq(table, run.heat, rcond=None)[0]
+    if weights[2] <= 0.0:
+        table, weights = table[:, :2], np.linalg.lstsq(table[:, :2], run.heat, rcond=None)[0]
+    return float(np.sum((run.heat - table @ weights) ** 2) / np.sum((run.heat - np.mean(run.heat)) ** 2))
 
 
 def _notes(runs: Sequence[Run], upwards: bool) -> list[str]:

@@ -18,11 +18,15 @@ from tvimdesign.device.table.quantity import Feature
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.kinds.heat.logged_module import Course, LoggedModule
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, required, series_of
+from tvimdesign.simulation.measurement.kinds.measurement import (
+    Measurement,
+    Settings,
+    required,
+    resolve_measured,
+    series_of,
+)
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.study import read_study
-from tvimdesign.study.design import read_design
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 PLACES = (
     "cold_temperature", "hot_temperature", "near_face_temperature", "far_face_temperature", "rotor_temperature",
@@ -40,7 +44,7 @@ _AMBIENT = "ambient_temperature"
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit logs of one module, together. Raises InputError for what lacks."""
     source = Path(required(settings, "study", "the study, or a result's design.json, of the module that was logged"))
-    resolved = resolve_design(read_design(source)) if source.suffix == ".json" else resolve_study(read_study(source))
+    resolved = resolve_measured(source)
     rows = _rows(resolved, settings)
     module = LoggedModule(resolved, [*(row.name for row in rows), _AMBIENT])
     parameters = [
@@ -82,7 +86,7 @@ def _log(block: Block) -> tuple[Array, Array, dict[str, Array]]:
     """Time from zero, current, and the temperatures that are there, at most so many rows. Raises InputError."""
     places = [name for name in PLACES if name in block.columns]
     time, current, *seen = series_of(block, ["time", "current", *places])
-    where = f"{block.file}:{block.lines[0]}"
+    where = f"{block.place}"
     first = [one[0] for one in seen]
     if np.ptp(first) > _COLD:
         raise InputError(

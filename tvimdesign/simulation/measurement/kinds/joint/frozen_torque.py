@@ -18,7 +18,7 @@ from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers.polymer import ramp
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, required, rows_of
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, endings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
@@ -75,8 +75,7 @@ class Turned(NamedTuple):
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit joints that were turned until they gave, together: one stiffness and torque. Raises InputError."""
-    ends = [""] if len(blocks) == 1 else [f"_{i}" for i in range(1, len(blocks) + 1)]
-    joints = [_turned(block, end) for block, end in zip(blocks, ends, strict=True)]
+    joints = [_turned(block, end) for block, end in zip(blocks, endings(blocks), strict=True)]
     gave = [one for one in joints if one.bends]
     broke = [one for one in joints if one.broke and not one.bends]
     broke = broke if len(broke) >= _LEAST_BREAKS else []

@@ -21,11 +21,9 @@ from tvimdesign.base.record import Record
 from tvimdesign.device import Input
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.fitting.problem import Derived
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, RecordFound, Settings
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, OtherRecord, Settings, resolve_measured
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
-from tvimdesign.study import read_study
-from tvimdesign.study.design import read_design
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 MOLTEN, FROZEN = "molten", "frozen"
 _POINTS = {MOLTEN: "hot", FROZEN: "cold"}
@@ -124,7 +122,7 @@ class JointOfModule:
         row = next(row for row in self.resolved.table.inputs if row.name == one.name)
         return bool(np.isfinite(one.value) and row.lower <= one.value <= row.upper)
 
-    def records(self, fit: Fit, *, inertia: bool) -> tuple[dict[str, Estimate], list[RecordFound], list[str]]:
+    def records(self, fit: Fit, *, inertia: bool) -> tuple[dict[str, Estimate], list[OtherRecord], list[str]]:
         """Values of the joint's own record, records of other categories, and what has to be said of them."""
         own, others, notes = {}, [], []
         if inertia:
@@ -142,7 +140,7 @@ class JointOfModule:
             if choice == _JOINT:
                 own[value] = fit[row.name]
             elif isinstance(record, Record):
-                others.append(RecordFound(record.category, record.name, choice, {value: fit[row.name]}))
+                others.append(OtherRecord(record.category, record.name, choice, {value: fit[row.name]}))
         return own, others, notes
 
     def _pin_friction(self, torque: Estimate) -> tuple[Estimate | None, list[str]]:
@@ -176,7 +174,7 @@ def joint_of_module(settings: Settings, omega: float, amplitude: float) -> Joint
     if state not in _POINTS:
         raise InputError(f"--set state=...: needed with a study, {MOLTEN} or {FROZEN}")
     source = Path(settings["study"])
-    resolved = resolve_design(read_design(source)) if source.suffix == ".json" else resolve_study(read_study(source))
+    resolved = resolve_measured(source)
     point = _POINTS[state]
     if point not in resolved.points:
         raise InputError(f"{source}: has no operating point {point}, which says how warm a {state} joint is")

@@ -1,13 +1,19 @@
-"""The angle of a joint that is let go, in one record or several: stiffness, damping and friction (`swing`)."""
+"""The angle of a joint that is let go, in one record or several: stiffness, damping and friction.
+
+I theta'' + b theta' + T_f sgn(theta') + K (theta - theta_0) = 0: a spring, a dashpot and a dry friction
+(physics/motions/motion.py, `kelvin_voigt_rates`); the friction's corner is rounded at a hundredth of the highest speed.
+Integrated by Runge and Kutta's method of fourth order, so that every sample's derivatives are those of the integration.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.motions import dynamics
+from tvimdesign.physics.motions import dynamics, motion
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import (
     Channel,
@@ -18,13 +24,16 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     from_zero,
 )
 from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import joint_of_module, with_records
-from tvimdesign.simulation.measurement.kinds.joint.swing import CORNER, period_and_decay, swing
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, endings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 _MOST_SAMPLES = 300
 _STEPS_A_PERIOD = 60
 _LEAST_STEPS, _MOST_STEPS = 1, 50
+CORNER = 0.01
+"""Speed, over the highest of the record, at which the friction has 0.76 of its size."""
+_CONSTANTS = ("inertia", "damping", "friction", "stiffness", "zero_angle")
 _OWN = ("zero_angle", "first_angle", "first_speed")
 """What each record has for itself."""
 
@@ -75,8 +84,7 @@ class Record(NamedTuple):
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit records of time and angle, together. Raises InputError for what lacks."""
-    ends = [""] if len(blocks) == 1 else [f"_{i}" for i in range(1, len(blocks) + 1)]
-    records = [_record(block, end) for block, end in zip(blocks, ends, strict=True)]
+    records = [_record(block, end) for block, end in zip(blocks, endings(blocks), strict=True)]
     known = {"inertia": settings["inertia"]} if "inertia" in settings else {}
     inertia = settings.get("inertia", 1e-3)
     first = records[0]
@@ -122,3 +130,49 @@ def _derived(known: Values) -> list[Derived]:
 def _thinned_note(record: Record, block: Block) -> list[str]:
     used, there = len(record.time), block.complete(["time", "angle"])
     return [] if used == there else [f"{block.file}: every {-(-there // _MOST_SAMPLES)}th sample is used, {used}."]
+
+
+def swing(time: Array, values: Values, steps: int, corner: float) -> Any:
+    """Angle [rad] at each time [s], from the angle and speed at the first."""
+    state = ca.SX.sym("state", 2)
+    step, constants = ca.SX.sym("step"), ca.SX.sym("constants", 5)
+    inertia, damping, friction, stiffness, zero = ca.vertsplit(constants)
+
+    def rates(now: Any) -> Any:
+        turned = now[0] - zero
+        speed, acceleration = motion.kelvin_voigt_rates(turned, now[1], inertia, damping, stiffness)
+        return ca.vertcat(speed, acceleration - friction * np.tanh(now[1] / corner) / inertia)
+
+    after = state
+    for _ in range(steps):
+        h = step / steps
+        k1 = rates(after)
+        k2 = rates(after + 0.5 * h * k1)
+        k3 = rates(after + 0.5 * h * k2)
+        k4 = rates(after + h * k3)
+        after = after + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    one = ca.Function("one", [state, step, constants], [after])
+    given = ca.vertcat(*(values[name] for name in _CONSTANTS))
+    count = len(time) - 1
+    first = ca.vertcat(values["first_angle"], values["first_speed"])
+    course = one.mapaccum(count)(first, np.diff(time)[None, :], ca.repmat(given, 1, count))
+    return ca.horzcat(first, course)[0, :].T
+
+
+def period_and_decay(time: Array, angle: Array) -> tuple[float, float]:
+    """Period [s] by the crossings of rest and decay [1/s] by the sizes of the halves; for a record that creeps, its
+    length."""
+    rest = float(np.median(angle[-max(len(angle) // 10, 3) :]))
+    away = angle - rest
+    noise = 0.05 * np.max(np.abs(away))
+    changes = np.flatnonzero(np.diff(np.sign(away)) != 0)
+    crossings = [i for i in changes if np.max(np.abs(away[i : i + max(len(away) // 50, 3)])) > noise]
+    if len(crossings) < 2:
+        gone = np.flatnonzero(np.abs(away) < 0.37 * np.max(np.abs(away)))
+        time_gone = time[gone[0]] - time[0] if len(gone) else time[-1] - time[0]
+        return 4.0 * max(float(time_gone), float(time[1] - time[0])), 1.0 / max(float(time_gone), 1e-9)
+    period = 2.0 * float(np.median(np.diff(time[crossings])))
+    sizes = [float(np.max(np.abs(away[a:b]))) for a, b in pairwise(crossings) if b > a]
+    tops = [size for size in sizes if size > 0.0]  # a half that no sample lies in has no size
+    decay = np.log(tops[0] / tops[-1]) / (0.5 * period * (len(tops) - 1)) if len(tops) > 1 else 0.1 / period
+    return period, max(float(decay), 0.01 / period)

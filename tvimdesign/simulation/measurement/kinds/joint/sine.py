@@ -1,7 +1,7 @@
 """A joint turned to and fro: inertia, stiffness, damping and hysteresis from angle and torque over time.
 
 T = I theta'' + b theta' + K (theta - theta_0) + T_f sgn(theta') (physics/motions/motion.py, `kelvin_voigt_torque`), the
-friction's corner rounded as in `swing`. The true angle of each record is a sum of harmonics whose sizes are unknowns,
+friction's corner rounded as in `release`. The true angle of each record is a sum of harmonics whose sizes are unknowns,
 as the encoder errs as well as the torque's cell; so its derivatives are exact.
 """
 
@@ -24,7 +24,7 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     from_zero,
 )
 from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import joint_of_module, with_records
-from tvimdesign.simulation.measurement.kinds.joint.swing import CORNER
+from tvimdesign.simulation.measurement.kinds.joint.release import CORNER
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca

@@ -15,7 +15,7 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, rows_of
-from tvimdesign.simulation.measurement.kinds.polymer.melt_test import temperature_of, title_of
+from tvimdesign.simulation.measurement.kinds.polymer.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 

@@ -9,19 +9,18 @@ Winter, Rheol. Acta 28 (1989) 511 (free times and moduli, as few modes as the da
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.simulation.measurement.fitting.fit import BestFit, Fit, best_fit, fitted, with_intervals
+from tvimdesign.physics.polymers.polymer import GAS_CONSTANT, ZERO_CELSIUS
+from tvimdesign.simulation.measurement.fitting.fit import BestFit, Estimate, Fit, best_fit, fitted, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings
-from tvimdesign.simulation.measurement.kinds.polymer.melt_test import Curve, MeltTest
-from tvimdesign.simulation.measurement.kinds.polymer.shift_factors import arrhenius, shift_note
-from tvimdesign.simulation.measurement.kinds.polymer.spectrum_record import spectrum_record
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, RecordTable, Settings
+from tvimdesign.simulation.measurement.reading.data_file import Array
 
 _TOGETHER = 1.0
 """Tests within so many kelvin are of one temperature."""
@@ -33,6 +32,39 @@ _UNTOLD = (
 )
 _USUAL_ENERGY = 40e3
 """J/mol, to start from: in the middle of what polymers' melts have."""
+_FAR = 0.15
+"""Shift factors may miss Arrhenius' law by this share of themselves and it is still of use; more, and it is not."""
+_SPLIT = 0.02
+"""A mode that stands for two in a record is split this share above and below its time: no test could tell."""
+
+
+class Curve(NamedTuple):
+    """Values of a test, and what predicts them from a spectrum whose rates are shifted by factors."""
+
+    name: str
+    unit: str
+    measured: Array
+    predicted: Callable[..., Any]
+    """From modes and factors, and from the value of `own` where there is one."""
+    at: Array
+    at_name: str
+    at_unit: str
+    relative: bool = True
+    own: Parameter | None = None
+    """An unknown of this curve alone."""
+
+
+class MeltTest(NamedTuple):
+    """One test: its temperature [K], or one for each row of a ramp, its curves, and where it sees the spectrum."""
+
+    name: str
+    temperature: float
+    ramp: Array | None
+    curves: Sequence[Curve]
+    rates: Array
+    """Angular frequencies, or one over the times [1/s]."""
+    sizes: Array
+    """Modulus at each of them [Pa], roughly."""
 
 
 class Melt(NamedTuple):
@@ -70,7 +102,7 @@ class Melt(NamedTuple):
         return [one for one in self.temperatures if one != self.reference and not np.isnan(one)]
 
 
-def measured(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
+def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
     """The spectrum of tests, all together. Raises InputError for what lacks."""
     least = settings.get("least_temperature", 0.0)
     untold = [test for test in tests if np.isnan(test.temperature)]
@@ -125,7 +157,7 @@ def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fi
 
 def shift_name(temperature: float) -> str:
     """The name of a temperature's factor."""
-    return f"shift_{temperature - polymer.ZERO_CELSIUS:.0f}".replace("-", "minus_")
+    return f"shift_{temperature - ZERO_CELSIUS:.0f}".replace("-", "minus_")
 
 
 def guessed_shift(temperature: Any, reference: float) -> Any:
@@ -221,7 +253,7 @@ def _modes(melt: Melt, count: int) -> list[Parameter]:
 
 
 def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list[str]:
-    at = "" if np.isnan(melt.reference) else f" at {melt.reference - polymer.ZERO_CELSIUS:.1f} degC"
+    at = "" if np.isnan(melt.reference) else f" at {melt.reference - ZERO_CELSIUS:.1f} degC"
     notes = [
         f"{count} {'mode' if count == 1 else 'modes'}{at}: one more would not better the fit by what it costs."
         if count < most
@@ -233,3 +265,69 @@ def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list
     low = min(float(test.rates.min()) for test in melt.tests)
     notes.append(f"{rows} rows from {low:.3g} rad/s on (one over the time, of tests in time); slower is not seen.")
     return notes
+
+
+class Activation(NamedTuple):
+    """Arrhenius' law through shift factors."""
+
+    energy: float
+    """[J/mol]"""
+    farthest: float
+    """Largest share by which a factor misses the law, where that is more than its own interval."""
+
+    @property
+    def describes(self) -> bool:
+        """Whether the law may stand for the factors."""
+        return self.energy > 0.0 and self.farthest < _FAR
+
+
+def arrhenius(shifts: Mapping[float, Estimate], reference: float) -> Activation:
+    """Energy by least squares of ln a_T over 1/T - 1/T_ref, through zero, weighted by the intervals."""
+    inverse = np.array([1.0 / one - 1.0 / reference for one in shifts])
+    logs = np.array([np.log(one.value) for one in shifts.values()])
+    halves = np.array([_half(one) for one in shifts.values()])
+    weights = 1.0 / np.maximum(halves, 1e-6) ** 2
+    energy = GAS_CONSTANT * float(np.sum(weights * inverse * logs) / np.sum(weights * inverse**2))
+    missed = np.maximum(np.abs(logs - energy / GAS_CONSTANT * inverse) - halves, 0.0)
+    return Activation(energy, float(np.expm1(np.max(missed))))
+
+
+def _half(one: Estimate) -> float:
+    """Half the interval of a factor's logarithm."""
+    return 1.0 if one.low is None or one.high is None else 0.5 * float(np.log(one.high / one.low))
+
+
+def shift_note(found: Activation, shifts: Mapping[float, Estimate], reference: float) -> list[str]:
+    """The factors in a line, and whether the law describes them."""
+    table = ", ".join(f"{one - ZERO_CELSIUS:.0f} degC: {shift.value:.3g}" for one, shift in shifts.items())
+    law = (
+        f"Arrhenius' law with {found.energy / 1e3:.1f} kJ/mol describes them."
+        if found.describes
+        else f"Arrhenius' law misses one by {100.0 * found.farthest:.0f} %: no activation energy is given, and the "
+        "shift of the record this is based on is not that of these data."
+    )
+    return [f"Shift factors to {reference - ZERO_CELSIUS:.0f} degC: {table}. {law}"]
+
+
+def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: Sequence[str]) -> Measurement:
+    """The measurement of a spectrum of `count` modes, in a record of `most`."""
+    values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
+    if any(one.name == "flow_activation_energy" for one in best.parameters):
+        values["flow_activation_energy"] = best["flow_activation_energy"]
+    modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
+    table = RecordTable({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
+    return Measurement(
+        best, tuple(notes), values, {"melt_spectrum": table}, {"melt_reference_temperature": (reference, "degC")}
+    )
+
+
+def split_to(modes: Sequence[tuple[float, float]], count: int) -> list[tuple[float, float]]:
+    """The same spectrum in `count` rows: the strongest modes split in two of half the modulus, times falling."""
+    rows = list(modes)
+    while len(rows) < count:
+        at = max(range(len(rows)), key=lambda i: rows[i][0] * rows[i][1])
+        time, modulus = rows[at]
+        near = min([abs(np.log(time / other)) for i, (other, _) in enumerate(rows) if i != at], default=1.0)
+        step = 1.0 + min(_SPLIT, 0.3 * float(near))
+        rows[at : at + 1] = [(time * step, 0.5 * modulus), (time / step, 0.5 * modulus)]
+    return sorted(rows, reverse=True)

@@ -1,0 +1,277 @@
+"""Tests of a melt as its spectrum sees them: frequency sweeps, temperature ramps, creep with recovery, relaxation.
+
+Sweeps and ramps: G', G'' by `polymer.maxwell_moduli`; each row of a ramp is shifted by its own temperature, and rows
+below the least temperature are left out, for the polymer may be frozen there.
+
+Creep: J(t) = t/eta + the recoverable part, which has the Laplace transform 1/(s Q(s)) - 1/(s^2 eta), Q(s) = sum G s
+tau/(1 + s tau), and is inverted by Stehfest's weights (physics/motions/laplace.py): to 4e-4 the retardation spectrum
+(`viscoelasticity.retardation`), and with derivatives. After the stress is off J(t) - J(t - t_1) is left.
+
+Relaxation: G(t) by `viscoelasticity.relaxation_modulus`, or as `ramped_stress` where the strain took a time to rise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.physics.motions import laplace
+from tvimdesign.physics.polymers import polymer, viscoelasticity
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
+from tvimdesign.simulation.measurement.fitting.problem import Parameter
+from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
+from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
+from tvimdesign.simulation.measurement.kinds.polymer.melt_spectrum import Curve, MeltTest, fit_spectrum, guessed_shift
+from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import symbols
+
+MOST_ROWS = 150
+"""Rows of a test in time that are used: an instrument writes thousands, which say no more."""
+MELT = 70.0 + ZERO_CELSIUS
+"""Least temperature [K] of a ramp unless set: polycaprolactone's melting ends at 62 to 70 degC."""
+_SAME_SWEEP = 1.5
+"""Rows within so many kelvin of the first are of one sweep, where a table holds sweeps at several temperatures."""
+_ALMOST = 0.99
+_UNLOADED = 0.1
+"""Share of the largest stress below which the stress is off."""
+_NO_COMPLIANCE = np.finfo(float).tiny
+"""Compliance [1/Pa] up to which one over it is no number."""
+
+
+def temperature_of(block: Block, settings: Settings) -> float:
+    """Return the mean temperature of a table [K]: its column's, that of the lines before it, or the one that is set.
+
+    It is not a number where nobody gives it: tests at one temperature have a spectrum all the same.
+    """
+    if block.complete(["temperature"]):
+        return float(np.nanmean(block.values("temperature")))
+    temperature = settings.get("temperature", block.number("temperature"))
+    return np.nan if temperature is None else float(temperature)
+
+
+def title_of(block: Block, temperature: float) -> str:
+    """Return a name for a table's channels."""
+    title = block.title or block.file
+    return title if np.isnan(temperature) else f"{title}, {temperature - ZERO_CELSIUS:.0f} degC"
+
+
+def sweeps_in(block: Block, settings: Settings) -> list[MeltTest]:
+    """Return the frequency sweeps of a table: one for each temperature that it holds."""
+    frequency, storage, loss, *at = _oscillation(block)
+    if not at:
+        return [_oscillated(block, temperature_of(block, settings), frequency, storage, loss)]
+    changes = np.flatnonzero(np.abs(np.diff(at[0])) > _SAME_SWEEP) + 1
+    return [
+        _oscillated(block, float(np.mean(at[0][part])), frequency[part], storage[part], loss[part])
+        for part in np.split(np.arange(len(frequency)), changes)
+    ]
+
+
+def ramps_in(block: Block, settings: Settings) -> list[MeltTest]:
+    """Return the temperature ramp of a table, the rows of the melt. Raises InputError where there are too few."""
+    least = settings.get("least_temperature", MELT)
+    columns = _oscillation(block)
+    molten = columns[3] >= least
+    if np.sum(molten) < LEAST_ROWS:
+        raise InputError(
+            f"{block.place}: {np.sum(molten)} rows of the melt, from {least - ZERO_CELSIUS:.0f} degC on; "
+            "--set least_temperature=... says otherwise"
+        )
+    omega, storage, loss, at = (column[molten] for column in columns)
+    return [_oscillated(block, float(np.median(at)), omega, storage, loss, at)]
+
+
+def _oscillation(block: Block) -> list[Array]:
+    """Return angular frequency [rad/s], G', G'' [Pa] and, where there is one, temperature [K]; rows above zero."""
+    which = "angular_frequency" if "angular_frequency" in block.columns else "frequency"
+    extra = ["temperature"] if block.complete(["temperature"]) else []
+    frequency, storage, loss, *others = rows_of(block, [which, "storage_modulus", "loss_modulus", *extra])
+    good = (frequency > 0.0) & (storage > 0.0) & (loss > 0.0)
+    omega = frequency * (1.0 if which == "angular_frequency" else 2.0 * np.pi)
+    return [column[good] for column in (omega, storage, loss, *others)]
+
+
+def _oscillated(
+    block: Block, temperature: float, omega: Array, storage: Array, loss: Array, ramp: Array | None = None
+) -> MeltTest:
+    def predicted(which: int) -> Callable[[Modes, Any], Any]:
+        return lambda modes, shift: polymer.maxwell_moduli(omega * shift, modes)[which]
+
+    where = title_of(block, temperature)
+    at = (omega, "angular frequency", "rad/s") if ramp is None else (ramp, "temperature", "degC")
+    curves = [
+        Curve(f"{name} of {where}", "Pa", moduli, predicted(which), *at)
+        for which, (name, moduli) in enumerate((("storage modulus", storage), ("loss modulus", loss)))
+    ]
+    rates = omega if ramp is None else omega * guessed_shift(ramp, temperature)
+    return MeltTest(where, temperature, ramp, curves, rates, np.hypot(storage, loss))
+
+
+def creeps_in(block: Block, settings: Settings) -> list[MeltTest]:
+    """Return the creep of a table, and the recovery in it where there is one: compliance above zero."""
+    if block.settings.get("recovery", "0").strip() not in {"", "0"}:
+        raise InputError(
+            f"{block.place}: the file says that this is a recovery (rec); it can be fitted only in one table with the "
+            "creep before it, with the stress in a column"
+        )
+    time, measured, loaded = _compliance(block, settings)
+    good = (time > 0.0) & ((measured > _NO_COMPLIANCE) | ~loaded)
+    time, measured, loaded = time[good], measured[good], loaded[good]
+    if np.sum(loaded) < LEAST_ROWS:
+        raise InputError(f"{block.place}: no three rows under load with a compliance above zero")
+    temperature = temperature_of(block, settings)
+    where = title_of(block, temperature)
+    creep = _under_load(where, time[loaded], measured[loaded])
+    curves = [creep]
+    if np.sum(~loaded) >= LEAST_ROWS:
+        curves.append(_recovery(where, float(time[loaded][-1]), time[~loaded], measured[~loaded]))
+    return [MeltTest(where, temperature, None, curves, 1.0 / creep.at, 1.0 / creep.measured)]
+
+
+def compliance(time: Any, modes: Modes) -> Any:
+    """Return strain over stress [1/Pa], a column of expressions, at times [s] after the stress came on."""
+    count = time.shape[0]
+    moment, constants = symbols(ca.SX.sym("t"))[0], ca.SX.sym("modes", 2 * len(modes))
+    entries = symbols(constants)
+    spectrum = [(entries[2 * i], entries[2 * i + 1]) for i in range(len(modes))]
+    viscosity = viscoelasticity.zero_shear_viscosity(spectrum)
+
+    def transform(s: Any) -> tuple[Any]:
+        # 1/(s Q) - 1/(s^2 eta) as one fraction, for the difference cancels at small s
+        flow = sum(modulus * tau / (1.0 + s * tau) for tau, modulus in spectrum)
+        elastic = sum(modulus * tau**2 / (1.0 + s * tau) for tau, modulus in spectrum)
+        return (elastic / (s * flow * viscosity),)
+
+    (recoverable,) = laplace.inverse(transform, moment)
+    at_once = ca.Function("compliance", [ca.SX(moment), constants], [ca.SX(recoverable + moment / viscosity)])
+    given = ca.vertcat(*(ca.vertcat(tau, modulus) for tau, modulus in modes))
+    return at_once.map(count)(ca.MX(time).T, ca.repmat(given, 1, count)).T
+
+
+def _under_load(where: str, time: Array, measured: Array) -> Curve:
+    used = _thinned(time)
+
+    def predicted(modes: Modes, shift: Any) -> Any:
+        return compliance(ca.DM(time[used]) / shift, modes)
+
+    return Curve(f"compliance of {where}", "1/Pa", measured[used], predicted, time[used], "time", "s")
+
+
+def _recovery(where: str, last: float, time: Array, measured: Array) -> Curve:
+    """Return the rows after the last one under load; the moment of the release lies between, and is an unknown."""
+    used = _thinned(time - last)
+    time, measured = time[used], measured[used]
+    gap = float(time[0]) - last
+    release = Parameter(
+        f"release of {where}", "s", "Moment at which the stress goes", last + 0.5 * gap, positive=False, scale=gap,
+        least=last, most=last + _ALMOST * gap, nuisance=True,
+    )  # fmt: skip
+
+    def predicted(modes: Modes, shift: Any, released: Any) -> Any:
+        return compliance(ca.DM(time) / shift, modes) - compliance((ca.DM(time) - released) / shift, modes)
+
+    return Curve(f"recovery of {where}", "1/Pa", measured, predicted, time, "time", "s", relative=False, own=release)
+
+
+def _compliance(block: Block, settings: Settings) -> tuple[Array, Array, Any]:
+    """Return time, compliance and whether the stress is on: by columns, or by a stress that is set."""
+    value = "compliance" if "compliance" in block.columns else "strain"
+    if "stress" in block.columns:
+        time, measured, stress = rows_of(block, ["time", value, "stress"])
+        most = float(np.median(np.abs(stress[np.abs(stress) > 0.5 * np.max(np.abs(stress))])))
+        loaded = np.abs(stress) > _UNLOADED * most
+        last = int(np.flatnonzero(loaded)[-1])
+        loaded[: last + 1] = True  # a sample or two while the stress comes on
+        return time, measured if value == "compliance" else np.abs(measured) / most, loaded
+    time, measured = rows_of(block, ["time", value])
+    if value == "strain":
+        of_file = None if "stress" in settings else block.number("stress")
+        why = f"as {block.file} has a strain and neither stress nor compliance"
+        measured = measured / (of_file or required(settings, "stress", why))
+    return time, measured, np.ones(len(time), bool)
+
+
+def relaxations_in(block: Block, settings: Settings) -> list[MeltTest]:
+    """Return the relaxation of a table: rows after the rise, with a modulus above zero."""
+    time, modulus = _modulus(block, settings)
+    rise = settings["rise_time"]
+    good = (time > rise) & (modulus > 0.0)
+    time, modulus = time[good], modulus[good]
+    if len(time) == 0:
+        raise InputError(f"{block.place}: no row has a time after the rise and a modulus above zero")
+    used = _thinned(time)
+    time, modulus = time[used], modulus[used]
+    temperature = temperature_of(block, settings)
+    where = title_of(block, temperature)
+
+    def predicted(modes: Modes, shift: Any) -> Any:
+        reduced = ca.MX(ca.DM(time)) / shift
+        if rise == 0.0:
+            return viscoelasticity.relaxation_modulus(reduced, modes)
+        # `ramped_stress` at a strain of one, after the rise
+        return sum(
+            viscoelasticity.relaxation_modulus(reduced - rise / shift, [mode])
+            * viscoelasticity.start_up_viscosity(rise / shift, [mode]) / (mode[1] * rise / shift)
+            for mode in modes
+        )  # fmt: skip
+
+    curve = Curve(f"relaxation modulus of {where}", "Pa", modulus, predicted, time, "time", "s")
+    return [MeltTest(where, temperature, None, [curve], 1.0 / time, modulus)]
+
+
+def _modulus(block: Block, settings: Settings) -> tuple[Array, Array]:
+    """Return time and modulus: the file's, or stress over strain, which may be set."""
+    if "relaxation_modulus" in block.columns:
+        time, modulus = rows_of(block, ["time", "relaxation_modulus"])
+        return time, modulus
+    if "strain" in block.columns:
+        time, stress, strain = rows_of(block, ["time", "stress", "strain"])
+        return time, stress / np.max(np.abs(strain))
+    time, stress = rows_of(block, ["time", "stress"])
+    return time, stress / required(settings, "strain", f"as {block.file} has a stress and neither strain nor modulus")
+
+
+def _thinned(time: Array) -> Any:
+    """Return which rows to use: at most `MOST_ROWS`, evenly over the logarithm of time as a melt forgets."""
+    if len(time) <= MOST_ROWS:
+        return np.arange(len(time))
+    wanted = np.geomspace(time[0], time[-1], MOST_ROWS)
+    return np.unique(np.searchsorted(time, wanted).clip(0, len(time) - 1))
+
+
+_TESTS_IN: dict[str, Callable[[Block, Settings], list[MeltTest]]] = {
+    "frequency_sweep": sweeps_in,
+    "temperature_ramp": ramps_in,
+    "creep": creeps_in,
+    "relaxation": relaxations_in,
+}
+
+
+def _fit_of(kind: str) -> Callable[..., Measurement]:
+    """Return the function that fits tables of one kind together."""
+
+    def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
+        tests = [test for block in blocks for test in _TESTS_IN[kind](block, settings)]
+        return fit_spectrum(tests, settings, profiles=profiles)
+
+    return measure
+
+
+frequency_sweep, temperature_ramp, creep, relaxation = map(_fit_of, _TESTS_IN)
+
+
+def melt(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
+    """Fit any tests of one melt together, each table by its columns. Raises InputError for a table of no kind."""
+    tests: list[MeltTest] = []
+    kinds = []
+    for block in blocks:
+        kind = next((name for name in _TESTS_IN if kind_sheets()[name].fits(block)), None)
+        if kind is None:
+            raise InputError(f"{block.place}: this table is none of {', '.join(_TESTS_IN)}")
+        tests += _TESTS_IN[kind](block, {**kind_sheets()[kind].values({}), **settings})
+        kinds.append(f"{block.title or block.file} as {kind}")
+    return fit_spectrum(tests, settings, profiles=profiles).with_note(f"Fitted together: {'; '.join(kinds)}.")
