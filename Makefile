@@ -4,8 +4,6 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-CAD_KEPT := checks.json preview.png views step springs bom.csv assembly.md
-
 .DEFAULT_GOAL := help
 .PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-engine bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine same same-optima validation fit-coverage check-wheel check-cad docs pictures lint format types contracts words page-code schema units vendor cad clean
 
@@ -148,6 +146,7 @@ wheel: $(STAMP)  ## build wheel and source archive into dist/
 	$(BIN)/python -m build --outdir dist .
 
 release: wheel  ## build, look at it with twine, and use the wheel in empty environments: the light package, each extra alone
+	$(BIN)/python -c "import pathlib, tvimdesign; list(map(tvimdesign.read_design, pathlib.Path('cad').glob('*/design.json')))"
 	$(BIN)/python -m twine check --strict dist/*
 	$(BIN)/python release/check_wheel.py dist/tvimdesign-*.whl --constraints constraints.txt
 
@@ -189,21 +188,16 @@ pictures: $(STAMP)  ## draw docs/pictures anew: labelled sections, and every stu
 	for study in studies/*.yaml; do $(BIN)/tvimdesign run $$study --overwrite --no-plots || exit 1; done
 	$(BIN)/python docs/make/study_pictures.py
 
-# What is large is left out: STL beside 3MF, assemblies and PDF but for the first module, print files of milled ones.
 REFERENCES := paper_shear paper_compression machined_shear machined_compression
-cad: $(STAMP)  ## write the reference parts in cad/ from the studies of printed and milled modules of both modes
+cad: $(STAMP)  ## write the reference parts in cad/ for a release, from printed and milled modules of both modes
 	rm -rf $(addprefix cad/,$(REFERENCES))
-	mkdir -p $(addprefix cad/,$(REFERENCES))
 	for name in $(REFERENCES); do \
 	  $(BIN)/tvimdesign run studies/$$name.yaml --out results/$$name --overwrite --no-plots || exit 1; \
-	  cp results/$$name/design.json cad/$$name/; \
-	  for kept in $(CAD_KEPT); do cp -r results/$$name/cad/$$kept cad/$$name/; done; \
+	  mkdir -p cad/$$name; \
+	  cp results/$$name/design.json $(addprefix results/$$name/cad/,preview.png bom.csv assembly.md) cad/$$name/; \
 	done
-	cp -r $(addprefix results/paper_shear/cad/,print drawings assembly.step) cad/paper_shear/
-	cp -r results/paper_compression/cad/print cad/paper_compression/
-	cp -r results/machined_shear/cad/drawings cad/machined_shear/
-	cp -r results/machined_compression/cad/drawings cad/machined_compression/
-	rm -rf cad/*/print/*.stl cad/machined_*/drawings/*.pdf cad/machined_*/views cad/machined_*/springs
+	cp results/paper_shear/cad/assembly.step cad/paper_shear/
+	cp results/paper_compression/cad/assembly.step cad/paper_compression/
 
 check-cad: $(STAMP)  ## slice the printed parts and read the STEP files with other programs from Debian (prusa-slicer, gmsh)
 	$(BIN)/python benchmarks/check_cad.py

@@ -18,9 +18,12 @@ from pathlib import Path
 import trimesh
 
 from tvimdesign.cad import make_cad
+from tvimdesign.solve.result import answer
+from tvimdesign.study import read_study
+from tvimdesign.study.design import read_design, write_design
 
 ROOT = Path(__file__).resolve().parents[1]
-DESIGNS = [ROOT / f"cad/{name}/design.json" for name in ("paper_shear", "paper_compression")]
+STUDIES = ("paper_shear", "paper_compression")
 WANTED = ("prusa-slicer", "gmsh")
 VOLUME = re.compile(r"VOLUME_MEASURE\(\s*([0-9.E+-]+)\)")
 SAME, MESH = 1e-6, 1e-4
@@ -30,19 +33,23 @@ SAME, MESH = 1e-6, 1e-4
 def main() -> int:
     """Make the files of each design and check them; returns the exit code."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("designs", nargs="*", type=Path, default=DESIGNS)
+    parser.add_argument("designs", nargs="*", type=Path, help="their design.json; if none, two studies")
     missing = [name for name in WANTED if not shutil.which(name)]
     if missing:
         print(f"not installed: {', '.join(missing)}; on Debian: apt-get install {' '.join(missing)}")
         return 3
+    designs = [read_design(path) for path in parser.parse_args().designs] or [
+        answer(read_study(ROOT / f"studies/{name}.yaml")).design for name in STUDIES
+    ]
     bad = 0
-    for design in parser.parse_args().designs:
-        with tempfile.TemporaryDirectory() as folder:
-            report = make_cad(design, Path(folder))
-            print(f"{design.relative_to(ROOT) if design.is_relative_to(ROOT) else design}: {len(report.files)} files")
+    for design in designs:
+        with tempfile.TemporaryDirectory() as made:
+            folder = Path(made) / "cad"
+            report = make_cad(write_design(design, Path(made) / "design.json"), folder)
+            print(f"{design.name}: {len(report.files)} files")
             for name in report.files:
                 if name.startswith(("print/", "mesh/", "step/")):
-                    problem = _kernel(Path(folder) / name) if name.endswith(".step") else _slicer(Path(folder) / name)
+                    problem = _kernel(folder / name) if name.endswith(".step") else _slicer(folder / name)
                     bad += bool(problem)
                     print(f"  {name:28} {problem or 'as written'}")
     print("all as written" if not bad else f"{bad} files are not read as they were written")

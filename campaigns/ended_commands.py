@@ -10,7 +10,9 @@ SMALL = ROOT / "campaigns/small.yaml"
 _FRONT = ["--set", "front={of: [response_time, peak_power], points: 4}", "--no-cad", "--no-plots"]
 _LISTED = ["--set", "vary.pcl_thickness={from: 0.6 mm, to: 2 mm, step: 0.04 mm}", "--set", "solver.alternatives=2"]
 """Thirty-six combinations, in three blocks."""
-_DESIGN = str(ROOT / "cad/paper_shear/design.json")
+_RUN = "../answered/out"
+"""Folder of a run of that study, as seen from the folder of a try."""
+_DESIGN = f"{_RUN}/design.json"
 _SAMPLES = ROOT / "campaigns/fuzzing/samples"
 _OVER = "sweep={over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 12}, wire_diameter: [2 mm, 2.4 mm]}}"
 _TWO = "sweep={over: {pcl_thickness: [1 mm, 1.2 mm]}}"
@@ -28,10 +30,17 @@ COMMANDS = {
     "sweep": ["sweep", _STUDY, "--set", _OVER, "--workers", "2", "--no-plots"],
     "compare": ["compare", str(SMALL), str(ROOT / "campaigns/small_compression.yaml"), "--points", "0"],
     "explorer": ["explore", str(SMALL), "--no-open"],
-    "verify": ["verify", str(ROOT / "cad/paper_shear"), "--no-pictures"],
+    "verify": ["verify", _RUN, "--no-pictures"],
 }
 """What is ended, in a folder of its own; each gets `--out`."""
-FIRST = {"cells": ("swept", ["sweep", _STUDY, "--set", _TWO, "--workers", "1", "--no-plots"])}
+FIRST = {
+    **{
+        name: ("answered", ["run", _STUDY, "--no-cad", "--no-plots"])
+        for name, words in COMMANDS.items()
+        if any(word.startswith(_RUN) for word in words)
+    },
+    "cells": ("swept", ["sweep", _STUDY, "--set", _TWO, "--workers", "1", "--no-plots"]),
+}
 """What is done once before a command: the folder beside those of the tries, and a command whose results go there."""
 KEPT = {"cells": "kept"}
 """Folder beside those of the tries in which parts are kept from one to the next: how they are made is `parts`' try."""

@@ -292,8 +292,8 @@ def run_through(command: str, folder: Path) -> Through:
     own.mkdir()
     if command == SERVES:
         return Through(own / "out", SERVED)
-    if command in FIRST:
-        place, words = FIRST[command]
+    place, words = FIRST.get(command, ("", []))
+    if place and not (folder / place).exists():
         (folder / place).mkdir()
         if start(words, folder / place).wait():
             sys.exit(f"what {command} needs ends badly: {(folder / place / 'said.txt').read_text()}")

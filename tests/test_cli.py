@@ -12,11 +12,13 @@ import time
 from pathlib import Path
 
 import pytest
+from cad_designs import shipped_design
 from support import ROOT, Command, wait_until
 
 from tvimdesign.base.processor_time import communicate
 from tvimdesign.cli.folders import default_folder, name_of
 from tvimdesign.report.virtual_tests import TESTS
+from tvimdesign.study.design import design_json
 
 HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")
 
@@ -315,9 +317,9 @@ def test_cad_refuses_what_is_no_design(tvimdesign: Command, process: Command, tm
     (tmp_path / "zero.json").symlink_to("/dev/zero")
     (tmp_path / "folder.json").mkdir()
     (tmp_path / "text.json").write_text("not JSON")
-    released = (ROOT / "cad/paper_shear/design.json").read_text()
+    released = design_json(shipped_design("paper_as_published")).decode()
     (tmp_path / "mode.json").write_text(released.replace('"mode": "shear"', '"mode": "bending"'))
-    (tmp_path / "huge.json").write_text(released.replace('"wire_diameter": 0.001', '"wire_diameter": 1.001', 1))
+    (tmp_path / "huge.json").write_text(released.replace('"wire_diameter": 0.00', '"wire_diameter": 1.00', 1))
     for name in ("pipe", "zero", "folder", "text", "mode", "huge"):
         words = ("cad", tmp_path / f"{name}.json", "--out", tmp_path / f"{name}_out")
         # Who reads these two never comes to an end.

@@ -11,10 +11,12 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from cad_designs import shipped_design
 from support import ROOT, STUDIES, Command
 
 from tvimdesign.cli import completions
 from tvimdesign.study import read_study
+from tvimdesign.study.design import write_design
 from tvimdesign.study.template import examples
 
 WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.m")
@@ -76,10 +78,10 @@ def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -
 
 
 def test_a_design_takes_no_settings(tvimdesign: Command, tmp_path: Path) -> None:
-    done = tvimdesign("simulate", "cad/paper_shear/design.json", "--test", "creep", "--set", "current=1 A",
-                      "--out", tmp_path / "out")  # fmt: skip
+    design = write_design(shipped_design("paper_as_published"), tmp_path / "design.json")
+    done = tvimdesign("simulate", design, "--test", "creep", "--set", "current=1 A", "--out", tmp_path / "out")
     assert done.returncode == 2
-    assert "--set current=1 A: cad/paper_shear/design.json is a design, which is finished" in done.stderr
+    assert f"--set current=1 A: {design} is a design, which is finished" in done.stderr
 
 
 @pytest.mark.slow

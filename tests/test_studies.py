@@ -12,15 +12,11 @@ import numpy as np
 import plain_module
 import pytest
 import trimesh
-from support import RELEASED, ROOT, STUDIES, Command
+from support import ROOT, STUDIES, Command
 
 from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.robot.rigid_bodies import make_bodies
-from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study import read_study
-from tvimdesign.study.design import read_design
 
 FILES = {
     "design.json", "equilibrium_stiffening.csv", "impedance.csv", "manifest.json", "report.html", "results.csv",
@@ -220,20 +216,3 @@ def test_a_run_is_the_same_run_twice_in_another_process(process: Command, runs: 
     process("run", study, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     first, second = _results(runs["paper_shear"])["values"], _results(tmp_path / "out")["values"]
     assert first == second
-
-
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[] if name in QUICK else pytest.mark.slow) for name in RELEASED]
-)
-def test_the_released_parts_are_of_a_design_whose_numbers_hold(name: str) -> None:
-    """Parts are made for a release; a search may have found a better design since."""
-    design = read_design(ROOT / f"cad/{name}/design.json")
-    resolved = resolve_design(design)
-    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
-    now = model.values(model.start, Simulator(model).run(model.start, resolved.current_profiles).values)
-    for row, value in now.items():
-        # A micrometre is nothing on a part; a simulation is within some thousandths of a kelvin.
-        here = (np.isinf(value) and design.values[row] in ("never", np.inf)) or design.values[row] == pytest.approx(
-            value, rel=1e-3, abs=1e-2 if resolved.table.unit(row) in ("K", "degC") else 1e-6
-        )
-        assert here, f"{row} is {value}, the parts have {design.values[row]}: run `make cad`"

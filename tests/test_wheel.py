@@ -20,7 +20,10 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from answers import shipped_answer
 from support import ROOT, run_process
+
+from tvimdesign.study.design import write_design
 
 pytestmark = pytest.mark.slow
 
@@ -100,7 +103,7 @@ def test_a_fit_and_its_record(installed: Installed) -> None:
 
 
 def test_a_verification_of_a_shipped_design(installed: Installed) -> None:
-    shutil.copy(ROOT / "cad/paper_shear/design.json", installed.folder / "design.json")
+    write_design(shipped_answer("paper_shear").design, installed.folder / "design.json")
     solver = os.environ.get("FE_PYTHON")
     said = installed.says("verify", "design.json", "--out", "verified", "--fe-python", solver or sys.executable)
     if not solver:

@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from answers import shipped_answer
 from explored import TOKEN, Talk, awaited, served, small_study, talking
-from support import ROOT
 
 from tvimdesign.base.units import from_si
 from tvimdesign.explore.answers.engine import Engine
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.explore.states.state import State
 from tvimdesign.report.run.answered_study import answer_study
-from tvimdesign.study.design import read_design
+from tvimdesign.study.design import write_design
 from tvimdesign.study.tree import tree_of_file
 
 
@@ -171,10 +171,11 @@ def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_a_result_is_opened_with_the_optimum_that_was_found_not_with_another_of_its_study() -> None:
-    source = open_source(ROOT / "cad/paper_shear")
+def test_a_result_is_opened_with_the_optimum_that_was_found_not_with_another_of_its_study(tmp_path: Path) -> None:
+    found = shipped_answer("paper_shear").design
+    write_design(found, tmp_path / "design.json")
+    source = open_source(tmp_path)
     shown = Engine(source.tree, compiled=False).answer(source.first, "quick").shown
-    found = read_design(ROOT / "cad/paper_shear/design.json")
     for name in ("wire_diameter", "coil_diameter", "placement_radius", "current"):
         unit = source.study.table.unit(name)
         value, told = shown["at"][name].split(" ", 1)

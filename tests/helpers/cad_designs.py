@@ -8,13 +8,14 @@ from math import radians
 from typing import Any, NamedTuple
 
 import numpy as np
+from support import ROOT
 
 from tvimdesign import __version__
 from tvimdesign.cad import CadReport
 from tvimdesign.device import table_for
 from tvimdesign.device.table.quantity import Event
 from tvimdesign.device.table.quantity import Path as SwitchPath
-from tvimdesign.study import Study, read_study_text
+from tvimdesign.study import Study, read_study, read_study_text
 from tvimdesign.study import given as resolve
 from tvimdesign.study.design import Design
 
@@ -133,9 +134,15 @@ def _of_the_geometry(name: str, known: dict[str, Any], mode: str) -> Design:
     )  # fmt: skip
 
 
-def whole(design: Design) -> Design:
-    """The design as a run would have written it, so that it is read again: what no part needs is infinite."""
-    study = read_study_text(f"mode: {design.mode}\n", "a test")
+def shipped_design(name: str) -> Design:
+    """Return the module of a shipped study where its search starts, such that it can be written and read again."""
+    study = read_study(ROOT / f"studies/{name}.yaml")
+    return whole(as_it_starts(study), study)
+
+
+def whole(design: Design, study: Study | None = None) -> Design:
+    """Return the design as a run would have written it, readable again; what no part needs is infinite."""
+    study = study or read_study_text(f"mode: {design.mode}\n", "a test")
     table = table_for(design.mode)
     needed = [*table.names(tuple(study.operating_points)), *(row.name for row in table.inputs if not row.per_point)]
     given_at = {f"{name}@{point}": value for point, at in study.operating_points.items() for name, value in at.items()}

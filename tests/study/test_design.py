@@ -8,22 +8,26 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from cad_designs import shipped_design
 from support import ROOT
 
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study import StudyError, read_study, read_tree
-from tvimdesign.study.design import read_design
+from tvimdesign.study.design import design_json, read_design, write_design
 from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.tree import tree_of_values
 
 
+def _plain() -> Any:
+    return json.loads(design_json(shipped_design("paper_shear")))
+
+
 def test_a_design_that_lacks_an_input_is_told_to_be_of_another_version(tmp_path: Path) -> None:
-    kept = ROOT / "cad/paper_shear/design.json"
-    assert read_design(kept).mode == "shear"
-    plain = json.loads(kept.read_text())
+    other = write_design(shipped_design("paper_shear"), tmp_path / "design.json")
+    assert read_design(other).mode == "shear"
+    plain = _plain()
     del plain["values"]["wire_diameter"]
-    other = tmp_path / "design.json"
     other.write_text(json.dumps(plain))
     with pytest.raises(InputError, match=r"has no wire_diameter: another version wrote it; write it anew"):
         read_design(other)
@@ -62,7 +66,7 @@ EDITS: dict[str, tuple[Callable[[Any], None], str]] = {
 @pytest.mark.parametrize("name", EDITS)
 def test_an_edited_design_is_refused_in_words_with_the_line(name: str, tmp_path: Path) -> None:
     change, expected = EDITS[name]
-    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    plain = _plain()
     change(plain)
     edited = tmp_path / "design.json"
     edited.write_text(json.dumps(plain, indent=2))
@@ -72,7 +76,7 @@ def test_an_edited_design_is_refused_in_words_with_the_line(name: str, tmp_path:
 
 
 def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path: Path) -> None:
-    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    plain = _plain()
     plain["study"]["catalog_folder"] = "9" * 5000
     edited = tmp_path / "design.json"
     edited.write_text(json.dumps(plain))
@@ -81,7 +85,7 @@ def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path: Path)
 
 
 def test_all_mistakes_of_a_design_are_told_at_once_and_that_another_version_wrote_it(tmp_path: Path) -> None:
-    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    plain = _plain()
     plain |= {"tvimdesign": "2019.1"}
     plain["values"]["wire_diameter"] = 1.0
     plain["choices"]["cold_side"] = "opened"
@@ -124,7 +128,7 @@ def _paths(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 
 def test_no_edit_of_a_design_ends_in_a_traceback(tmp_path: Path) -> None:
-    plain = json.loads((ROOT / "cad/paper_shear/design.json").read_text())
+    plain = _plain()
     places = [path for path in _paths(plain) if path and path[0] not in ("values", "solution")]
     draw, edited, refused = random.Random(20), tmp_path / "design.json", 0
     for _ in range(150):

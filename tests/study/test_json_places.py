@@ -9,8 +9,9 @@ from typing import Any
 
 import pytest
 import yaml
-from support import ROOT
+from cad_designs import shipped_design
 
+from tvimdesign.study.design import design_json
 from tvimdesign.study.text.json_places import JsonPlaces
 
 
@@ -28,7 +29,7 @@ def marks(node: yaml.Node, path: str = "") -> Iterator[tuple[str, int, int]]:
 
 @pytest.mark.parametrize("indent", [None, 2])
 def test_places_are_those_of_yaml(indent: int | None) -> None:
-    plain: dict[str, Any] = json.loads((ROOT / "cad/paper_compression/design.json").read_text())
+    plain: dict[str, Any] = json.loads(design_json(shipped_design("paper_compression")))
     plain["name"] = 'a "quote", a \\, {[ and é'
     text = json.dumps(plain, indent=indent, ensure_ascii=False)
     places = JsonPlaces(text.encode())

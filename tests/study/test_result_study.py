@@ -4,10 +4,11 @@ import json
 from pathlib import Path
 
 import pytest
+from cad_designs import shipped_design
 from support import ROOT, Command
 
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
-from tvimdesign.study.design import Design, read_design
+from tvimdesign.study.design import Design
 from tvimdesign.study.reader import read_study_text
 from tvimdesign.study.result_study import evaluating, study_text
 from tvimdesign.study.study import Options, Range
@@ -48,8 +49,7 @@ def test_a_result_as_a_study_is_answered_the_same_to_the_last_digit(tvimdesign: 
 
 
 def design(**changes: object) -> Design:
-    released = read_design(ROOT / "cad/paper_shear/design.json")
-    return released.model_copy(update=changes)
+    return shipped_design("paper_shear").model_copy(update=changes)
 
 
 def test_what_the_module_lacks_is_left_out() -> None:
