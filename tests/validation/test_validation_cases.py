@@ -12,7 +12,7 @@ import run
 from judging.case import CASES, CaseError, read_case, read_cases
 from judging.figures import figure
 from judging.outcome import INSIDE, KNOWN, OUTSIDE, outcome
-from judging.page import page
+from judging.page import page, values_csv
 from support import ROOT
 
 from tvimdesign.physics.springs import spring
@@ -45,11 +45,9 @@ def test_the_page_has_every_case_its_verdict_and_its_figure() -> None:
     for case in ALL:
         assert f"{{#{case.name}}}" in text, case.name
         assert (ROOT / f"docs/pictures/validation/{case.name}.svg").exists() is not bool(case.open)
-    verdicts = re.findall(r"\| ([A-Za-z ]+) \|$", text.partition("\n## ")[0], re.MULTILINE)
-    # The worst first: what is outside, what is known to differ, what is inside, what is open.
-    order = [verdict for verdict in verdicts if verdict != "verdict"]
-    assert order == sorted(order, key=[OUTSIDE, KNOWN, INSIDE, "open"].index)
-    assert len(order) == len(ALL)
+    verdicts = re.findall(r"\| ([A-Za-z ]+) \|$", text, re.MULTILINE)
+    assert len([verdict for verdict in verdicts if verdict != "verdict"]) == len(ALL)
+    assert OUTSIDE not in verdicts
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -58,6 +56,7 @@ def test_a_case_is_inside_its_band(name: str) -> None:
     assert found.verdict == INSIDE
     assert b"<svg" in figure(found)
     assert found.case.source in page([found])
+    assert values_csv([found]).count("\n") == 1 + sum(len(part.rows) for part in found.quantities)
 
 
 @pytest.mark.parametrize(
@@ -153,5 +152,5 @@ def test_every_case_is_inside_its_band_or_a_known_difference(tmp_path: Path) -> 
 
 
 def sections(text: str) -> list[str]:
-    """Headings and sources of a page: all but its numbers, which round otherwise on another machine."""
-    return [line for line in text.splitlines() if line.startswith(("#", "Source:", "**", "Compared by"))]
+    """Return headings and sources of a page, without numbers, which round differently on another machine."""
+    return [line for line in text.splitlines() if line.startswith(("#", "Source:", "**"))]

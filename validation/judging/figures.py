@@ -26,33 +26,33 @@ _LONGEST = 26
 def write_figures(outcomes: Iterable[Outcome], folder: Path) -> None:
     """Write an SVG for each case that was compared, and remove those of cases that are gone."""
     folder.mkdir(parents=True, exist_ok=True)
-    compared = [one for one in outcomes if one.quantities]
-    for stale in {path.stem for path in folder.glob("*.svg")} - {one.case.name for one in compared}:
+    compared = [each for each in outcomes if each.quantities]
+    for stale in {path.stem for path in folder.glob("*.svg")} - {each.case.name for each in compared}:
         (folder / f"{stale}.svg").unlink()
-    for one in compared:
-        (folder / f"{one.case.name}.svg").write_bytes(figure(one))
+    for each in compared:
+        (folder / f"{each.case.name}.svg").write_bytes(figure(each))
 
 
-def figure(one: Outcome) -> bytes:
-    """A case's figure as SVG: the same bytes from the same numbers."""
-    curves = [part for part in one.quantities if part.quantity.at and len(part.rows) > 1]
-    rows = sum(len(part.rows) for part in one.quantities)
+def figure(each: Outcome) -> bytes:
+    """Return a case's figure as SVG: the same bytes from the same numbers."""
+    curves = [part for part in each.quantities if part.quantity.at and len(part.rows) > 1]
+    rows = sum(len(part.rows) for part in each.quantities)
     height = _HEIGHT if curves else 0.55 + 0.16 * min(rows, 40)
     drawn = new_figure(height, _WIDTH)
     if curves:
-        _draw_curves(place(drawn, 0.55, 0.4, _WIDTH - 0.7, height - 0.5), one, curves)
+        _draw_curves(place(drawn, 0.55, 0.4, _WIDTH - 0.7, height - 0.5), each, curves)
     else:
-        _draw_bands(place(drawn, 1.6, 0.38, _WIDTH - 1.7, height - 0.43), one)
+        _draw_bands(place(drawn, 1.6, 0.38, _WIDTH - 1.7, height - 0.43), each)
     target = io.BytesIO()
     with mpl.rc_context({"svg.fonttype": "none"}):  # letters as letters: a third of the bytes
         drawn.savefig(target, format="svg", metadata={"Date": None})
     return target.getvalue()
 
 
-def _draw_curves(axes: Axes, one: Outcome, curves: list[Compared]) -> None:
-    """Expected values as points with their bands, found ones as lines."""
+def _draw_curves(axes: Axes, each: Outcome, curves: list[Compared]) -> None:
+    """Draw expected values as points with their limits, found ones as lines."""
     for number, part in enumerate(curves):
-        at = [float(value) for value in one.case.inputs[part.quantity.at]]
+        at = [float(value) for value in each.case.inputs[part.quantity.at]]
         order = sorted(range(len(at)), key=at.__getitem__)
         across = [at[i] for i in order]
         expected = [part.rows[i].expected for i in order]
@@ -64,7 +64,7 @@ def _draw_curves(axes: Axes, one: Outcome, curves: list[Compared]) -> None:
         )  # fmt: skip
         axes.plot(across, [part.rows[i].found for i in order], **style_of(number) | {"linewidth": 0.9})
     _scale(axes, curves)
-    across = [float(value) for part in curves for value in one.case.inputs[part.quantity.at]]
+    across = [float(value) for part in curves for value in each.case.inputs[part.quantity.at]]
     if min(across) > 0.0 and max(across) / min(across) > _WIDE:
         axes.set_xscale("log")
     else:
@@ -85,17 +85,19 @@ def _scale(axes: Axes, curves: list[Compared]) -> None:
         axes.ticklabel_format(axis="y", scilimits=(-3, 4))
 
 
-def _draw_bands(axes: Axes, one: Outcome) -> None:
-    """Each value's place in its band, which reaches from -1 to 1."""
-    told = [(part, row) for part in one.quantities for row in part.rows]
-    shares = [max(-_FURTHEST, min(row.of_band, _FURTHEST)) for _, row in told]
-    names = [f"{part.quantity.name} {row.label}".strip().replace("_", " ") for part, row in told]
+def _draw_bands(axes: Axes, each: Outcome) -> None:
+    """Draw each value's place within its limits, from -1 to 1."""
+    values = [(part, row) for part in each.quantities for row in part.rows]
+    shares = [max(-_FURTHEST, min(row.of_band, _FURTHEST)) for _, row in values]
+    names = [f"{part.quantity.name} {row.label}".strip().replace("_", " ") for part, row in values]
     axes.axvspan(-1.0, 1.0, **BAND)
     axes.axvline(0.0, **LIMIT)
-    axes.plot(shares, range(len(told)), "o", color=COLOURS[0], markersize=3.0)
-    axes.set_yticks(range(len(told)), [name if len(name) <= _LONGEST else name[: _LONGEST - 1] + "…" for name in names])
-    axes.set_ylim(len(told) - 0.5, -0.5)
+    axes.plot(shares, range(len(values)), "o", color=COLOURS[0], markersize=3.0)
+    axes.set_yticks(
+        range(len(values)), [name if len(name) <= _LONGEST else name[: _LONGEST - 1] + "…" for name in names]
+    )
+    axes.set_ylim(len(values) - 0.5, -0.5)
     reach = max(1.15, 1.1 * max(abs(share) for share in shares))
     axes.set_xlim(-reach, reach)
-    axes.set_xlabel("of the band")
+    axes.set_xlabel("of limit")
     axes.tick_params(axis="y", labelsize=5.5, length=0.0)

@@ -1,116 +1,103 @@
-"""docs/validation.md: all cases in one table, the worst first; then each case with its source, numbers and figure."""
+"""docs/validation.md, a table a kind and a figure a case, and docs/validation.csv with every value."""
 
 from __future__ import annotations
 
+import csv
+import io
 import re
 from collections.abc import Iterator, Sequence
 
 from judging.case import KINDS
 from judging.outcome import INSIDE, KNOWN, OPEN, OUTSIDE, Compared, Outcome, Row
 
-_MOST_ROWS = 9
-"""Longer curves show so many rows, evenly spread, and the worst one."""
 _HEAD = (
     "# Validation",
     "",
-    "`make validation` wrote this page: it compares the product with what others say, one folder a case in "
-    "`validation/cases/`. Each case names its source, its inputs, what is expected within which band, and the function "
-    "that asks the product. It fails where a value is outside its band. A known difference is outside its band for the "
-    "reason that stands with it. An open case has a source and lacks something that a comparison needs.",
-    "",
-    "*Of the band* is the distance from the expected value over half the band: 1 is the edge.",
+    "`make validation` compares the product with handbooks, closed solutions, finite elements and published data, and "
+    "writes this page. A case is a folder in `validation/cases/`. A table has the value of each case that is nearest "
+    "its limit or furthest beyond; [validation.csv](validation.csv) has all values. *Of limit* is the deviation over "
+    "the limit of the case. A *known difference* is beyond its limit for a stated reason. An *open* case has a source "
+    "that lacks something a comparison needs. [References](theory/references.md) has short names of books in full.",
 )
 
 
 def outside_of(text: str) -> set[str]:
-    """Names of the cases that a page tells to be outside their bands."""
+    """Return the names of cases that a page lists as outside their limits."""
     return set(re.findall(rf"^\| \[.*\]\(#(\w+)\) \|.*\| {OUTSIDE} \|$", text, re.MULTILINE))
 
 
 def page(outcomes: Sequence[Outcome]) -> str:
-    """The page as Markdown; outcomes stand in the order of the first table."""
-    lines = [*_HEAD, "", _counts(outcomes), "", *_table(outcomes), ""]
+    """Return the page as Markdown: a section a kind, and in it the outcomes in the given order."""
+    lines = [*_HEAD, "", _counts(outcomes), ""]
+    cited: dict[str, str] = {}
     for kind, heading in KINDS.items():
-        here = [one for one in outcomes if one.case.kind == kind]
+        here = [each for each in outcomes if each.case.kind == kind]
         if here:
-            lines += [f"## {heading}", ""]
-            for one in sorted(here, key=lambda one: (one.verdict == OPEN, one.case.name)):
-                lines += [*_section(one), ""]
+            lines += [f"## {heading}", "", *_table(here), ""]
+            for each in here:
+                lines += [*_section(each, cited), ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
+def values_csv(outcomes: Sequence[Outcome]) -> str:
+    """Return every compared value as CSV: expected, limit and found, in the quantity's unit."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(("case", "quantity", "at", "unit", "expected", "limit", "found", "of_limit"))
+    for each in sorted(outcomes, key=lambda each: each.case.name):
+        for compared in each.quantities:
+            for row in compared.rows:
+                numbers = (_number(value) for value in (row.expected, row.half_band, row.found))
+                quantity = compared.quantity
+                label = (each.case.name, quantity.name, row.label, quantity.unit)
+                rows.writerow((*label, *numbers, f"{row.of_band:+.2f}"))
+    return text.getvalue()
+
+
 def _counts(outcomes: Sequence[Outcome]) -> str:
-    counts = {verdict: sum(one.verdict == verdict for one in outcomes) for verdict in (INSIDE, KNOWN, OUTSIDE, OPEN)}
-    values = sum(len(one.rows) for found in outcomes for one in found.quantities)
-    said = {INSIDE: "inside their bands", KNOWN: "known differences", OUTSIDE: "outside", OPEN: "open"}
-    parts = ", ".join(f"{counts[verdict]} {words}" for verdict, words in said.items())
+    counts = {verdict: sum(each.verdict == verdict for each in outcomes) for verdict in (INSIDE, KNOWN, OUTSIDE, OPEN)}
+    values = sum(len(compared.rows) for each in outcomes for compared in each.quantities)
+    words = {INSIDE: "inside their limits", KNOWN: "known differences", OUTSIDE: "outside", OPEN: "open"}
+    parts = ", ".join(f"{counts[verdict]} {text}" for verdict, text in words.items())
     return f"{len(outcomes)} cases with {values} values: {parts}."
 
 
 def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    yield "| case | kind | worst value | expected | found | of the band | verdict |"
+    yield "| case | value | expected | limit | found | of limit | verdict |"
     yield "|---|---|---|---|---|---|---|"
-    for one in outcomes:
-        begin = f"| [{one.case.title}](#{one.case.name}) | {KINDS[one.case.kind]} "
-        if not one.quantities:
-            yield f"{begin}| | | | | open |"
+    for each in outcomes:
+        name = each.case.name
+        if not each.quantities:
+            yield f"| [{name}](#{name}) | | | | | | {OPEN} |"
             continue
-        quantity, row = one.worst
-        unit = _unit(quantity.quantity.unit)
+        compared, row = each.worst
+        unit = "" if compared.quantity.unit == "1" else f" {compared.quantity.unit}"
         yield (
-            f"{begin}| {_told(quantity, row)} | {_number(row.expected)}{unit} | {_number(row.found)}{unit} "
-            f"| {row.of_band:+.2f} | {one.verdict} |"
+            f"| [{name}](#{name}) | {_label(compared, row)} | {_number(row.expected)}{unit} | {_number(row.half_band)} "
+            f"| {_number(row.found)} | {row.of_band:+.2f} | {each.verdict} |"
         )
 
 
-def _section(one: Outcome) -> Iterator[str]:
-    case = one.case
+def _section(each: Outcome, cited: dict[str, str]) -> Iterator[str]:
+    """Yield title, source, notes and figure; a source that another case cites in full is a link to that case."""
+    case = each.case
     yield f"### {case.title} {{#{case.name}}}"
     yield ""
-    yield f"Source: {case.source}."
-    if case.open:
-        yield ""
-        yield f"**Open:** {case.open}"
-        return
-    judge = f", `references/{case.reference.replace(':', '.py:')}`" if case.reference else ""
-    yield f"Compared by `comparisons/{case.compare.replace(':', '.py:')}`{judge}."
-    if case.note:
-        yield ""
-        yield case.note
-    for quantity in one.quantities:
-        if quantity.quantity.known:
+    first = cited.setdefault(case.source, case.name)
+    source = f"{case.source}." if first == case.name else f"as [{first}](#{first})."
+    yield " ".join(filter(None, (f"Source: {source}", case.note, case.open and f"**Open:** {case.open}")))
+    for compared in each.quantities:
+        if compared.quantity.known:
             yield ""
-            yield f"**Known difference**, {quantity.quantity.name}: {quantity.quantity.known}"
-    yield ""
-    yield "| quantity | expected | band | found | of the band |"
-    yield "|---|---|---|---|---|"
-    for quantity in one.quantities:
-        for row in _shown(quantity.rows):
-            unit = _unit(quantity.quantity.unit)
-            yield (
-                f"| {_told(quantity, row)} | {_number(row.expected)}{unit} | ± {_number(row.half_band)} "
-                f"| {_number(row.found)} | {row.of_band:+.2f} |"
-            )
-    yield ""
-    yield f"![{case.title}](pictures/validation/{case.name}.svg)"
+            yield f"**Known difference**, {compared.quantity.name}: {compared.quantity.known}"
+    if each.quantities:
+        yield ""
+        yield f"![](pictures/validation/{case.name}.svg)"
 
 
-def _shown(rows: Sequence[Row]) -> list[Row]:
-    """All rows, or of many some, with the worst among them."""
-    if len(rows) <= _MOST_ROWS:
-        return list(rows)
-    worst = max(range(len(rows)), key=lambda i: abs(rows[i].of_band))
-    step = (len(rows) - 1) / (_MOST_ROWS - 2)
-    return [rows[i] for i in sorted({worst, *(round(i * step) for i in range(_MOST_ROWS - 1))})]
-
-
-def _told(compared: Compared, row: Row) -> str:
+def _label(compared: Compared, row: Row) -> str:
     return f"{compared.quantity.name} {row.label}".strip().replace("_", " ")
 
 
 def _number(value: float) -> str:
     return f"{value:.4g}"
-
-
-def _unit(unit: str) -> str:
-    return "" if unit == "1" else f" {unit}"

@@ -154,15 +154,3 @@ def test_the_table_and_the_figure_hold_every_input(tmp_path: Path) -> None:
     drawn = paper_case.figure_data()
     assert drawn["ratio"] == pytest.approx(2.0, rel=0.01)
     assert drawn["bars"][0]["ratios"] == list(paper_case.influences()[0].ratios)
-
-
-@pytest.mark.slow
-def test_the_documents_tell_these_numbers() -> None:
-    conventions = " ".join((ROOT / "docs/conventions.md").read_text().split())
-    near = paper_case.alternatives()[0].times
-    assert f"at the near face of the same two says {near[0]:.0f} and {near[1]:.0f} s" in conventions
-    thickness = next(one for one in paper_case.influences() if one.span.name == "pcl_thickness")
-    high, low = thickness.ratios
-    assert f"the layer's thickness alone takes the ratio from {low:.2f} to {high:.2f}" in conventions
-    peaks = [cycle["peak_peltier_temperature"] - 273.15 for cycle in paper_case.pair().switches()]
-    assert f"the pads reach {peaks[0]:.0f} °C in shear and {peaks[1]:.0f} °C in compression" in conventions
