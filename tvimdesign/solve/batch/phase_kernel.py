@@ -95,13 +95,13 @@ class PhaseKernel:
 
     def run(
         self, columns: Array, before: Array | None, pace: float, balance: Array | None, fit: Fit | None = None,
-        keep: Course | None = None,
+        keep: Course | None = None, until: float = np.inf,
     ) -> Passage:  # fmt: skip
         """Go through the phase; `before` are the states it starts from, where that is not everything at ambient.
 
-        Every step on the way is added to `keep`.
+        Every step on the way is added to `keep`. Designs that have not ended `until` then are given up.
         """
-        lengths = (fit.steps if fit else self.steps).lengths(pace, LONGEST * self.horizon)
+        lengths = (fit.steps if fit else self.steps).lengths(pace, LONGEST * min(self.horizon, until))
         run = _Run(self, columns, before, lengths, fit.scales(columns) if fit else np.ones(columns.shape[1]))
         shares = fit.shares if fit else {}
         run.go(

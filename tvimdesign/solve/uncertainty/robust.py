@@ -6,7 +6,7 @@ for what needs no working cycle; the optimum is then sought again. By a yield: s
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from tvimdesign.base.errors import TimeOverError
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
@@ -20,7 +20,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import MARGINS
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.contributors import contributors_of
-from tvimdesign.solve.uncertainty.yield_search import Robust, reach_yield
+from tvimdesign.solve.uncertainty.yield_search import HALVINGS, Robust, reach_yield
 
 ROUNDS = 6
 _SETTLED = 1e-3
@@ -33,25 +33,28 @@ Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 
 
 def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
-    """The place of the first of some designs, the best first, that can be made as robust as its study asks, and the run
-    that is; where none can, of the one that comes nearest. Raises TimeOverError where the time is over before any is
-    known to come near.
+    """Return the place of the first of some designs, the best first, that can be made robust, and its robust run.
+
+    Margins are added whole to each design first, and in parts only where no design can bear that. Where none reaches
+    what the study asks for, the one that comes nearest is returned. Raises TimeOverError where the time is over before
+    any is known to come near.
     """
     found: list[tuple[int, Robust]] = []
-    for place, candidate in enumerate(candidates):
-        optimizer, run, within = candidate
-        if found and (
-            len(found) >= MOST_TRIED or optimizer.deadline.passed or _tried(run, [candidates[i][1] for i, _ in found])
-        ):
-            continue
-        optimizer.margins = {}
-        try:
-            found.append((place, _robust(optimizer, run, within, None)))
-        except TimeOverError:
-            if not found:
-                raise
-            optimizer.deadline.leave_out(MARGINS)
-            break
+    for halvings in (0, HALVINGS):
+        for place in _worth_trying(candidates):
+            optimizer, run, within = candidates[place]
+            if found and optimizer.deadline.passed:
+                break
+            optimizer.margins = {}
+            try:
+                found.append((place, _robust(optimizer, run, within, None, halvings)))
+            except TimeOverError:
+                if not found:
+                    raise
+                optimizer.deadline.leave_out(MARGINS)
+                break
+            if found[-1][1].reached:
+                break
         if found[-1][1].reached:
             break
     best, robust = max(found, key=lambda one: (one[1].reached, one[1].kept))
@@ -59,9 +62,14 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
     return best, robust.run
 
 
-def _tried(run: Run, tried: Iterable[Run]) -> bool:
-    """Whether a run did not converge, or ended at an optimum that has been tried."""
-    return not run.start.converged or any(same_optimum(run.start, one.start) for one in tried)
+def _worth_trying(candidates: Sequence[Candidate]) -> list[int]:
+    """Return the places of the best design and of others that converged, each at an optimum of its own."""
+    places = [0]
+    for place, (_, run, _) in enumerate(candidates[1:], start=1):
+        tried = any(same_optimum(run.start, candidates[i][1].start) for i in places)
+        if run.start.converged and not tried and len(places) < MOST_TRIED:
+            places.append(place)
+    return places
 
 
 def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None = None) -> Run:
@@ -73,13 +81,15 @@ def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective
     return _robust(optimizer, run, within, objective).run
 
 
-def _robust(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Robust:
+def _robust(
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, halvings: int = HALVINGS
+) -> Robust:
     asked = optimizer.study.robust
     assert asked is not None
     if asked.share is None:
         run = _settled(optimizer, run, within, objective)
     elif run.start.converged:
-        return reach_yield(optimizer, run, within, asked.share, objective)
+        return reach_yield(optimizer, run, within, asked.share, objective, halvings)
     return Robust(run, optimizer.margins, 0.0, reached=asked.share is None)
 
 

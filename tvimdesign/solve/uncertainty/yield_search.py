@@ -34,7 +34,8 @@ _PRESSING = 1e-6
 """Multiplier from which on a limit holds the design, objectives a share of its scale."""
 _UNKNOWN = 0.1
 """Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
-_HALVINGS = 3
+HALVINGS = 2
+"""How often a step of the margins that no design bears is halved."""
 _AIM = 0.05
 """Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield."""
 
@@ -52,8 +53,9 @@ class Robust:
 
 
 def reach_yield(
-    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None
-) -> Robust:
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None,
+    halvings: int = HALVINGS,
+) -> Robust:  # fmt: skip
     """Seek the optimum `within` ends again from a converged run, until `share` of the modules keep every limit.
 
     Returns the best design that reaches it, else the one that most modules keep; its margins stay with the optimizer.
@@ -75,7 +77,7 @@ def reach_yield(
         if not moves or _no_better(found):
             break
         optimizer.progress(f"yield {drawn.together.share:.1%} (target {share:.0%}): adding tolerance margins")
-        following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves)
+        following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves, halvings)
         if following is run:
             if optimizer.deadline.passed:
                 optimizer.deadline.leave_out(MARGINS)
@@ -88,13 +90,13 @@ def reach_yield(
 
 def _settled(
     optimizer: Optimizer, yields: Yields, run: Run, drawn: Drawn, within: Mapping[str, Ends], aim: float,
-    objective: Objective | None, moves: Mapping[str, float],
+    objective: Objective | None, moves: Mapping[str, float], halvings: int,
 ) -> Run:  # fmt: skip
     """The optimum whose margins hold for the modules that are predicted of it; the run itself where none is found."""
     begun = run
     for _ in range(PREDICTIONS):
         margins = dict(optimizer.margins)
-        following = _tightened(optimizer, run, within, objective, margins, moves)
+        following = _tightened(optimizer, run, within, objective, margins, moves, halvings)
         if following is None:
             optimizer.margins = margins
             break
@@ -146,10 +148,10 @@ def _shifts(ordered: Array, place: int, may_give: NDArray[np.bool_]) -> Array:
 
 def _tightened(
     optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None,
-    margins: Mapping[str, float], moves: Mapping[str, float],
+    margins: Mapping[str, float], moves: Mapping[str, float], halvings: int,
 ) -> Run | None:  # fmt: skip
-    """The optimum with moved margins; where there is none, with half of the move, and half of that."""
-    for halving in range(_HALVINGS):
+    """Return the optimum with moved margins; where there is none, with half of the move, and half of that."""
+    for halving in range(halvings + 1):
         step = 0.5**halving
         optimizer.margins = {
             name: margins.get(name, 0.0) + step * moves.get(name, 0.0) for name in {**margins, **moves}
