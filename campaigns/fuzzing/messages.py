@@ -18,10 +18,10 @@ from fuzzing.kind import ROOT, Drawn, Kind
 from fuzzing.mutations import ODD, mutated_text
 from tvimdesign.explore import session as explored
 from tvimdesign.explore.answers.engine import Engine
-from tvimdesign.explore.answers.solver import Job
 from tvimdesign.explore.session import Session
 from tvimdesign.explore.states.history import Kept
 from tvimdesign.explore.states.source import Source, open_source
+from tvimdesign.explore.worker_process import Job
 
 STUDY = ROOT / "campaigns/small.yaml"
 _NAMES = ["pcl_thickness", "current", "wire_diameter", "coil_count", "arc_count", "cover", "structure", "spring_steel",
@@ -29,7 +29,7 @@ _NAMES = ["pcl_thickness", "current", "wire_diameter", "coil_count", "arc_count"
           "catalog", "solver", "front", "robust", "envelope_diameter", "a@b@c", "vary.current"]  # fmt: skip
 _TEXTS = ["1 mm", "1.2 A", "2", "<= 9 W", ">= 1 N.m.s/rad", "none", "1", "0", "300 g", "90 degC", "<= 20 s", "-5 mm"]
 _MOST = 8
-_PROCESSES = ("Solver", "Drafter")
+_PROCESSES = ("WorkerProcess",)
 """The classes of a session by which it starts processes."""
 
 
@@ -39,12 +39,13 @@ class _Answered:
     shown: ClassVar[dict[str, Any]] = {}
     under_way = None
 
-    def __init__(self, *arguments: Any) -> None:
-        self._told = arguments[-1]
+    def __init__(self, *arguments: Any, low_priority: bool = False) -> None:
+        self._report = None if low_priority else arguments[-1]
 
     def ask(self, job: Job) -> None:
-        job.line()
-        self._told(job, {"shown": {**self.shown, "stage": job.stage, "way": job.state.way}})
+        json.dumps(dict(job.data))
+        if self._report:
+            self._report(job, {"shown": {**self.shown, "stage": job.stage, "way": job.data["state"]["way"]}})
 
 
 class _Talk:

@@ -18,8 +18,7 @@ from aiohttp.test_utils import TestServer
 from explored import SMALL, TOKEN, awaited, served, small_study, talking
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.explore.serve import serve
-from tvimdesign.explore.server import HOST, Server
+from tvimdesign.explore.server import HOST, Server, serve
 from tvimdesign.explore.states.history import FILE, open_kept, write_kept
 from tvimdesign.explore.states.messages import read_message
 from tvimdesign.explore.states.source import open_source

@@ -3,27 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import dataclass
-from typing import Any
 
 from explored import awaited
 
-from tvimdesign.explore.worker_process import WorkerProcess
+from tvimdesign.explore.worker_process import Job, WorkerProcess
 
 
-@dataclass(frozen=True)
-class _Asked:
-    number: int
-    gives_way: bool = False
-
-    def line(self) -> str:
-        return "{}\n"
-
-    def given_up(self) -> dict[str, Any]:
-        return {"words": "given up"}
-
-
-class _Counted(WorkerProcess[_Asked]):
+class _Counted(WorkerProcess):
     """Counts how often it starts its process."""
 
     starts = 0
@@ -39,7 +25,7 @@ def test_a_worker_that_cannot_start_is_given_up_and_asked_anew_with_the_next_job
         worker = _Counted("tvimdesign.no_such_module", [], lambda job, said: told.append((job.number, said["words"])))
         begun = worker.starts
         for number in (1, 2):
-            worker.ask(_Asked(number))
+            worker.ask(Job(number, {}, {"words": "given up"}))
             async with asyncio.timeout(600.0):
                 while (number, "given up") not in told:
                     await asyncio.sleep(0.02)

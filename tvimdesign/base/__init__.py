@@ -1,1 +1,1 @@
-"""What every floor stands on: exceptions with their exit codes, quantities with units, files that appear whole."""
+"""The base of all floors: exceptions with exit codes, quantities with units, files that appear whole."""

@@ -64,7 +64,7 @@ _pipe: list[int] = []
 
 
 def _pipe_of_this_process() -> int:
-    """The end to read of a pipe whose other end this process alone holds."""
+    """Return the read end of a pipe whose other end this process alone holds."""
     if not _pipe:
         _pipe.extend(os.pipe())  # neither is inherited unless it is handed on
     return _pipe[0]

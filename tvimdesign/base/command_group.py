@@ -24,7 +24,7 @@ class CommandGroup:
     """Runs commands, from any thread, until it is left; those that are at work then are ended."""
 
     def __init__(self) -> None:
-        """Nothing is at work."""
+        """Start without a running command."""
         self._at_work: set[subprocess.Popen[str]] = set()
         self._guard = threading.Lock()
         self._over = False

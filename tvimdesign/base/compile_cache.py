@@ -23,7 +23,7 @@ _DIGEST = hashlib.sha256().digest_size
 
 
 def find_code(*compiled: str) -> bytes | None:
-    """What was kept of a text and its compiler, or what else it is of; None where there is none that is whole."""
+    """Return the stored code of a text and its compiler; None if there is none, or none that is whole."""
     folder = cache_folder(_KIND)
     if folder is None:
         return None

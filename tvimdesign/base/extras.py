@@ -1,4 +1,4 @@
-"""What is installed only when asked for: the extras of the package, and the words where one is missing."""
+"""The extras of the package, and the message if one is missing."""
 
 from __future__ import annotations
 

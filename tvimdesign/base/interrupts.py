@@ -68,7 +68,7 @@ def ignore_interrupts() -> None:
 
 
 def interrupt_came() -> bool:
-    """Whether an interrupt came, whatever has become of it."""
+    """Return whether an interrupt came, whether or not it was raised."""
     return bool(_received)
 
 
@@ -79,12 +79,12 @@ def raise_pending() -> None:
 
 
 def exit_code() -> int:
-    """What a shell expects of a process that was interrupted: 128 and the signal's number."""
+    """Return the exit code of an interrupted process: 128 and the signal's number."""
     return 128 + (_received[0] if _received else signal.SIGINT)
 
 
 def _kept_quietly(told: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """What tells an exception that cannot be raised, but for an interrupt, which `raise_pending` raises later."""
+    """Wrap the hook for exceptions that cannot be raised; `raise_pending` raises an interrupt later."""
 
     def tell(unraisable: Any) -> None:
         if not (_received and issubclass(unraisable.exc_type, KeyboardInterrupt)):
@@ -94,7 +94,7 @@ def _kept_quietly(told: Callable[[Any], Any]) -> Callable[[Any], Any]:
 
 
 def _not_printed(printed: Callable[..., Any]) -> Callable[..., Any]:
-    """The same of what prints an exception that nobody has caught."""
+    """Wrap the hook for uncaught exceptions so that it does not print an interrupt."""
 
     def tell(kind: type[BaseException], error: BaseException, at: Any) -> None:
         if not (_received and issubclass(kind, KeyboardInterrupt)):
@@ -117,7 +117,7 @@ def _heed(number: int, frame: FrameType | None) -> None:
 
 
 def _imports(frame: FrameType | None) -> int:
-    """How many frames of the import system are at work beneath a frame."""
+    """Count the frames of the import system below a frame."""
     found = 0
     while frame is not None:
         found += frame.f_code.co_filename.startswith("<frozen importlib")

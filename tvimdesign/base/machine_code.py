@@ -14,7 +14,7 @@ from tvimdesign.base.compile_cache import find_code, keep_code
 
 
 def hexadecimal(value: float) -> str:
-    """A number to its last bit."""
+    """Write a number to its last bit."""
     return f"0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X}"
 
 
@@ -22,7 +22,7 @@ class Lines:
     """The body of a function while it is written: every line defines one new name."""
 
     def __init__(self, kind: str = "double", suffix: str = "f64") -> None:
-        """Nothing is written yet; numbers are of a `kind`, which LLVM's own functions have as a suffix."""
+        """Start an empty body for numbers of a `kind`, which LLVM's own functions have as a suffix."""
         self.text: list[str] = []
         self._kind, self._suffix = kind, suffix
 
@@ -33,11 +33,11 @@ class Lines:
         return name
 
     def two(self, operation: str, a: str, b: str) -> str:
-        """An operation on two numbers."""
+        """Write an operation on two numbers."""
         return self.new(f"{operation} {self._kind} {a}, {b}")
 
     def intrinsic(self, name: str, *arguments: str) -> str:
-        """An operation that LLVM knows."""
+        """Write a call of one of LLVM's functions."""
         given = ", ".join(f"{self._kind} {one}" for one in arguments)
         return self.new(f"call {self._kind} @llvm.{name}.{self._suffix}({given})")
 
@@ -58,7 +58,7 @@ class MachineCode:
         self._engine.finalize_object()
 
     def function(self, name: str, arguments: Sequence[type]) -> Callable[..., None]:
-        """One of its functions that return nothing, as ctypes calls it."""
+        """Return one of its functions without a result, for ctypes to call."""
         signature = ctypes.CFUNCTYPE(None, *arguments)
         return signature(self._engine.get_function_address(name))
 
@@ -81,5 +81,5 @@ def _machine() -> Any:
 
 
 def _processor() -> str:
-    """What the code runs on."""
+    """Return the triple, the processor and its features."""
     return " ".join((llvm.get_process_triple(), llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()))

@@ -9,7 +9,7 @@ import psutil
 
 
 class Niceness(IntEnum):
-    """How far a process gives way, as its niceness: on Linux each step is a fifth less of a processor that two want."""
+    """Niceness of a process; on Linux each step is a fifth less of a processor that two processes want."""
 
     LOW = 5
     SOME = 10

@@ -1,4 +1,4 @@
-"""What a record holds: values and tables in SI, each with where it comes from and how well it is known."""
+"""Records: values and tables in SI, each with source and status."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Record:
         return self.entry(name).value
 
     def has(self, name: str) -> bool:
-        """Whether the record has a value of that name."""
+        """Return whether the record has a value of that name."""
         return name in self.entries
 
     def entry(self, name: str) -> Entry:

@@ -101,12 +101,12 @@ USUAL_UNITS = Path(__file__).with_name("units_read.json")
 
 @cache
 def _usual() -> dict[str, _Unit]:
-    """The usual units as pint reads them, by their text."""
+    """Return the usual units as pint reads them, by their text."""
     return {text: _Unit(**reported) for text, reported in json.loads(USUAL_UNITS.read_text(encoding="utf-8")).items()}
 
 
 def read_by_pint() -> dict[str, dict[str, Any]]:
-    """What pint makes of the usual units: the content of `units_read.json`."""
+    """Read the usual units by pint, for `units_read.json`."""
     texts = {"1", *(unit for unit, _, _ in _EXAMPLES), *_COMMON.split()}
     return {text: asdict(_ask_pint(text)) for text in sorted(texts)}
 
@@ -274,7 +274,7 @@ _SI_UNITS = {
 
 @cache
 def si_unit(unit: str) -> str:
-    """The SI unit that a unit's numbers have inside: "N*m/rad" for itself, "m" for "mm", "K" for "degC"."""
+    """Return the SI unit of a unit's numbers inside: "N*m/rad" for itself, "m" for "mm", "K" for "degC"."""
     return re.sub(r"[A-Za-z]+", lambda match: _SI_UNITS.get(match[0], match[0]), _respell(unit))
 
 

@@ -10,5 +10,5 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def plain_data(text: str) -> Any:
-    """What a text holds: mappings, lists, text and numbers."""
+    """Return the mappings, lists, texts and numbers of a text."""
     return yaml.load(text, Loader=_LOADER)

@@ -88,7 +88,7 @@ class Catalog:
         return record
 
     def _tree(self, category: str, path: Path, before: tuple[Path, ...]) -> dict[str, Tree]:
-        """What a record's file says, over what those it is based on say; raises CatalogError for a circle."""
+        """Return a record's tree, completed from the records it is based on; raises CatalogError for a circle."""
         tree = read_tree(path)
         base = tree.get("based_on")
         if base is None:
@@ -102,7 +102,7 @@ class Catalog:
         return _over(tree, self._tree(category, other, chain))
 
     def _base(self, category: str, path: Path, base: str) -> Path:
-        """The file of what a record is based on: a user's may be based on the shipped one of its own name."""
+        """Return the file of a record's base; a user's record may be based on the shipped one of its own name."""
         shipped = _SHIPPED / category / path.name
         if base == path.stem and path != shipped and shipped.exists():
             return shipped
@@ -116,7 +116,7 @@ _SECTIONS = ("values", "tables", "words")
 
 
 def _over(tree: dict[str, Tree], base: dict[str, Tree]) -> dict[str, Tree]:
-    """A record's tree with what it leaves out taken from its base: value by value, with source and status."""
+    """Return a record's tree, completed from its base value by value, with source and status."""
     merged = dict(tree)
     for section in _SECTIONS:
         own, inherited = tree.get(section, {}), base.get(section, {})

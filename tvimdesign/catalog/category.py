@@ -1,4 +1,4 @@
-"""What a category can ask of its records: values, tables, words, and how they hang together."""
+"""The requirements of a category: values, tables, words, and relations between them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class PowerLaw:
 
 @dataclass(frozen=True)
 class Category:
-    """What a record must say. Every required number is greater than zero, or `may_be_zero`; `rising` lists rise.
+    """The content of a record. Every required number is greater than zero, or `may_be_zero`; `rising` lists rise.
 
     The rows of `paired` tables belong together, first to first: there must be as many in each. A table of `instead` may
     stand in place of values or they in its place: each is the sum over the rows of the product of some columns, and

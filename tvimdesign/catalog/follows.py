@@ -10,7 +10,7 @@ from tvimdesign.catalog.category import Category, PowerLaw
 
 
 def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]) -> dict[str, Entry]:
-    """The entries that follow from what a record says, by name: none that it says itself."""
+    """Return the entries that follow from others of a record, by name, without those it has itself."""
     found = {}
     for table, values in category.instead.items():
         for name, columns in values.items() if table in tables else ():

@@ -30,7 +30,7 @@ class InheritedLaw(NamedTuple):
 
 
 def inherited_laws(record: Record) -> list[InheritedLaw]:
-    """The laws that a record takes from another material's record, of those its kind uses."""
+    """Return the laws that a record takes from another material's record, of those its kind uses."""
     category = CATEGORIES[record.category]
     used = {law for word in record.words.values() for law in category.own_laws.get(word, ())}
     found = []
@@ -44,7 +44,7 @@ def inherited_laws(record: Record) -> list[InheritedLaw]:
 
 
 def meaningless_laws(record: Record) -> list[str]:
-    """A problem for each law that a record has from a material of another kind."""
+    """Return a problem for each law that a record has from a material of another kind."""
     return [
         f"{record.file}: {one.law}: those of {one.owner.name} mean nothing here, where {_kind(record)}; "
         f"give {' or '.join(one.names)} of its own"
@@ -54,7 +54,7 @@ def meaningless_laws(record: Record) -> list[str]:
 
 
 def inherited_law_warnings(record: Record) -> list[str]:
-    """A sentence for each law that a record has from another material."""
+    """Return a sentence for each law that a record has from another material."""
     return [
         f"{record.title}: the {one.law} are those of {one.owner.title}, and its {one.differs} is another material's; "
         f"give {' or '.join(one.names)} of its own"
@@ -63,7 +63,7 @@ def inherited_law_warnings(record: Record) -> list[str]:
 
 
 def _owner(record: Record, names: tuple[str, ...]) -> Record:
-    """The record in a chain of records that was the first to say any of some values and tables as they are."""
+    """Return the record in a chain that first gave the values and tables as they are."""
 
     def said(one: Record) -> dict[str, Any]:
         everything: Mapping[str, Any] = {**one.entries, **one.tables}
@@ -75,7 +75,7 @@ def _owner(record: Record, names: tuple[str, ...]) -> Record:
 
 
 def _difference(record: Record, owner: Record, category: Category) -> str:
-    """The first value that says two records are of different materials; nothing where none does."""
+    """Return the first value by which two records are of different materials; empty if there is none."""
     for name in category.material:
         own, other = record.value(name), owner.value(name)
         if abs(own / other - 1.0) > SAME_MATERIAL:

@@ -1,4 +1,4 @@
-"""What a record of the layer's material must say: a polymer that crystallizes, a metal, a wax or a glass."""
+"""Content of a record of the layer's material: a polymer that crystallizes, a metal, a wax or a glass."""
 
 from __future__ import annotations
 

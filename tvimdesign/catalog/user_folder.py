@@ -1,4 +1,4 @@
-"""Whose records are read: a folder that is a link or another user's is told, one that anybody writes is refused."""
+"""Owners of the user's records: a link or another user's folder is reported, one that anybody may write refused."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def vouch_for(folder: Path, categories: Sequence[str]) -> None:
 
 
 def _other_owner(folder: Path) -> str:
-    """Who owns a folder, empty where it is this user or the machine. Raises CatalogError where it is anybody's."""
+    """Return the owner of a folder; empty for this user and root. Raises CatalogError if anybody may write to it."""
     found = folder.stat()
     if file_owner.is_own(found):
         return ""

@@ -33,7 +33,7 @@ def explore(
     settings: Settings = None,
 ) -> None:
     """Serve a page on this machine with controls that evaluate and optimise as they move."""
-    from tvimdesign.explore.serve import serve
+    from tvimdesign.explore.server import serve
 
     folder = out or Path("results") / f"{name_of(source)}-explore"
     serve(source, folder, port, token, overwrite=overwrite, browse=browse, settings=settings or ())

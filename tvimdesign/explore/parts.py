@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError, TvimError
-from tvimdesign.explore.answers.report_fragment import PARTS
+from tvimdesign.explore.states.history import PARTS
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.parts_of_design import make_parts_of
 from tvimdesign.report.run.solid_checks import in_short
@@ -22,7 +22,7 @@ class PartsMaker:
     def __init__(
         self, folder: Path, send: Callable[[dict[str, Any]], None], made: Callable[[], None] = lambda: None
     ) -> None:
-        """Nothing is made yet; parts go into a folder of the design's own within `folder`.
+        """Prepare to make parts, each design's in a folder of its own within `folder`.
 
         `made` is called when the parts of a design are there.
         """
@@ -60,7 +60,7 @@ class PartsMaker:
             loop.call_soon_threadsafe(self._made)
 
     def _written(self, name: str, text: str, progress: Callable[[str], None]) -> str:
-        """The design's file and its parts; what the checks say."""
+        """Write the design's file and its parts, and return the result of the checks."""
         with ResultsFolder(self._folder / PARTS / name, overwrite=True) as folder:
             design = folder.write("design.json", text)
             report = make_parts_of(design, folder.path / "cad", progress)

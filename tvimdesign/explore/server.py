@@ -3,23 +3,40 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import hmac
 import json
 import logging
+import re
 import secrets
+import signal
+import webbrowser
 from collections.abc import Awaitable, Callable, Sequence
+from functools import cache
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from aiohttp import WSCloseCode, WSMsgType, web
 from aiohttp.http_exceptions import HttpProcessingError
 
-from tvimdesign.explore.answers.report_fragment import PARTS
-from tvimdesign.explore.explore_page import STATIC, content_policy, explore_page
+import tvimdesign.page
+from tvimdesign.base.errors import InputError
 from tvimdesign.explore.session import Session
+from tvimdesign.explore.states.history import PARTS, open_kept
 from tvimdesign.explore.states.messages import MOST_BYTES
+from tvimdesign.explore.states.source import open_source
+from tvimdesign.report.output.progress import wide_console
 
+STATIC = {
+    "page": Path(str(resources.files(tvimdesign.page))) / "static",
+    "explore": Path(__file__).parent / "static",
+}
+"""Folders of code and styles by the names they are imported by."""
+_STYLES = ("page/theme.css", "page/page.css", "page/figures.css", "explore/explore.css")
 HOST = "127.0.0.1"
+SHORTEST_TOKEN = 16
+_TOKEN = re.compile(r"[A-Za-z0-9_-]*")
 _LOCAL = {"127.0.0.1", "localhost", "[::1]"}
 _SLOWEST = 256
 """Messages that may wait for a page that does not read; one that is further behind is let go, and comes again."""
@@ -45,7 +62,7 @@ class Server:
         self.session: Session | None = None
 
     def app(self) -> web.Application:
-        """The application, with its session from its start to its end."""
+        """Return the application, with its session from its start to its end."""
         app = web.Application(
             middlewares=[self._guard], client_max_size=MOST_BYTES, handler_args={"logger": _server_log()}
         )
@@ -163,7 +180,7 @@ async def _forward(queue: asyncio.Queue[str], socket: web.WebSocketResponse) -> 
 
 
 def _file(folder: Path, name: str) -> web.StreamResponse:
-    """A file within a folder; what lies outside, by dots or by a link, is not there."""
+    """Serve a file of a folder; one outside, by dots or by a link, is not found."""
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()) or not path.is_file():
         raise web.HTTPNotFound
@@ -172,3 +189,76 @@ def _file(folder: Path, name: str) -> web.StreamResponse:
 
 def _local(host: str) -> bool:
     return host.rpartition(":")[0] in _LOCAL or host in _LOCAL
+
+
+# --- the page ---
+
+
+def explore_page(nonce: str) -> str:
+    """Return the empty page; its content comes over the socket."""
+    imports = json.dumps({"imports": {f"{room}/": f"./static/{room}/" for room in STATIC}})
+    text: str = _template().render(styles=_STYLES, imports=imports, nonce=nonce)
+    return text
+
+
+def content_policy(nonce: str) -> str:
+    """Return a policy that allows no other host, and inline code only with the nonce."""
+    return (
+        f"default-src 'none'; script-src 'self' 'nonce-{nonce}'; style-src 'self' 'unsafe-inline'; "
+        "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    )
+
+
+@cache
+def _template() -> Any:
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=PackageLoader("tvimdesign.explore"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True,
+    )  # fmt: skip
+    return environment.get_template("explore.html.jinja")
+
+
+# --- the command ---
+
+
+def serve(
+    source: Path, folder: Path, port: int, token: str, *, overwrite: bool, browse: bool, settings: Sequence[str]
+) -> None:
+    """Serve until interrupted. Raises InputError for what cannot be opened, a short token, and a port that is taken."""
+    if token and (len(token) < SHORTEST_TOKEN or not _TOKEN.fullmatch(token)):
+        raise InputError(
+            f"--token: needs {SHORTEST_TOKEN} or more letters, digits, - and _; leave it out to have one drawn"
+        )
+    opened = open_source(source, settings)
+    open_kept(folder, opened.text, opened.first, overwrite=overwrite)
+    with contextlib.suppress(KeyboardInterrupt):
+        asyncio.run(_serve(Server(source, folder, settings, token, overwrite=overwrite), port, browse))
+
+
+async def _serve(server: Server, port: int, browse: bool) -> None:
+    runner = web.AppRunner(server.app(), access_log=None, shutdown_timeout=FAREWELL)
+    await runner.setup()
+    try:
+        site = web.TCPSite(runner, HOST, port)
+        try:
+            await site.start()
+        except OSError as error:
+            raise InputError(f"--port {port}: cannot be used on {HOST}: {error.strerror}; 0 takes a free one") from None
+        address = f"http://{HOST}:{runner.addresses[0][1]}/{server.token}/"
+        wide_console().print(f"Explorer at {address}", soft_wrap=True)
+        wide_console().print("Open it in a browser on this machine; Ctrl-C ends it, and nothing is lost.")
+        if browse:
+            webbrowser.open(address)
+        await _until_ended()
+    finally:
+        await runner.cleanup()
+
+
+async def _until_ended() -> None:
+    ended = asyncio.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        with contextlib.suppress(NotImplementedError):  # Windows has KeyboardInterrupt alone
+            asyncio.get_running_loop().add_signal_handler(number, ended.set)
+    await ended.wait()

@@ -1,4 +1,4 @@
-"""What happens between a page and the solver: messages become states, states become jobs, answers go to every page."""
+"""A session between pages and the solver: messages become states, states become jobs, answers go to every page."""
 
 from __future__ import annotations
 
@@ -15,23 +15,20 @@ from tvimdesign.base.journal import digest_of, is_as_written
 from tvimdesign.base.units import pretty
 from tvimdesign.explore.answers.engine import Stage
 from tvimdesign.explore.answers.shown import value_names
-from tvimdesign.explore.answers.solver import Job, Solver
-from tvimdesign.explore.drafts.drafter import Drafter, DraftJob
 from tvimdesign.explore.parts import PartsMaker
 from tvimdesign.explore.states import messages
 from tvimdesign.explore.states.controls import controls_shown
 from tvimdesign.explore.states.history import Kept, open_kept, write_kept, written_digest
 from tvimdesign.explore.states.messages import Change, Message
-from tvimdesign.explore.states.saved_study import saved_text
 from tvimdesign.explore.states.source import Source, open_source
-from tvimdesign.explore.states.state import Pinned, State, changed, tree_of
-from tvimdesign.explore.worker_process import Told
+from tvimdesign.explore.states.state import Pinned, State, changed, saved_text, tree_of
+from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
 from tvimdesign.study import Study, read_tree
 
 QUIET = 0.35
 """Seconds without a message after which the exact answer is sought."""
 _FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,80}\.yaml")
-Send = Callable[[Told], None]
+Send = Callable[[Reply], None]
 
 
 class Session:
@@ -54,14 +51,16 @@ class Session:
         self._since: State = self.kept.state
         self._number = 0
         self._timer: asyncio.TimerHandle | None = None
-        self.answers: dict[str, Told] = {}
+        self.answers: dict[str, Reply] = {}
         """The last quick answer and the last exact one, for pages that come later."""
         self._design: dict[str, str] | None = None
         self.parts = PartsMaker(folder, send, self._parts_made)
-        self.draft: Told | None = None
+        self.draft: Reply | None = None
         """The last draft in 3-D, or why there is none, for pages that come later."""
-        self.drafter = Drafter(lambda job, told: self._drafted(job.number, told))
-        self.solver = Solver([str(source), str(folder), *settings], self._told)
+        self.drafter = WorkerProcess("tvimdesign.explore.draft_worker", [], self._drafted, low_priority=True)
+        self.solver = WorkerProcess(
+            "tvimdesign.explore.answers.worker", [str(source), str(folder), *settings], self._answered
+        )
         self._ask("quick")
 
     def close(self) -> None:
@@ -73,7 +72,7 @@ class Session:
 
     # --- what a page asks ---
 
-    def receive(self, text: str) -> list[Told]:
+    def receive(self, text: str) -> list[Reply]:
         """Do what a message says; returns what the page that sent it is told alone."""
         try:
             message = messages.read_message(text)
@@ -82,7 +81,7 @@ class Session:
             name = getattr(locals().get("message"), "name", "")
             return [{"kind": "refused", "name": name, "words": str(error)}]
 
-    def _do(self, message: Message) -> list[Told]:
+    def _do(self, message: Message) -> list[Reply]:
         if isinstance(message, Change):
             self._change(message)
         elif isinstance(message, messages.SetWay):
@@ -114,7 +113,7 @@ class Session:
             self._ask("quick")
 
     def _become(self, after: State) -> None:
-        """A state that is not one change of a value."""
+        """Go to a state that differs in more than one value."""
         self.kept.advance(after, self._since)
         self._settle()
         self._ask("quick")
@@ -130,7 +129,7 @@ class Session:
         self._settle()
         self._ask("quick")
 
-    def _pin(self, name: str) -> None:
+    def _pin(self, label: str) -> None:
         answer = self.answers.get("quick")
         if answer is None or "values" not in answer["shown"] or answer["number"] != self._number:
             raise InputError("pin: the design is still being computed; pin it when its values are there")
@@ -138,9 +137,10 @@ class Session:
         units = [pretty(study.table.unit(one)) for one in value_names(study)]
         numbers = zip(value_names(study), answer["shown"]["values"], units, strict=True)
         texts = {one: "never" if value is None else f"{value:.4g} {unit}".rstrip() for one, value, unit in numbers}
-        inputs = {one: f"{told['value']:.4g} {pretty(study.table.unit(one))}".rstrip()
-                  for one, told in answer["shown"]["variables"].items() if told["value"] is not None}  # fmt: skip
-        self.kept.pin(Pinned(name=name, state=self.kept.state, values={**inputs, **texts}))
+        variables = answer["shown"]["variables"].items()
+        inputs = {name: f"{variable['value']:.4g} {pretty(study.table.unit(name))}".rstrip()
+                  for name, variable in variables if variable["value"] is not None}  # fmt: skip
+        self.kept.pin(Pinned(name=label, state=self.kept.state, values={**inputs, **texts}))
         self._settle()
 
     def _of_pin(self, message: messages.OfPin) -> None:
@@ -150,7 +150,7 @@ class Session:
             self.kept.unpin(message.number)
             self._settle()
 
-    def _save(self, file: str) -> Told:
+    def _save(self, file: str) -> Reply:
         if not _FILE.fullmatch(file):
             raise InputError(f"save: {file!r} is no file name; letters, digits, _ . - and .yaml at the end")
         path = self.folder / file
@@ -168,13 +168,13 @@ class Session:
         return read_tree(tree, lambda _: self.source.study.table, lambda _: self.source.study.catalog)
 
     def _settle(self) -> None:
-        """A state to come back to: kept in the file, and told to every page."""
+        """Write a state to which undo returns, and send it to every page."""
         self._since = self.kept.state
         self._written = write_kept(self.folder, self.kept, self._written)
         self._send(self.state_shown())
 
-    def state_shown(self) -> Told:
-        """All that a page needs beside answers."""
+    def state_shown(self) -> Reply:
+        """Return all that a page needs beside answers."""
         free = self._read("optimize")
         return {
             "kind": "state", "name": free.name, "mode": free.mode, "way": self.kept.state.way,
@@ -186,15 +186,21 @@ class Session:
             "folder": str(self.folder), "parts": self.parts.shown,
         }  # fmt: skip
 
-    def points_shown(self) -> Told:
-        """What a page draws once: the points of the front, or the cells of the sweep; null where there are none."""
+    def points_shown(self) -> Reply:
+        """Return the points of the front or the cells of the sweep, which a page draws once; null if there are none."""
         return {"kind": "points", "points": self.source.points_shown()}
 
     def _ask(self, stage: Stage) -> None:
         self._number += 1
-        self.solver.ask(Job(self._number, stage, self.kept.state))
+        self.solver.ask(self._job(self._number, stage))
         if stage == "quick":
             self._wait()
+
+    def _job(self, number: int, stage: Stage) -> Job:
+        state = self.kept.state
+        words = "the solver ended without an answer; what you did is kept: undo, or go on from here"
+        shown = {"status": words, "found": False, "stage": stage, "way": state.way}
+        return Job(number, {"stage": stage, "state": state.model_dump()}, {"shown": shown}, stage != "quick")
 
     def _wait(self) -> None:
         if self._timer:
@@ -204,7 +210,7 @@ class Session:
     def _exact_now(self, number: int) -> None:
         if number == self._number and not self._is_exact:
             if self.solver.under_way is None:
-                self.solver.ask(Job(number, "exact", self.kept.state))
+                self.solver.ask(self._job(number, "exact"))
             else:
                 self._wait()
 
@@ -216,36 +222,37 @@ class Session:
     def _parts_made(self) -> None:
         """Show the assembly, if the design is still the one that is shown."""
         if self._is_exact:
-            self.solver.ask(Job(self._number, "report", self.kept.state))
+            self.solver.ask(self._job(self._number, "report"))
 
-    def _told(self, job: Job, told: Told) -> None:
-        if "progress" in told or told.get("superseded"):
-            if told.get("progress") and job.number == self._number:
-                self._send({"kind": "progress", "number": job.number, "text": told["progress"]})
+    def _answered(self, job: Job, reply: Reply) -> None:
+        if "progress" in reply or reply.get("superseded"):
+            if reply.get("progress") and job.number == self._number:
+                self._send({"kind": "progress", "number": job.number, "text": reply["progress"]})
             return
         if job.number < self._number and job.stage != "quick":
             return
-        shown = told["shown"]
+        shown = reply["shown"]
         answer = {"kind": "answer", "number": job.number, "shown": shown}
         self.answers["quick" if "values" in shown else "refused"] = answer
         if job.stage != "quick":
-            self.answers["exact"] = {**answer, "report": told.get("report")}
-            self._design = told.get("design")
+            self.answers["exact"] = {**answer, "report": reply.get("report")}
+            self._design = reply.get("design")
             answer = self.answers["exact"]
         self._follow(job, shown)
         self._send(answer)
-        if told.get("module"):
-            self.drafter.ask(DraftJob(job.number, told["module"]))
+        if reply.get("module"):
+            fallback = {"words": "the module could not be drafted; `Make CAD` draws it exactly"}
+            self.drafter.ask(Job(job.number, reply["module"], fallback))
         elif job.number == self._number:
-            self._drafted(job.number, {"words": shown["status"]})
+            self._drafted(job, {"words": shown["status"]})
 
-    def _drafted(self, number: int, told: Told) -> None:
-        """A draft, or the words that say why there is none; an older one comes too late."""
-        if self.draft is None or number >= self.draft["number"]:
-            self.draft = {**told, "kind": "draft", "number": number}
+    def _drafted(self, job: Job, reply: Reply) -> None:
+        """Send a draft, or the reason why there is none, unless a newer one was sent."""
+        if self.draft is None or job.number >= self.draft["number"]:
+            self.draft = {**reply, "kind": "draft", "number": job.number}
             self._send(self.draft)
 
-    def _follow(self, job: Job, shown: Told) -> None:
+    def _follow(self, job: Job, shown: Reply) -> None:
         """Let the hand's variables be the optimum's, so that it can be gone on from."""
         if "at" not in shown or job.number != self._number or self.kept.state.way != "optimize":
             return

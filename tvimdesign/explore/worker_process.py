@@ -1,4 +1,4 @@
-"""A process that answers jobs as lines of JSON: the newest job wins, and what is slow gives way to it."""
+"""A process that answers jobs as lines of JSON: the newest job wins, and interrupts a slow one."""
 
 from __future__ import annotations
 
@@ -8,50 +8,50 @@ import json
 import signal
 import subprocess
 import threading
-from collections.abc import Callable, Sequence
-from typing import Any, Generic, Protocol, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 from tvimdesign.base.child_process import start_child
 from tvimdesign.base.process_tree import set_low_priority
 
-Told = dict[str, Any]
+Reply = dict[str, Any]
 _STARTS = 2
 """Times the worker may end without an answer before its job is given up."""
 
 
-class Work(Protocol):
-    """What a worker is asked."""
+@dataclass(frozen=True)
+class Job:
+    """A task of a worker."""
+
+    number: int
+    data: Mapping[str, Any]
+    """Sent to the worker with the number, as JSON; `stage` says how exactly a state is to be answered."""
+    fallback: Reply
+    """The reply if the worker ends without one."""
+    interruptible: bool = False
+    """True if another job interrupts it."""
 
     @property
-    def number(self) -> int:
-        """By which an answer is known to be its."""
-
-    @property
-    def gives_way(self) -> bool:
-        """Whether it is interrupted when another job comes."""
-
-    def line(self) -> str:
-        """As the worker reads it."""
-
-    def given_up(self) -> Told:
-        """What is told where the worker ended over it."""
+    def stage(self) -> str:
+        """Required exactness of an answer; empty for a job without a stage."""
+        return str(self.data.get("stage", ""))
 
 
-Job = TypeVar("Job", bound=Work)
-
-
-class WorkerProcess(Generic[Job]):
+class WorkerProcess:
     """A worker process, and the one job that waits for it. To be used in an event loop."""
 
     def __init__(
-        self, module: str, arguments: Sequence[str], told: Callable[[Job, Told], None], *, behind: bool = False
+        self,
+        module: str,
+        arguments: Sequence[str],
+        report: Callable[[Job, Reply], None],
+        *,
+        low_priority: bool = False,
     ) -> None:
-        """Start the worker, a module with arguments; `told` is called with all it says of a job.
-
-        One that stands `behind` computes where other processes leave a processor free.
-        """
-        self._behind = behind
-        self._module, self._arguments, self._told = module, list(arguments), told
+        """Start the worker, a module with arguments; `report` is called with every reply to a job."""
+        self._low_priority = low_priority
+        self._module, self._arguments, self._report = module, list(arguments), report
         self._loop = asyncio.get_running_loop()
         self._under_way: Job | None = None
         self._waiting: Job | None = None
@@ -62,25 +62,25 @@ class WorkerProcess(Generic[Job]):
         self._start()
 
     def ask(self, job: Job) -> None:
-        """Answer a job as soon as may be; what waited before it is dropped, what is slow is interrupted."""
+        """Answer a job next; the one that waited is dropped, an interruptible one is interrupted."""
         if self._under_way is None:
             if self._ended >= _STARTS:
                 self._start()
             self._send(job)
             return
         self._waiting = job
-        if self._under_way.gives_way and not self._interrupted:
+        if self._under_way.interruptible and not self._interrupted:
             self._interrupted = True
             self._child.send_signal(signal.SIGINT)
 
     @property
     def under_way(self) -> Job | None:
-        """What is being answered, if anything is."""
+        """The job that is being answered."""
         return self._under_way
 
     @property
     def process(self) -> int:
-        """The worker's number."""
+        """Number of the worker's process."""
         return self._child.pid
 
     def close(self) -> None:
@@ -96,48 +96,48 @@ class WorkerProcess(Generic[Job]):
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8", bufsize=1,
             process_group=0,  # no session of its own, between which `set_low_priority` has no meaning on Linux
         )  # fmt: skip
-        if self._behind:
+        if self._low_priority:
             set_low_priority(self._child.pid)
         self._thread = threading.Thread(target=self._read, args=(self._child,), daemon=True)
         self._thread.start()
 
     def _read(self, child: subprocess.Popen[str]) -> None:
-        """In a thread: hand every line to the loop."""
+        """Hand every line to the loop; runs in a thread."""
         assert child.stdout is not None
         with child.stdout:
             for line in child.stdout:
-                self._call(self._heard, json.loads(line))
+                self._call(self._receive, json.loads(line))
         if child.stdin:
             with contextlib.suppress(OSError):
                 child.stdin.close()
-        self._call(self._lost)
+        self._call(self._restart)
 
     def _call(self, function: Callable[..., None], *arguments: Any) -> None:
-        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody listens any more
+        with contextlib.suppress(RuntimeError):  # the loop is closed
             self._loop.call_soon_threadsafe(function, *arguments)
 
     def _send(self, job: Job) -> None:
         self._under_way, self._interrupted = job, False
         assert self._child.stdin is not None
         with contextlib.suppress(OSError, ValueError):  # a worker that has died is started again when that is heard
-            self._child.stdin.write(job.line())
+            self._child.stdin.write(json.dumps({"number": job.number, **job.data}) + "\n")
             self._child.stdin.flush()
 
-    def _heard(self, told: Told) -> None:
+    def _receive(self, reply: Reply) -> None:
         job = self._under_way
-        if job is None or told.get("number") != job.number:
+        if job is None or reply.get("number") != job.number:
             return
-        if "progress" in told:
-            self._told(job, told)
+        if "progress" in reply:
+            self._report(job, reply)
             return
         self._under_way, self._ended = None, 0
         waiting, self._waiting = self._waiting, None
         if waiting is not None:
             self._send(waiting)
-        self._told(job, told)
+        self._report(job, reply)
 
-    def _lost(self) -> None:
-        """The worker has ended by itself: start it again, with the job that is newest."""
+    def _restart(self) -> None:
+        """Start a worker that has ended by itself again, with the newest job."""
         if self._closed:
             return
         self._child.wait()
@@ -149,4 +149,4 @@ class WorkerProcess(Generic[Job]):
             if job is not None:
                 self._send(job)
         elif job is not None:  # started again when something else is asked
-            self._told(job, job.given_up())
+            self._report(job, job.fallback)

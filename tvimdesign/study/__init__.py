@@ -1,4 +1,4 @@
-"""What the user writes: reads a study file, says everything that is wrong with it, and resolves it to numbers."""
+"""The study: reads the user's file, reports every mistake in it, and resolves it to numbers."""
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.study.reader import read_study, read_study_text, read_tree

@@ -1,4 +1,4 @@
-"""What studies must have in common to be compared, and what is said where they have not.
+"""The conditions that studies share in a comparison, and the messages where they differ.
 
 Compared are designs, not tasks: what the joint must do (stroke, load, requirements, objective), where it does it
 (surroundings, operating points) and what it is made of apart from its springs (Peltier module and current, structure,
@@ -38,7 +38,7 @@ class Case:
 
     @cached_property
     def places(self) -> Places:
-        """Where its keys stand."""
+        """Places of its keys."""
         return Places(self.path)
 
     @cached_property
@@ -113,7 +113,7 @@ def _unequal_conditions(first: Case, other: Case) -> Iterator[Mistake]:
 
 
 def _conditions(of: Case) -> Iterator[_Condition]:
-    """Everything that must be the same; requirements apart."""
+    """Yield everything that must be the same, apart from requirements."""
     study = of.study
     for row in of.study.table.quantities:
         if isinstance(row, Input | Choice) and _is_condition(row):
@@ -153,7 +153,7 @@ def _is_condition(row: Input | Choice) -> bool:
 
 
 def _plain(value: Any) -> Any:
-    """A number or a word as it is; a record without the file it was read from."""
+    """Return a value as it is, and a record without its file."""
     return replace(value, file="") if isinstance(value, Record) else value
 
 
@@ -175,7 +175,7 @@ def _in_words(row: Input | Choice, value: Any, vary: Vary | None) -> str:
 
 
 def _same(a: Any, b: Any) -> bool:
-    """Whether two values mean the same; quantities to their rounding."""
+    """Return whether two values mean the same, quantities up to rounding."""
     if isinstance(a, float | int) and isinstance(b, float | int):
         return math.isclose(a, b, rel_tol=ROUNDING)
     if isinstance(a, tuple) and isinstance(b, tuple):

@@ -64,7 +64,7 @@ class Design(BaseModel):
 
     @property
     def rating_notes(self) -> list[str]:
-        """What is to be said wherever the design is used: the ratings it is beyond, accepted or not."""
+        """Sentences on the ratings that the design exceeds, accepted or not."""
         said = {"not accepted by its study": self.above_rating, "as its study accepts": self.accepting}
         return [f"The design is beyond its rating, {how}: {', '.join(names)}." for how, names in said.items() if names]
 
@@ -76,13 +76,13 @@ class Design(BaseModel):
 
 
 def catalog_of(design: Design) -> Catalog:
-    """The catalogue a design was found with; raises CatalogError where the folder its study names is not here."""
+    """Return the catalogue of a design; raises CatalogError if the folder that its study names is missing."""
     folder = design.study.get("catalog_folder")
     return Catalog(Path(folder) if folder else None)
 
 
 def design_json(design: Design) -> bytes:
-    """A design as it is written; what never happens is the word Infinity, which JSON has no number for."""
+    """Return a design as JSON; infinity, for which JSON has no number, is the text Infinity."""
     return design.model_dump_json(indent=2).encode() + b"\n"
 
 
@@ -113,7 +113,7 @@ def read_design(path: str | os.PathLike[str]) -> Design:
 
 
 def _plain(data: bytes, problems: Mistakes) -> dict[str, Any] | None:
-    """The JSON object of a file, None (and a problem) where it is none."""
+    """Return the JSON object of a file, or None with a problem noted."""
     try:
         plain = json.loads(data)
     except (ValueError, RecursionError) as error:
@@ -149,7 +149,7 @@ def _check_form(error: ValidationError, data: Any, problems: Mistakes, path: str
 
 
 def _inside(data: Any, places: Iterable[str | int]) -> Iterator[str]:
-    """The steps that lead into the data; pydantic puts the names of the kinds it tried between them."""
+    """Yield the steps that lead into the data, without the type names that pydantic puts between them."""
     for place in places:
         known = isinstance(data, Mapping) or (isinstance(data, list) and isinstance(place, int) and place < len(data))
         if known and not (isinstance(data, Mapping) and place not in data and place in _KINDS):
@@ -161,7 +161,7 @@ _KINDS = {"float", "str", "Range", "Options"}
 
 
 def _of_the_other_kind(data: Any, places: tuple[str | int, ...]) -> bool:
-    """Whether a variable was tried as a list though it has the ends of a range, or the other way round."""
+    """Return whether a variable with the ends of a range was tried as a list, or a list as a range."""
     for place in places:
         if place in ("Range", "Options"):
             return isinstance(data, Mapping) and ("lower" in data or "upper" in data) == (place == "Options")
@@ -187,7 +187,7 @@ def _check_design(design: Design, problems: Mistakes) -> None:
 
 
 def _study(design: Design, table: Table, problems: Mistakes) -> Study | None:
-    """The design's study, read as one in a file is, where the records it was made with are here."""
+    """Read the design's study as a file is read, if its records are here."""
     try:
         study = Study.model_validate(design.study)
     except ValidationError as error:

@@ -1,4 +1,4 @@
-"""What cannot stand together in one study, whatever its numbers: said by name, before anything is evaluated."""
+"""Contradictions in a study that no number can resolve, refused before anything is evaluated."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def refuse_incompatible(study: Study, values: Mapping[str, Any]) -> None:
 
 
 def _least(study: Study, name: str) -> float:
-    """The least value a study itself gives a number, or lets it take; zero where it leaves it to its default."""
+    """Return the least value that a study sets or allows for a number; zero if the default applies."""
     allowed = study.vary.get(name)
     if isinstance(allowed, Range):
         return allowed.lower

@@ -1,4 +1,4 @@
-"""What the records a study chooses say against themselves, or against what it asks of them."""
+"""Warnings about the chosen records: contradictions, missing limits, and tasks they cannot do."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def record_checks(study: Study) -> list[str]:
 
 
 def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:
-    """A sentence where blocks press on rigid modules whose record says nothing of the pressure they bear."""
+    """Return a warning if blocks press on rigid modules whose record has no pressure limit."""
     limit = "heater_pressure_limit"
     pressed = limit in values and values["heater_form"] != CUT
     module = values["peltier_module"]

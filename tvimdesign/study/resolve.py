@@ -35,7 +35,7 @@ def given(study: Study) -> dict[str, Any]:
 
 
 def drawn(study: Study) -> Study:
-    """The module a study starts from, as a study that evaluates it: what is varied stands at its start."""
+    """Return the study that evaluates the module from which a study starts."""
     starts = given(study)
     module = {name: getattr(starts[name], "name", starts[name]) for name in study.vary}
     update = {"module": {**study.module, **module}, "vary": {}, "minimize": {}, "profile": ProfileOptions()}
@@ -43,7 +43,7 @@ def drawn(study: Study) -> Study:
 
 
 def words_of(choice: Choice) -> list[str]:
-    """What a study may write for a choice: its options, then the shipped records."""
+    """Return the words a study may write for a choice: its options, then the shipped records."""
     return [*choice.options, *(Catalog().names(choice.category) if choice.category else [])]
 
 
@@ -74,7 +74,7 @@ def _started(row: Input, study: Study, chosen: dict[str, Any]) -> float:
 
 
 def _stock(row: Choice | Input, study: Study, chosen: dict[str, Any]) -> Record | None:
-    """The record that is bought whole and brings a quantity along, if the study chooses one.
+    """Return the record bought whole that brings a quantity along, if the study chooses one.
 
     Raises InputError where the study sets or varies the quantity beside it.
     """
@@ -90,7 +90,7 @@ def _stock(row: Choice | Input, study: Study, chosen: dict[str, Any]) -> Record 
 
 
 def brought_along(choices: Mapping[str, str], table: Table) -> set[str]:
-    """Names of the quantities that records bought whole bring along, by what a design has chosen."""
+    """Return the quantities that a design's records bought whole bring along."""
     bought = {row.name for row in table.choices if choices[row.name] not in row.options}
     rows: list[Choice | Input] = [*table.choices, *table.inputs]
     return {row.name for row in rows if row.stock_record and row.stock_record[0] in bought}
@@ -107,7 +107,7 @@ def brought_along_by(study: Study) -> dict[str, str]:
 
 
 def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str, Any]) -> float:
-    """The study's own value of an input, else its record's, else its default; zero for what the module lacks."""
+    """Return the study's value of an input, else its record's, else its default; zero for what the module lacks."""
     if own is not None:
         return float(own)
     if row.record is not None:
@@ -123,7 +123,7 @@ def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str
 
 
 def _reason(row: Input, chosen: dict[str, Any]) -> str:
-    """Why an input without a value needs one, and what its record has instead."""
+    """Explain why an input needs a value, and what its record has instead."""
     reason = "".join(f", needed as {one.choice} is {chosen[one.choice]}" for one in row.requires)
     if row.record is not None and not isinstance(chosen[row.record[0]], str):
         choice, field = row.record

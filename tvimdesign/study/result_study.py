@@ -15,12 +15,12 @@ from tvimdesign.study.tree import tree_of_values, tree_yaml
 
 
 def result_text(design: Design, source: str, folder: Path) -> str:
-    """The text of a study that `run` answers as the design; `folder` is where its file will stand."""
+    """Return the text of a study whose `run` gives the design; `folder` will hold its file."""
     return study_text(evaluating(design), f"The module of {source}", folder)
 
 
 def study_text(study: Study, title: str, folder: Path) -> str:
-    """The text of a study whose file will stand in a folder, below a line with its title."""
+    """Return the text of a study below a line with its title; `folder` will hold its file."""
     if study.catalog_folder:
         records = os.path.relpath(Path(study.catalog_folder).resolve(), folder.resolve())
         study = study.model_copy(update={"catalog_folder": records})
@@ -28,7 +28,7 @@ def study_text(study: Study, title: str, folder: Path) -> str:
 
 
 def begun_at(study: Study, values: Mapping[str, float], choices: Mapping[str, str | float]) -> Study:
-    """The study whose search begins at a design: what it varies starts there, or as near as its ends allow."""
+    """Return the study with its search started at a design, or as near as its ranges allow."""
     module, vary = dict(study.module), dict(study.vary)
     for name, allowed in study.vary.items():
         if isinstance(allowed, Range):
@@ -40,7 +40,7 @@ def begun_at(study: Study, values: Mapping[str, float], choices: Mapping[str, st
 
 
 def evaluating(design: Design) -> Study:
-    """The design's study with the chosen values in place of ranges and lists, without what a search needs.
+    """Return the design's study with the chosen values in place of ranges and lists, without what a search needs.
 
     Inputs and choices that have no effect in this module, such as those of a part it does not have, are left out.
     """

@@ -1,4 +1,4 @@
-"""What a study is once it is read: plain data in SI units that survives a trip through JSON."""
+"""A study as plain data in SI units, which survives a trip through JSON."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Range(_Part):
 
 
 class Options(_Part):
-    """What may be chosen from: numbers or names of records; `source` is the catalogue record that lists them."""
+    """Listed numbers or names of records; `source` is the catalogue record that lists them."""
 
     values: Annotated[tuple[float | str, ...], Field(min_length=1)]
     source: str | None = None
@@ -57,7 +57,7 @@ class Requirement(_Part):
 
 
 class Tolerance(_Part):
-    """How far one input lies from what is drawn, to either side: `plus_minus`, a `share` of its value, or a `row`."""
+    """A deviation of an input to either side of its nominal value: `plus_minus`, a `share` of it, or a `row`."""
 
     plus_minus: float | None = None
     share: float | None = None
@@ -81,7 +81,7 @@ class Robust(_Part):
 
 
 class SolverOptions(_Part):
-    """How hard the solver tries, and how finely the heat model is divided."""
+    """Effort of the search and fineness of the heat model."""
 
     starts: int = Field(3, ge=1, le=1000, description="number of starting points; the first is the study's own")
     seed: int = Field(1, ge=0, le=2**32 - 1, description="seed of the random starting points")
@@ -132,7 +132,7 @@ class FrontOptions(_Part):
 
 
 class WriteOptions(_Part):
-    """What the results folder gets besides the numbers."""
+    """Files in the results folder besides the numbers."""
 
     plots: bool = Field(True, description="plots of the result")
     vector: bool = Field(False, description="plots as PDF and SVG too, as a run that makes parts always writes")
@@ -174,13 +174,13 @@ class Study(_Part):
         return table_for(self.mode)
 
     def based_on(self, catalog: Catalog, table: Table) -> Study:
-        """The same study with a catalogue that is open already, and a table."""
+        """Return the study with a catalogue that is open already, and a table."""
         copied = self.model_copy()
         copied.__dict__.update(catalog=catalog, table=table)
         return copied
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Study:
-        """A copy with some fields changed; it keeps the open catalogue and the table unless they are what changes."""
+        """Return a copy with some fields changed; it keeps the open catalogue and the table unless these change."""
         copied = super().model_copy(update=update, deep=deep)
         for kept, field in _KEPT.items():
             if getattr(copied, field) != getattr(self, field):
@@ -188,13 +188,13 @@ class Study(_Part):
         return copied
 
     def __getstate__(self) -> dict[Any, Any]:
-        """What a pickle holds: the fields; the catalogue and the table are looked up again where it is read."""
+        """Return the fields for a pickle; its reader looks up the catalogue and the table again."""
         state = super().__getstate__()
         return {**state, "__dict__": {name: value for name, value in state["__dict__"].items() if name not in _KEPT}}
 
     @property
     def task(self) -> Literal["evaluate", "optimize"]:
-        """What the study asks for."""
+        """The study's task."""
         return "optimize" if self.vary else "evaluate"
 
 

@@ -19,7 +19,7 @@ def template_text() -> str:
 
 
 def examples() -> dict[str, str]:
-    """Every shipped study by name, with what its first line says of it."""
+    """Return the title line of every shipped study by name."""
     found = sorted((file for file in _shipped().iterdir() if file.name.endswith(".yaml")), key=lambda file: file.name)
     return {
         file.name.removesuffix(".yaml"): file.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
@@ -37,6 +37,6 @@ def example_text(name: str) -> str:
 
 
 def _shipped() -> Traversable:
-    """The folder of studies: beside the package in a checkout, a copy within it (made by setup.py) in a wheel."""
+    """Return the folder of studies: beside the package in a checkout, a copy made by setup.py in a wheel."""
     packaged = files("tvimdesign.study").joinpath("examples")
     return packaged if packaged.is_dir() else Path(__file__).parents[2] / "studies"

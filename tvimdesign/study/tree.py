@@ -25,7 +25,7 @@ _LONGEST_SETTING = 100
 
 @dataclass(frozen=True)
 class StudyTree:
-    """What was written, before it is read as a study."""
+    """A study as it is written, before it is read."""
 
     root: Mapping
     file: str
@@ -42,13 +42,13 @@ class StudyTree:
     """Its file, where it has one."""
 
     def section(self, name: str) -> Node | None:
-        """What stands under one of the study's keys."""
+        """Return the node under one of the study's keys."""
         found = self.root.entries.get(name)
         return found[1] if found else None
 
 
 def tree_of_text(source: str, file: str, name: str, folder: Path) -> StudyTree:
-    """The tree of a study's text. Raises StudyError where it is no YAML, or no study."""
+    """Return the tree of a study's text. Raises StudyError if it is no YAML or no study."""
     problems = Mistakes(file)
     root = compose(check_characters(source, problems), problems)
     if not isinstance(root, Mapping):
@@ -59,7 +59,7 @@ def tree_of_text(source: str, file: str, name: str, folder: Path) -> StudyTree:
 
 
 def tree_of_file(path: str | os.PathLike[str], settings: Sequenced[str] = ()) -> StudyTree:
-    """The tree of a study file, with `name=value` settings made. Raises StudyError, and InputError for no file."""
+    """Return the tree of a study file after `name=value` settings. Raises StudyError, and InputError for no file."""
     path = Path(path)
     file = printable(path)
     tree = tree_of_text(read_text(path, Mistakes(file)), file, path.stem, path.parent)
@@ -67,7 +67,7 @@ def tree_of_file(path: str | os.PathLike[str], settings: Sequenced[str] = ()) ->
 
 
 def tree_of_values(values: Mapped[str, Any], file: str, folder: Path) -> StudyTree:
-    """The tree of a study given as Python values, by section."""
+    """Return the tree of a study given as Python values, by section."""
     problems = Mistakes(file)
     root = node_of(values, file, problems)
     assert isinstance(root, Mapping)  # as `values` is one
@@ -75,24 +75,24 @@ def tree_of_values(values: Mapped[str, Any], file: str, folder: Path) -> StudyTr
 
 
 def without_section(tree: StudyTree, name: str) -> StudyTree:
-    """The tree without one of the study's sections."""
+    """Return the tree without one of the study's sections."""
     left = {key: value for key, value in tree.root.entries.items() if key != name}
     return replace(tree, root=replace(tree.root, entries=left))
 
 
 def tree_yaml(tree: StudyTree) -> str:
-    """The study as text, with where it is from and what changed it in the first lines."""
+    """Return the study as text; its first lines name its origin and its changes."""
     changes = "".join(f"# {change}\n" for change in (tree.file, *tree.changes))
     return changes + yaml_of(tree.root)
 
 
 def study_file(tree: StudyTree) -> str | bytes:
-    """The study as its author wrote it, comments and all; as it is now where options or Python changed it."""
+    """Return the study as its author wrote it, or as it is now if options or Python changed it."""
     return tree_yaml(tree) if tree.changes or tree.path is None else tree.path.read_bytes()
 
 
 def with_settings(tree: StudyTree, settings: Sequenced[str]) -> StudyTree:
-    """The tree with every setting made, each of the form `name=value`; what none can be is a problem of the tree."""
+    """Return the tree after settings of the form `name=value`; a malformed one is a problem of the tree."""
     for setting in settings:
         try:
             tree = _with_setting(tree, setting)
@@ -113,7 +113,7 @@ def _with_setting(tree: StudyTree, setting: str) -> StudyTree:
 
 
 def _setting_node(value: str, problems: Mistakes) -> Node:
-    """What stands behind `=`: a list or a mapping in YAML's brackets, else text as it is."""
+    """Return the node behind `=`: a list or a mapping in YAML's brackets, else text as it is."""
     if not value.lstrip().startswith(("[", "{")):
         return node_of(value, problems.file, problems)
     try:
@@ -123,7 +123,7 @@ def _setting_node(value: str, problems: Mistakes) -> Node:
 
 
 def _placed(node: Node, file: str) -> Node:
-    """The node as one that comes from an option."""
+    """Return the node as one that comes from an option."""
     if isinstance(node, Mapping):
         entries = {
             name: (replace(key, line=0, column=0, file=file), _placed(value, file))
@@ -136,7 +136,7 @@ def _placed(node: Node, file: str) -> Node:
 
 
 def with_value(tree: StudyTree, name: str, value: Node, source: str, problems: tuple[Mistake, ...] = ()) -> StudyTree:
-    """The tree with one value set, or taken away where the value is empty.
+    """Return the tree with one value set, or removed if the value is empty.
 
     A `name` without dots is an input or a choice of the module: it is fixed, so it is varied no longer. A section, or
     a path such as `require.holding_torque` or `operating_points.hot.temperature`, is set as it stands.
@@ -158,7 +158,7 @@ def with_value(tree: StudyTree, name: str, value: Node, source: str, problems: t
 
 
 def _without_variable(root: Mapping, name: str) -> Mapping:
-    """The study with a variable less; with the last one goes all that a search needs."""
+    """Return the study without a variable; the last one takes along all that a search needs."""
     vary = root.entries.get("vary")
     if vary is None or not isinstance(vary[1], Mapping) or name not in vary[1].entries:
         return root
@@ -169,7 +169,7 @@ def _without_variable(root: Mapping, name: str) -> Mapping:
 
 
 def _put(node: Mapping, steps: Sequenced[str], value: Node, source: str, path: str) -> Mapping:
-    """A mapping with the value at the end of the steps, everything else as it was."""
+    """Return a mapping with the value at the end of the steps, everything else unchanged."""
     first, *rest = steps
     where = step(path, first)
     entries = dict(node.entries)

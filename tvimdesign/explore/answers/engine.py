@@ -38,7 +38,7 @@ WAITS = "follows when you let go: its current follows a profile"
 
 @dataclass(frozen=True)
 class Answer:
-    """What is sent to the page, and what a report is written from."""
+    """An answer for the page, with what a report is written from."""
 
     shown: Shown
     answered: AnsweredStudy | None = None
@@ -50,7 +50,7 @@ class Engine:
     """One study and what was compiled of it."""
 
     def __init__(self, base: StudyTree, *, compiled: bool = True) -> None:
-        """Nothing is built yet."""
+        """Read the study; models are built when they are needed."""
         self._base, self._compiled = base, compiled
         self._study = read_tree(base)
         self._models: list[QuickModel] = []
@@ -62,7 +62,7 @@ class Engine:
         self._told: Answer | None = None
 
     def answer(self, state: State, stage: Stage, progress: Progress = lambda _: None) -> Answer:
-        """The module of a state. Raises InputError and InfeasibleError in the study's own words."""
+        """Answer a state. Raises InputError and InfeasibleError in the study's own words."""
         if stage == "report" and self._told is not None:
             return self._told
         began = perf_counter()
@@ -106,7 +106,7 @@ class Engine:
         return int(self._problem.optimizer.model.index[name])
 
     def _optimum(self, study: Study, state: State) -> Moved:
-        """The optimum near the last one, or near the hand: a result is opened with the design that was found."""
+        """Return the optimum near the last one, or near the controls' values, such as a result's design."""
         if self._problem is None or not self._problem.fits(study):
             self._problem, self._last = ParametricOptimizer(study), None
         reference = self._reference(study, self._problem)
@@ -117,7 +117,7 @@ class Engine:
         return self._problem.solve(study, None, reference, at if any(at[name] != start[name] for name in at) else None)
 
     def _reference(self, study: Study, problem: ParametricOptimizer) -> dict[str, float]:
-        """What is minimised at the study's own start, where that is another than the one that was built."""
+        """Return the objectives at the study's own start, if it differs from that of the built problem."""
         known = given(study)
         model, built = self._model(study, known), problem.optimizer
         start = model.inputs(known)
@@ -143,7 +143,7 @@ class Engine:
         return evaluated
 
     def _model(self, study: Study, known: Mapping[str, Any]) -> QuickModel:
-        """The module compiled; `known` is what the study gives."""
+        """Return the compiled module; `known` holds the study's values."""
         for model in self._models:
             if model.fits(study, known):
                 return model
@@ -188,7 +188,7 @@ class Engine:
         keep: Keep,
         objectives: Sequence[str],
     ) -> Solution:
-        """The optimum from where the last one is; every start where that is none."""
+        """Search from the last optimum, or from every start if that fails."""
         if self._last is not None and not study.robust:
             optimizer = Optimizer(study, reference, progress, objectives=objectives)
             begin = optimizer.model.start.copy()
@@ -206,7 +206,7 @@ class Engine:
     # --- what both need ---
 
     def _freed(self, state: State) -> Study:
-        """The study of a state with what varies free, read again only where what was changed is another."""
+        """Return the study of a state with free variables; it is read again only after a change."""
         if self._free is None or self._free[0] != state.changes:
             self._free = dict(state.changes), self._read(tree_of(self._base, state, "optimize"))
         return self._free[1]
@@ -216,21 +216,21 @@ class Engine:
 
 
 def _module(study: Study, values: Mapping[str, float], words: Mapping[str, str]) -> dict[str, Any]:
-    """What a module is drafted from."""
+    """Return the data from which a module is drafted."""
     return {"mode": study.mode, "choices": dict(words), "values": finite_data(dict(values))}
 
 
 def _listed(study: Study, state: State) -> dict[str, str]:
-    """What is chosen from lists, as the hand has it."""
+    """Return the choices from lists, as the controls have them."""
     return {name: state.at[name] for name, one in study.vary.items() if isinstance(one, Options) and name in state.at}
 
 
 def _rounded(study: Study, name: str, value: float) -> str:
-    """A number of an optimum that is passed through, in as many digits as it is shown."""
+    """Write a number of an intermediate optimum with the digits that are shown."""
     unit = study.table.unit(name)
     return f"{from_si(value, unit):.7g} {unit}".removesuffix(" 1")
 
 
 def refused(error: TvimError) -> Shown:
-    """What is sent where a state has no answer."""
+    """Return the answer to a state that has no design."""
     return {"status": str(error), "found": False}

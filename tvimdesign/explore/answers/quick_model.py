@@ -66,7 +66,7 @@ class QuickModel:
             self._thread.start()
 
     def fits(self, study: Study, known: Mapping[str, Any]) -> bool:
-        """Whether a study's module differs in numbers alone; `known` is what the study gives."""
+        """Return whether a study's module differs in numbers alone; `known` holds the study's values."""
         same = tuple(study.operating_points) == self.points and study.solver.cells == self.cells
         return same and words_of(known) == self.words
 
@@ -83,11 +83,11 @@ class QuickModel:
         self._pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
 
     def inputs(self, known: Mapping[str, Any]) -> Array:
-        """The vector of a module's numbers, out of all that is known of it."""
+        """Return the vector of a module's numbers."""
         return np.array([float(known[name]) for name in self.model.names])
 
     def evaluate(self, inputs: Array) -> Evaluated:
-        """Every output of a module, and its curves. Raises SimulationError."""
+        """Compute every output of a module and its curves. Raises SimulationError."""
         kernel, pace = self._kernel, self._pace
         if kernel is None or pace is None:
             cycle = self._simulator.run(inputs)
@@ -163,7 +163,7 @@ def _line(course: list[tuple[float, Array]]) -> tuple[Array, Array]:
 
 
 def words_of(known: Mapping[str, Any]) -> dict[str, Any]:
-    """The records and options of a module, and its count of cells, which is a shape."""
+    """Return the records and options of a module, and its number of cells, which is a shape."""
     return {
         name: value for name, value in known.items()
         if not isinstance(value, int | float) or name == "rotor_cells"

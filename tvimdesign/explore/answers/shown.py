@@ -1,4 +1,4 @@
-"""What a page shows of a module: limits with how they stand, variables at their ends, and every value."""
+"""Data of a module for a page: limits with their state, variables at their ends, and every value."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def shown_design(
     study: Study, free: Study, known: Mapping[str, Any], values: Mapping[str, float], binding: Collection[str] = (),
     ends: Mapping[str, str] | None = None,
 ) -> Shown:  # fmt: skip
-    """A module's values (SI, by full name) for the page; `free` is the study with what it varies.
+    """Return a module's values (SI, by full name) for the page; `free` is the study with its variables.
 
     `known` is what the study gives, `binding` are limits that press, `ends` variables that press against an end of
     their range.
@@ -42,7 +42,7 @@ def shown_design(
 
 
 def value_names(study: Study) -> list[str]:
-    """Every output whose value is shown, in the table's order."""
+    """Return the outputs whose values are shown, in the table's order."""
     seen = {row.name for row in study.table.first_oscillations}
     return [name for name in study.table.names(study.operating_points) if name.partition("@")[0] not in seen]
 
@@ -50,7 +50,7 @@ def value_names(study: Study) -> list[str]:
 def limits_shown(
     study: Study, known: Mapping[str, Any], values: Mapping[str, float], binding: Collection[str]
 ) -> list[Shown]:
-    """Every requirement, and the rules that press or are broken; what is broken first."""
+    """Return every requirement and the active or violated rules, violated ones first."""
     stand = [
         (limit, _stands(limit, values[limit.output], study.table, limit.name in binding))
         for limit in constraints_of(study, study.table, known)
@@ -103,5 +103,5 @@ def finite_data(data: Any) -> Any:
 
 
 def _finite(value: float) -> float | None:
-    """A number JSON has; what never happens is none."""
+    """Return a number for JSON; None for infinity, the time of what never happens."""
     return float(f"{value:.7g}") if math.isfinite(value) else None

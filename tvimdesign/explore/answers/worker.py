@@ -6,6 +6,7 @@ under way, as a newer one stands in its place; the process goes on.
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import os
@@ -17,11 +18,18 @@ from typing import Any, TextIO
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler, raise_pending
+from tvimdesign.device import table_for
 from tvimdesign.explore.answers.engine import Answer, Engine, refused
-from tvimdesign.explore.answers.report_fragment import design_name, report_fragment
+from tvimdesign.explore.answers.shown import finite_data
+from tvimdesign.explore.states.history import PARTS
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.explore.states.state import State
-from tvimdesign.study.design import design_json
+from tvimdesign.page.page_fragment import page_fragment
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.first_screen.screen import Told
+from tvimdesign.report.run.run_page.run_page import run_page
+from tvimdesign.study.design import Design, design_json
 
 
 class _Quiet(io.TextIOBase):
@@ -51,7 +59,7 @@ def main() -> None:
 
 
 def _done(engine: Engine, job: dict[str, Any], folder: Path, answers: TextIO) -> dict[str, Any]:
-    """What a job comes to; of one that was interrupted nothing is kept, whatever a library made of the interrupt."""
+    """Answer a job; an interrupted one has no answer, whatever a library made of the interrupt."""
 
     def progress(text: str) -> None:
         raise_pending()
@@ -82,6 +90,38 @@ def _told(found: Answer, folder: Path) -> dict[str, Any]:
 def _say(answers: TextIO, told: dict[str, Any]) -> None:
     answers.write(json.dumps(told, allow_nan=False) + "\n")
     answers.flush()
+
+
+class DesignFolder(ResultsFolder):
+    """The folder of one design that an explorer made parts of, if it did; nothing is claimed in it."""
+
+    def __init__(self, path: Path) -> None:
+        """Know the path."""
+        self.path = path
+
+
+def design_name(design: Design) -> str:
+    """Return the name of a design's folder, which depends on choices and numbers alone."""
+    numbers = {
+        name: f"{design.values[name]:.9g}"
+        for name in sorted(design.values)
+        if name.partition("@")[0] in _inputs(design)
+    }
+    told = json.dumps([design.mode, design.choices, numbers], sort_keys=True)
+    return hashlib.sha256(told.encode()).hexdigest()[:16]
+
+
+def _inputs(design: Design) -> set[str]:
+    return {row.name for row in table_for(design.mode).inputs}
+
+
+def report_fragment(folder: Path, answered: AnsweredStudy) -> dict[str, Any]:
+    """First screen and sections as HTML, with what their figures are drawn from."""
+    own = folder / PARTS / design_name(answered.result.design)
+    told = Told(warnings=answered.warnings, front=answered.front.front)
+    page = run_page(DesignFolder(own), answered, told)
+    left_out = {"study", "versions", *(() if (own / "cad").is_dir() else ("assembly",))}
+    return {"folder": f"{PARTS}/{own.name}", **finite_data(page_fragment(page, left_out))}
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ Shown = dict[str, Any]
 
 
 def controls_shown(free: Study, fixed: Study, state: State) -> Shown:
-    """Every control; `free` is the study with what varies free, `fixed` the one of the module under the hand."""
+    """Return every control; `free` is the study with free variables, `fixed` that of the module as set."""
     values = given(fixed)
     return {
         "variables": [_variable(name, free, state) for name in free.vary],
@@ -41,7 +41,7 @@ def _variable(name: str, free: Study, state: State) -> Shown:
 
 
 def _requirements(free: Study) -> list[Shown]:
-    """A control for each limit; those of one output know their place in its list."""
+    """Return a control for each limit; those of one output know their place in its list."""
     seen: dict[str, int] = {}
     found = []
     for limit in free.require:
@@ -72,7 +72,7 @@ def _inputs(free: Study, fixed: Study, values: Mapping[str, Any]) -> list[Shown]
 
 
 def _input(row: Input, name: str, value: float, fixed: Study) -> Shown:
-    """A slider goes from half to twice the value, within what the table allows."""
+    """Return an input's control; its slider goes from half to twice the value, within the limits of the table."""
     unit = fixed.table.unit(row.name)
     low, high = max(row.lower, min(0.5 * value, 2.0 * value)), min(row.upper, max(0.5 * value, 2.0 * value))
     if unit == "degC":

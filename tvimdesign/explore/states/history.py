@@ -1,4 +1,4 @@
-"""What can be undone and done again, and how it is kept in a file that is whole at any moment."""
+"""History of an explorer for undo and redo, in a file that is whole at any moment."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from tvimdesign.base.journal import digest_of, free_name, is_as_written
 from tvimdesign.explore.states.state import Pinned, State
 
 FILE = "explore.json"
+PARTS = "parts"
+"""Folder of the designs whose CAD was made, each by its own name."""
 MOST_STEPS = 200
 MOST_PINS = 12
 
@@ -41,14 +43,14 @@ class Kept(BaseModel):
         self.state = after
 
     def undo(self) -> None:
-        """One step back. Raises InputError where there is none."""
+        """Go one step back. Raises InputError if there is none."""
         if not self.past:
             raise InputError("undo: nothing was changed before")
         self.future = [self.state, *self.future]
         self.state = self.past.pop()
 
     def redo(self) -> None:
-        """One step forth again. Raises InputError where there is none."""
+        """Go one step forward again. Raises InputError if there is none."""
         if not self.future:
             raise InputError("redo: nothing was undone")
         self.past = [*self.past, self.state]
@@ -61,7 +63,7 @@ class Kept(BaseModel):
         self.pins = [*self.pins, pinned]
 
     def pinned(self, number: int) -> Pinned:
-        """A design that was kept. Raises InputError for a number there is not."""
+        """Return a pinned design. Raises InputError for a number that does not exist."""
         if number >= len(self.pins):
             raise InputError(f"pin {number}: there are {len(self.pins)} pinned designs")
         return self.pins[number]
@@ -73,7 +75,7 @@ class Kept(BaseModel):
 
 
 def hash_of(text: bytes) -> str:
-    """What tells one study's file from another."""
+    """Return the fingerprint of a study's file."""
     return "sha256:" + hashlib.sha256(text).hexdigest()
 
 

@@ -1,4 +1,4 @@
-"""What a page may ask of the server: every message checked before anything is done with it."""
+"""Messages from a page to the server, each checked before it is used."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an explorer is opened with: a study file, a result with its design and front, or a sweep with its cells."""
+"""Sources of an explorer: a study file, a result with its design and front, or a sweep with its cells."""
 
 from __future__ import annotations
 
@@ -36,19 +36,19 @@ class Source:
 
     @property
     def text(self) -> bytes:
-        """What tells this study from another."""
+        """Text that identifies the study."""
         return tree_yaml(self.tree).encode()
 
     @property
     def first(self) -> State:
-        """Where an explorer begins."""
+        """First state of an explorer."""
         if self.cells and self.cells.best:
             return _state_of(self.cells, self.cells.best[0])
         way = "optimize" if self.study.vary else "evaluate"
         return State(way=way, at=beginning(self.study, self.chosen))
 
     def points_shown(self) -> dict[str, Any] | None:
-        """The points of the front, or the cells of the sweep, in the units people read; none of a study."""
+        """Return the points of the front or the cells of the sweep in the table's units; None for a study."""
         if self.cells:
             return self.cells.shown()
         if self.front is None or not self.front["points"]:
@@ -62,7 +62,7 @@ class Source:
         return {"of": list(self.front["of"]), "names": names, "labels": labels, "points": points}
 
     def at_point(self, number: int, state: State) -> State:
-        """The state that shows a point of the front, or a cell of the sweep. Raises InputError where there is none."""
+        """Return the state that shows a point of the front or a cell. Raises InputError if there is none."""
         if self.cells:
             return _state_of(self.cells, number)
         found = next((one for one in (self.front or {"points": []})["points"] if one["number"] == number), None)
@@ -105,7 +105,7 @@ def _sweep(folder: Path, settings: Sequence[str]) -> Source:
 
 
 def _state_of(cells: SweptCells, number: int) -> State:
-    """The state that shows a cell: evaluated as it was found; one without an answer is asked for once more."""
+    """Return the state that shows a cell, evaluated; a cell without an answer is computed again."""
     found = cells.found(number)
     way: Way = "evaluate" if found.answered or not found.study.vary else "optimize"
     return State(way=way, changes=found.changes, at={**beginning(found.study), **found.at})
@@ -116,7 +116,7 @@ def _of_design(design: Design) -> dict[str, Any]:
 
 
 def _front_of(folder: Path) -> dict[str, Any] | None:
-    """The front of a result; none where it has none, or its results.json is another program's."""
+    """Return the front of a result; None if it has none, or its results.json is another program's."""
     try:
         front = json.loads((folder / "results.json").read_bytes()).get("front")
     except (OSError, ValueError, AttributeError):

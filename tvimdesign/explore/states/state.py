@@ -1,7 +1,8 @@
-"""What an explorer holds: the changes made to a study, where the hand is, and the designs that were pinned."""
+"""State of an explorer: changes to a study, values of the controls, and pinned designs."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,8 @@ from tvimdesign.study import Range, Study, given, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
 from tvimdesign.study.text.python_values import node_of
 from tvimdesign.study.text.values import exactly
-from tvimdesign.study.tree import StudyTree, with_value
+from tvimdesign.study.text.yaml_text import Text
+from tvimdesign.study.tree import StudyTree, tree_yaml, with_value
 
 SOURCE = "explore"
 """What messages call the place a change was made in."""
@@ -46,7 +48,7 @@ class Pinned(_Part):
 
 
 def tree_of(base: StudyTree, state: State, way: Way | None = None) -> StudyTree:
-    """The study of a state: with what varies free, or (where the way is to evaluate) at the hand."""
+    """Return the study of a state: with free variables, or (to evaluate) with the controls' values."""
     tree = set_values(base, state.changes)
     if (way or state.way) == "optimize":
         return tree
@@ -55,7 +57,7 @@ def tree_of(base: StudyTree, state: State, way: Way | None = None) -> StudyTree:
 
 
 def set_values(tree: StudyTree, values: Mapping[str, Any]) -> StudyTree:
-    """A tree with values set, by their path; None takes one away."""
+    """Return a tree with values set, by their path; None removes one."""
     for path, value in values.items():
         tree = _set(tree, path, value)
     return tree
@@ -67,7 +69,7 @@ def _set(tree: StudyTree, path: str, value: Any) -> StudyTree:
 
 
 def changed(base: StudyTree, state: State, change: Change, study: Study) -> State:
-    """The state after a change, read and so refused where a study would be. Raises StudyError and InputError.
+    """Return the state after a change, which the reader of studies checks. Raises StudyError and InputError.
 
     `study` is the one of the state, with what varies free.
     """
@@ -86,7 +88,7 @@ def changed(base: StudyTree, state: State, change: Change, study: Study) -> Stat
 
 
 def _path_and_value(change: Change, study: Study) -> tuple[str, Any]:
-    """Where in a study a change stands, and what. Raises InputError for what no control changes."""
+    """Return path and value of a change in a study. Raises InputError for a name without a control."""
     if isinstance(change, SetLimits):
         return f"require.{change.name}", list(change.texts) or None
     if isinstance(change, SetRange):
@@ -100,7 +102,7 @@ def _path_and_value(change: Change, study: Study) -> tuple[str, Any]:
 
 
 def _start_within(change: SetRange, study: Study) -> dict[str, str]:
-    """Where a search begins, as the study says, if the new range has it."""
+    """Return the start of a search as the study has it, if the new range includes it."""
     vary, unit = study.vary[change.name], study.table.unit(change.name)
     if not isinstance(vary, Range) or vary.start is None:
         return {}
@@ -126,10 +128,20 @@ def beginning(study: Study, chosen: Mapping[str, Any] | None = None) -> dict[str
 
 
 def text_of(study: Study, name: str, value: Any) -> str:
-    """A value as a study has it, every digit kept."""
+    """Write a value for a study, with all its digits."""
     if isinstance(value, int | float):
         return exactly(float(value), study.table.unit(name))
     return str(getattr(value, "name", value))
+
+
+def saved_text(base: StudyTree, state: State, folder: Path) -> str:
+    """Return the YAML of a state's study, with its folder of records as seen from the folder of the new file."""
+    tree = tree_of(base, state)
+    records = tree.section("catalog")
+    if isinstance(records, Text) and records.value.strip():
+        path = (base.folder / records.value.strip()).resolve()
+        tree = set_values(tree, {"catalog": os.path.relpath(path, folder.resolve())})
+    return tree_yaml(tree)
 
 
 def refuse_other_folders(tree: StudyTree, study: Study) -> None:

@@ -59,7 +59,7 @@ def _given(reading: Reading, node: Node, path: str) -> GivenCurrent | None:
 
 
 def _series(reading: Reading, node: Node, path: str, unit: str) -> tuple[float, ...] | None:
-    """The values of one series in SI, None (and a problem) where it is none."""
+    """Return the values of one series in SI, or None with a problem noted."""
     problems = reading.problems
     if not isinstance(node, Sequence):
         misfit(problems, node, path, f"a list of quantities in {unit}")

@@ -1,4 +1,4 @@
-"""What a section of a study declares: its name and meaning, and how it is read, described to editors and written."""
+"""The declaration of a study's section: name, meaning, reader, JSON Schema and writer."""
 
 from __future__ import annotations
 

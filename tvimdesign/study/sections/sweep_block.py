@@ -1,4 +1,4 @@
-"""What a study asks to be swept, as plain data: axes with their values or ranges, and how cells are laid over them."""
+"""A sweep as plain data: axes with their values or ranges, and the arrangement of cells."""
 
 from __future__ import annotations
 

@@ -81,7 +81,7 @@ def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
 
 
 def _word(reading: Reading, node: Node | None, path: str, known: Collection[str]) -> str:
-    """One of some words; empty where nothing is written."""
+    """Return one of some words; empty if none is written."""
     if node is None:
         return ""
     word = text(reading.problems, node, path, one_of(list(known)))
@@ -153,7 +153,7 @@ def _axes(reading: Reading, found: dict[str, Node], node: Node, method: str) -> 
 def _listed(
     reading: Reading, found: dict[str, Node], node: Node
 ) -> tuple[tuple[SweptAxis, ...], tuple[tuple[Text, ...], ...]]:
-    """The axes and rows of `cells: [{pcl_thickness: 1 mm, current: 1 A}, ...]`."""
+    """Read the axes and rows of `cells: [{pcl_thickness: 1 mm, current: 1 A}, ...]`."""
     expected = "a list such as [{pcl_thickness: 1 mm, current: 1 A}, ...]"
     cells = found.get("cells")
     if "over" in found:
@@ -184,7 +184,7 @@ def _listed(
 
 
 def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis | None:
-    """What a name on the left of `over` means, still without values."""
+    """Return the axis that a name under `over` means, still without values."""
     section, _, rest = name.partition(".")
     if not rest:
         return _of_module(reading, key, path, name)
@@ -266,7 +266,7 @@ def _ends(
 
 
 def _end(reading: Reading, node: Node, path: str, axis: SweptAxis) -> tuple[float, Sense] | None:
-    """An end of a range in SI, with its sense where it is a limit."""
+    """Return an end of a range in SI, with its sense if it is a limit."""
     section, _, rest = axis.name.partition(".")
     if section == "require":
         limit = read_limit(reading, node, path, rest, reading.table.output(rest.partition("@")[0]))
@@ -281,7 +281,7 @@ def _steps(
     reading: Reading, node: Mapping, parts: dict[str, Node], path: str, axis: SweptAxis, ends: tuple[float, float],
     method: str,
 ) -> int:  # fmt: skip
-    """How many values a range has in a grid; 0 in a sample."""
+    """Return the number of values of a range in a grid; 0 in a sample."""
     given = [key for key in ("count", "step") if key in parts]
     if method in SAMPLED:
         for key in given:

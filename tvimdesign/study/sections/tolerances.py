@@ -50,14 +50,14 @@ _MOST_SIGMAS = 6.0
 
 @cache
 def standard_entries() -> dict[str, dict[str, Any]]:
-    """The usual tolerances by row, as they stand in the file."""
+    """Return the usual tolerances by input, as they stand in the file."""
     file = resources.files("tvimdesign.study.sections").joinpath("tolerances.yaml")
     found: dict[str, dict[str, Any]] = plain_data(file.read_text(encoding="utf-8"))
     return found
 
 
 def standard_tolerances(table: Table) -> dict[str, Tolerance]:
-    """The usual tolerances of the inputs that a mode has."""
+    """Return the usual tolerances of a mode's inputs."""
     return {name: _standard(table, name, entry) for name, entry in standard_entries().items() if name in table.by_name}
 
 
@@ -79,7 +79,7 @@ def _size(written: str, unit: str) -> dict[str, float]:
 
 
 def tolerance_rows(table: Table) -> list[str]:
-    """The outputs that say how far an input may lie from what is drawn."""
+    """Return the outputs that give the tolerance of an input."""
     return [row.name for row in table.outputs if row.name.endswith("_tolerance") and not row.per_point]
 
 
@@ -154,7 +154,7 @@ def _tolerance(reading: Reading, node: Node, path: str, row: Input, standard: To
 
 
 def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> dict[str, Any]:
-    """The fields a study states; what is wrong is noted and left out."""
+    """Return the fields a study states, without those that are wrong, which are noted."""
     read: dict[str, Any] = {}
     if "plus_minus" in parts:
         read |= _read_size(reading, parts["plus_minus"], f"{path}.plus_minus", row) or {}
@@ -177,7 +177,7 @@ def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input)
 
 
 def _read_size(reading: Reading, node: Node, path: str, row: Input) -> dict[str, float] | None:
-    """A plus-minus value, SI, or a share of the value where it is written in percent."""
+    """Return a plus-minus value in SI, or a share of the value if it is written in percent."""
     word = text(reading.problems, node, path, _forms(row))
     if word is None:
         return None

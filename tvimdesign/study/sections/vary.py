@@ -121,7 +121,7 @@ def _span(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, ro
 
 
 def _ends(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> dict[str, float] | None:
-    """The values of `from`, `to` and what stands beside them; None (and a problem) where one is missing or wrong."""
+    """Return the values of `from`, `to` and the keys beside them, or None with a problem noted."""
     missing = [key for key in ("from", "to") if key not in parts]
     if missing:
         reading.problems.add(node, path, f"{' and '.join(map(repr, missing))} missing", _forms(row))
@@ -154,7 +154,7 @@ def _steps(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, r
 
 
 def _makes_steps(reading: Reading, place: Node, path: str, row: Input, width: float) -> bool:
-    """Whether a step leads on, and from one whole thing to another where whole things are counted."""
+    """Return whether a step is positive, and whole if whole things are counted."""
     if width <= 0.0:
         reading.problems.add(place, path, "a step of that size leads nowhere", "a step above zero")
     elif row.integer and not width.is_integer():

@@ -1,4 +1,4 @@
-"""Where a value of a JSON file stands, so that a message can name its line."""
+"""Lines of the values in a JSON file, for messages."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class JsonPlaces:
             self._text = ""
 
     def at(self, path: str) -> At:
-        """Where the value at a path such as `study.module.current` stands, or the last of its steps that is there."""
+        """Return the place of a path such as `study.module.current`, or of the last of its steps that exists."""
         if not self._text:
             return At(0, 0)
         place = value = self._past_space(0)

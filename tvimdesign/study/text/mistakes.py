@@ -1,4 +1,4 @@
-"""What is wrong with a study: each problem with its place in the file, and all of them as one error."""
+"""Mistakes in a study: each with its place in the file, and all of them as one error."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Place(Protocol):
 
     @property
     def file(self) -> str:
-        """Where it was written: an option or a call; empty for the study's own file."""
+        """Option or call that holds it; empty for the study's own file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Mistake:
     hint: str = ""
 
     def __str__(self) -> str:
-        """One line: `file:line:column: path: message; expected ...; hint`."""
+        """Format as one line: `file:line:column: path: message; expected ...; hint`."""
         place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
         what = f"{self.path}: {self.message}" if self.path else self.message
         expected = f"expected {self.expected}" if self.expected else ""
@@ -70,7 +70,7 @@ class StudyError(InputError):
         super().__init__(self.problems)
 
     def __str__(self) -> str:
-        """The problems, one a line, at most MOST_SHOWN of them."""
+        """List the problems, one a line, at most MOST_SHOWN of them."""
         lines = [str(problem) for problem in self.problems[:MOST_SHOWN]]
         if len(self.problems) > MOST_SHOWN:
             lines.append(f"... and {len(self.problems) - MOST_SHOWN} more")

@@ -15,7 +15,7 @@ def printable(path: Path) -> str:
 
 
 def is_folder(path: Path) -> bool:
-    """Whether a path is a folder that can be asked for: one that is too long to be a path is none."""
+    """Return whether a path is a folder; one that is too long to be a path is none."""
     try:
         return path.is_dir()
     except (OSError, ValueError):  # no permission, a name too long

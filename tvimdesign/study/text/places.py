@@ -1,4 +1,4 @@
-"""Where in a study's file something stands, for what is said about a study after it has been read."""
+"""Places of keys in a study's file, for messages about a study that has been read."""
 
 from __future__ import annotations
 
@@ -30,6 +30,6 @@ class Places:
         return place
 
     def text(self, path: str) -> str:
-        """The place as `file:line:column`."""
+        """Return the place of a key as `file:line:column`."""
         at = self.at(path)
         return f"{self.file}:{at.line}:{at.column}"

@@ -12,7 +12,7 @@ from tvimdesign.study.text.yaml_text import DEEPEST, Broken, Mapping, Node, Sequ
 
 
 def node_of(value: Any, file: str, problems: Mistakes, path: str = "", depth: int = 0) -> Node:
-    """The node a value would be if it stood in a study file; `file` names the option or the call it comes from.
+    """Return the node a value would be in a study file; `file` names the option or the call it comes from.
 
     Text is text with its unit, a tuple `(1.2, "mm")` a number with its unit and `(0.6, 2, "mm")` a list of two; what
     has a magnitude and units is a quantity, as pint's are. Notes what cannot stand in a study in `problems`.
@@ -33,7 +33,7 @@ def node_of(value: Any, file: str, problems: Mistakes, path: str = "", depth: in
 
 
 def _has_unit(value: tuple[Any, ...]) -> bool:
-    """Whether a tuple is numbers with their unit."""
+    """Return whether a tuple holds numbers and their unit."""
     *numbers, unit = value or ("",)
     return bool(numbers) and isinstance(unit, str) and all(_is_number(number) for number in numbers)
 
@@ -43,7 +43,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _number(value: Any) -> str:
-    """A number with every digit it has."""
+    """Write a number with all its digits."""
     return str(int(value)) if isinstance(value, Integral) else repr(float(value))
 
 
@@ -71,7 +71,7 @@ def _scalar(value: Any, file: str, problems: Mistakes, path: str) -> Text | Brok
 
 
 def _text(value: Any) -> str | None:
-    """A single value as it would be written; None where it is of no kind that a study has."""
+    """Write a single value; None for a kind that no study has."""
     if isinstance(value, str):
         return value
     if isinstance(value, bool):

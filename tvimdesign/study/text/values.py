@@ -69,7 +69,7 @@ class Reading:
 
 
 def _has(mode: str, name: str) -> bool:
-    """Whether a mode has a row of that name that a study may say."""
+    """Return whether a mode has a quantity of that name that a study may use."""
     row = table_for(mode).by_name.get(name)
     return row is not None and not (isinstance(row, Output) and row.hidden)
 
@@ -216,17 +216,17 @@ def record(reading: Reading, node: Node, path: str, category: str, name: str) ->
 
 
 def below(value: float, limit: float) -> bool:
-    """Whether a value lies below a limit by more than rounding."""
+    """Return whether a value lies below a limit by more than rounding."""
     return value < limit - ROUNDING * abs(limit) if math.isfinite(limit) else value < limit
 
 
 def expected_for(row: Input) -> str:
-    """What to write for an input."""
+    """Describe what to write for an input."""
     return ("a whole number" if row.integer else "a number") if row.unit == "1" else f"a quantity in {row.unit}"
 
 
 def limits(row: Input) -> str:
-    """The span an input may have, in its own unit."""
+    """Format the span an input may have, in its own unit."""
     lower, upper = (format_quantity(limit, row.unit) for limit in (row.lower, row.upper))
     if math.isinf(row.upper):
         return f"at least {lower}"

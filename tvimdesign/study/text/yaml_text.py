@@ -42,7 +42,7 @@ class Text:
 
     @property
     def empty(self) -> bool:
-        """Whether nothing was written, or YAML's word for nothing."""
+        """True if nothing was written, or YAML's word for nothing."""
         return self.plain and self.value in {"", "~", "null"}
 
 
@@ -68,7 +68,7 @@ class Mapping:
 
 @dataclass(frozen=True, slots=True)
 class Broken:
-    """What was refused already, so that nothing more is said about it."""
+    """A refused value, about which nothing more is reported."""
 
     line: int
     column: int
@@ -198,7 +198,7 @@ class _Builder:
         return entries
 
     def _path(self) -> str:
-        """The keys that lead to what is being read."""
+        """Return the keys that lead to the current event."""
         path = ""
         for level in self.stack:
             last = level.children[-1] if level.kind == "map" and len(level.children) % 2 else None

@@ -12,7 +12,7 @@ _WIDTH = 120
 
 
 def yaml_of(root: Node) -> str:
-    """The YAML text of a tree; the reader makes the same tree of it, without comments and places."""
+    """Return the YAML text of a tree, from which the reader makes the same tree, without comments and places."""
     events = [yaml.StreamStartEvent(), yaml.DocumentStartEvent(), *_events(root), yaml.DocumentEndEvent()]
     text: str = yaml.emit([*events, yaml.StreamEndEvent()], width=_WIDTH, allow_unicode=True)
     return text

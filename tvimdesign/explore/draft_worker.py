@@ -1,6 +1,6 @@
 """The process that drafts: a module's numbers as a line of JSON, its meshes as a line of JSON.
 
-Run as `python -m tvimdesign.explore.drafts.worker`.
+Run as `python -m tvimdesign.explore.draft_worker`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def drafted(job: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _parts(draft: Draft) -> list[dict[str, Any]]:
-    """What the page's viewer knows of each part; matrices row by row."""
+    """Return the viewer's data of each part; matrices row by row."""
     kinds = {name: kind_of(name) for name in draft.places}
     return [
         {

@@ -1,1 +1,0 @@
-"""Drafts in 3-D of the module under the hand, in a process of their own."""
