@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import USUAL_UNITS, format_quantity, from_si, parse_quantity, pretty, read_by_pint, to_si
-from tvimdesign.catalog.categories import CATEGORIES
+from tvimdesign.catalog.category import CATEGORIES
 from tvimdesign.device import Choice, table_for
 
 NAMES = (

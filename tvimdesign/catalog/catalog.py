@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import stat
+import warnings
+from collections.abc import Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 
-from tvimdesign.base.errors import CatalogError
+from tvimdesign.base import file_owner
+from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.base.record import Record
-from tvimdesign.catalog.categories import CATEGORIES
+from tvimdesign.catalog.category import CATEGORIES
 from tvimdesign.catalog.inherited_laws import meaningless_laws
-from tvimdesign.catalog.user_folder import vouch_for
 from tvimdesign.catalog.validate import build_record
 from tvimdesign.catalog.yaml_file import Tree, read_tree
 
@@ -33,7 +36,7 @@ class Catalog:
             return
         try:
             folders = [item.name for item in extra_folder.iterdir() if item.is_dir()]
-            vouch_for(extra_folder, [folder for folder in folders if folder in CATEGORIES])
+            _check_owner(extra_folder, [folder for folder in folders if folder in CATEGORIES])
         except (OSError, ValueError):
             raise CatalogError(
                 f"{str(extra_folder)[:200]}: the catalogue folder is not there or cannot be read"
@@ -161,3 +164,39 @@ def _nearest(name: str, names: list[str]) -> str:
     close = get_close_matches(name.lower(), names, n=1)
     listed = f"there are: {', '.join(names)}" if names else "it is empty"
     return f"did you mean {close[0]}? {listed}" if close else listed
+
+
+# --- who owns the user's records ---
+
+
+def _check_owner(folder: Path, categories: Sequence[str]) -> None:
+    """Warn of a folder of records, or one of its categories, that is a link or another user's.
+
+    Raises OSError, and CatalogError for one of another user that anybody may write.
+    """
+    for path in (folder, *(folder / category for category in categories)):
+        owner = _other_owner(path)
+        leads = f"leads to {path.resolve()}" if path.is_symlink() else ""
+        belongs = f"belongs to another user, {owner}" if owner else ""
+        if message := " and ".join(filter(None, (leads, belongs))):
+            warnings.warn(f"{path}: the folder of records {message}", FolderWarning, stacklevel=3)
+
+
+def _other_owner(folder: Path) -> str:
+    """Return the owner of a folder; empty for this user and root. Raises CatalogError if anybody may write to it."""
+    status = folder.stat()
+    if file_owner.is_own(status):
+        return ""
+    if status.st_mode & stat.S_IWOTH:
+        raise CatalogError(
+            f"{str(folder)[:200]}: the folder of records belongs to another user, {_owner_name(folder)}, and anybody "
+            "may write to it; copy it, or have its owner run chmod o-w on it"
+        )
+    return "" if status.st_uid == file_owner.ROOT else _owner_name(folder)
+
+
+def _owner_name(folder: Path) -> str:
+    try:
+        return folder.owner()
+    except KeyError:  # it has a number alone
+        return str(folder.stat().st_uid)

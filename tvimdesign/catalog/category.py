@@ -1,9 +1,15 @@
-"""The requirements of a category: values, tables, words, and relations between them."""
+"""Categories: the content that `categories.yaml` requires of their records, and values that follow from others."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import prod
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.record import Entry, RecordTable
+from tvimdesign.base.yaml_data import plain_data
 
 AGREEMENT = 0.1
 """Share by which a value may differ from what a table of the same record comes to: fits of one melt are no closer."""
@@ -82,3 +88,49 @@ class Category:
             found |= {law.known_value: found[name], law.exponent: "1"}
             found |= dict.fromkeys((law.size, law.known_size), law.size_unit)
         return found
+
+
+def _category(content: dict[str, Any]) -> Category:
+    tables = {name: Columns(**columns) for name, columns in content.pop("tables", {}).items()}
+    follows = {name: PowerLaw(**law) for name, law in content.pop("follows", {}).items()}
+    return Category(tables=tables, follows=follows, **content)
+
+
+CATEGORIES: Mapping[str, Category] = {
+    name: _category(content)
+    for name, content in plain_data(Path(__file__).with_name("categories.yaml").read_text(encoding="utf-8")).items()
+}
+
+
+def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]) -> dict[str, Entry]:
+    """Return the entries that follow from others of a record, by name, without those it has itself."""
+    found = {}
+    for table, values in category.instead.items():
+        for name, columns in values.items() if table in tables else ():
+            if name not in entries:
+                found[name] = _sum(tables[table], columns, category.units[name])
+    for name, law in category.follows.items():
+        if name not in entries and name not in found and {*law.names} <= entries.keys():
+            found[name] = _power(law, entries, category.units[name])
+    return found
+
+
+def _sum(table: RecordTable, columns: tuple[str, ...], unit: str) -> Entry:
+    rows = [dict(zip(table.columns, row, strict=True)) for row in table.rows]
+    total = sum(prod(row[column] for column in columns) for row in rows)
+    return Entry(total, unit, table.source, table.status, None, None)
+
+
+def _power(law: PowerLaw, entries: Mapping[str, Entry], unit: str) -> Entry:
+    """value = reference (size/reference size)^exponent; the range is that of reference and exponent together."""
+    reference, size, known, exponent = (entries[name] for name in law.names)
+    ratio = size.value / known.value
+
+    def ends(entry: Entry) -> tuple[float, float]:
+        low, high = (entry.value if end is None else end for end in (entry.low, entry.high))
+        return low, high
+
+    powers = [ratio**end for end in ends(exponent)]
+    low, high = (end * power for end, power in zip(ends(reference), (min(powers), max(powers)), strict=True))
+    source = f"{exponent.status}: follows from {law.size}: {reference.source}; {exponent.source}"
+    return Entry(reference.value * ratio**exponent.value, unit, source, exponent.status, low, high)

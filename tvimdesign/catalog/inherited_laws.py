@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from tvimdesign.base.record import Record
-from tvimdesign.catalog.categories import CATEGORIES
-from tvimdesign.catalog.category import Category
+from tvimdesign.catalog.category import CATEGORIES, Category
 
 SAME_MATERIAL = 0.03
 """Share, in SI, by which values of two records of one material may differ: 10 K of a melting temperature, and more

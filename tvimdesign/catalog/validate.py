@@ -12,9 +12,7 @@ from typing import Any
 from tvimdesign.base import units
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.record import STATUSES, Entry, Record, RecordTable
-from tvimdesign.catalog.categories import CATEGORIES
-from tvimdesign.catalog.category import AGREEMENT, Columns
-from tvimdesign.catalog.follows import following
+from tvimdesign.catalog.category import AGREEMENT, CATEGORIES, Columns, following
 from tvimdesign.catalog.yaml_file import Tree
 
 _ENTRY_FIELDS = ("value", "unit", "source", "status", "low", "high")
