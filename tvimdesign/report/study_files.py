@@ -9,7 +9,7 @@ from tvimdesign.study.design import read_design
 from tvimdesign.study.result_study import result_text
 from tvimdesign.study.schema import schema_text
 from tvimdesign.study.template import SCHEMA_FILE, example_text, examples, template_text
-from tvimdesign.study.text.named_file import printable
+from tvimdesign.study.text.source import printable
 
 
 def list_examples() -> None:

@@ -24,7 +24,7 @@ from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.json_places import JsonPlaces
 from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, quoted, step
-from tvimdesign.study.text.named_file import is_folder, ordinary_bytes, printable
+from tvimdesign.study.text.source import is_folder, ordinary_bytes, printable
 from tvimdesign.study.text.values import below, limits
 from tvimdesign.study.tree import tree_of_values
 

@@ -14,7 +14,7 @@ from tvimdesign.study.sections.all_sections import NAMES, SECTIONS
 from tvimdesign.study.sections.sweep_block import SweepBlock
 from tvimdesign.study.study import Study
 from tvimdesign.study.text.mistakes import Mistakes, one_of, quoted
-from tvimdesign.study.text.named_file import is_folder
+from tvimdesign.study.text.source import is_folder
 from tvimdesign.study.text.values import Reading, text, unknown_keys
 from tvimdesign.study.text.yaml_text import Node, Text
 from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_text

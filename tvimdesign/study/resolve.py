@@ -7,9 +7,9 @@ from typing import Any
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.base.record import Record
+from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Choice, Input, Table
-from tvimdesign.study.incompatible import refuse_incompatible
 from tvimdesign.study.study import Options, ProfileOptions, Range, Study, Vary
 
 
@@ -30,7 +30,7 @@ def given(study: Study) -> dict[str, Any]:
                 found[name] = _or_default(row, name, values.get(row.name), found)
         else:
             found[row.name] = _started(row, study, found)
-    refuse_incompatible(study, found)
+    _refuse_incompatible(study, found)
     return found
 
 
@@ -144,3 +144,32 @@ def _nearest(allowed: Vary, value: float) -> float:
     if isinstance(allowed, Range):
         return min(max(value, allowed.lower), allowed.upper)
     return min((float(option) for option in allowed.values), key=lambda option: abs(option - value))
+
+
+def _refuse_incompatible(study: Study, values: Mapping[str, Any]) -> None:
+    """Raise InputError where a study asks for a current that cools of a heater that only heats.
+
+    `values` are those of the study's start. A heater that the study chooses from several may be another one, and a
+    current that may be zero will be.
+    """
+    if values.get("peltier_seebeck") != 0.0 or {"peltier_module", "peltier_seebeck"} & study.vary.keys():
+        return
+    least = _least(study, "cooling_current")
+    if least > 0.0:
+        heater = values["peltier_module"]
+        asked = format_quantity(least, study.table.unit("cooling_current"))
+        raise InputError(
+            f"cooling_current of {asked} and peltier_module {heater.name} cannot stand together: {heater.title} "
+            "has no Peltier effect, so any current heats; leave cooling_current out, and the air cools, or choose a "
+            "Peltier module"
+        )
+
+
+def _least(study: Study, name: str) -> float:
+    """Return the least value that a study sets or allows for a number; zero if the default applies."""
+    allowed = study.vary.get(name)
+    if isinstance(allowed, Range):
+        return allowed.lower
+    if allowed is not None:
+        return min(float(value) for value in allowed.values)
+    return float(study.module.get(name, 0.0))

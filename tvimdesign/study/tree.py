@@ -11,12 +11,10 @@ from typing import Any
 
 from tvimdesign.study.sections.all_sections import NAMES
 from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, quoted, step
-from tvimdesign.study.text.named_file import printable
 from tvimdesign.study.text.python_values import node_of
-from tvimdesign.study.text.source import check_characters, read_text
+from tvimdesign.study.text.source import check_characters, printable, read_text
 from tvimdesign.study.text.values import misfit
-from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text, compose
-from tvimdesign.study.text.yaml_writer import yaml_of
+from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text, compose, yaml_of
 
 _OF_A_SEARCH = ("vary", "minimize", "front")
 """The sections that go with the last variable."""

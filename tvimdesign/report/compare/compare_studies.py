@@ -28,7 +28,7 @@ from tvimdesign.study import read_tree
 from tvimdesign.study.conditions import Case, refuse_unequal
 from tvimdesign.study.design import Design, design_json
 from tvimdesign.study.text.mistakes import Mistake, StudyError
-from tvimdesign.study.text.named_file import printable
+from tvimdesign.study.text.source import printable
 from tvimdesign.study.tree import study_file, tree_of_file
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from tvimdesign.device import MODES
-from tvimdesign.study.sections.accept import ACCEPT
 from tvimdesign.study.sections.currents import CURRENTS
-from tvimdesign.study.sections.goals import FRONT, MINIMIZE, REQUIRE
+from tvimdesign.study.sections.goals import ACCEPT, FRONT, MINIMIZE, REQUIRE
 from tvimdesign.study.sections.section import Schema, Section
 from tvimdesign.study.sections.settings import MODULE, POINTS, PROFILE, SOLVER, WRITE
 from tvimdesign.study.sections.sweeps import SWEEP

@@ -1,4 +1,4 @@
-"""The sections `require`, `minimize` and `front`: limits, objective, and outputs that are traded."""
+"""The sections `require`, `accept`, `minimize` and `front`: limits, objective, and outputs that are traded."""
 
 from __future__ import annotations
 
@@ -208,6 +208,42 @@ def _front_schema(table: Table) -> Schema:
     return mapping(fields)
 
 
+def rating_names(table: Table) -> list[str]:
+    """Return the quantities that a study may accept to be beyond their rating."""
+    return [row.name for row in table.outputs if row.ratings]
+
+
+def _read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
+    """Return the accepted ratings by the quantity's name, one name or a list of them; every problem is noted."""
+    known = rating_names(reading.table)
+    if node is None or (isinstance(node, Text) and node.empty):
+        return ()
+    if not isinstance(node, Text | Sequence):
+        misfit(reading.problems, node, "accept", f"a list of ratings: {', '.join(known)}")
+        return ()
+    items: list[tuple[str, Node]] = [("accept", node)] if isinstance(node, Text) else []
+    items += [(f"accept[{i}]", item) for i, item in enumerate(node.items)] if isinstance(node, Sequence) else []
+    found: list[str] = []
+    for path, item in items:
+        name = text(reading.problems, item, path, one_of(known))
+        if name is None:
+            continue
+        if name in found:
+            reading.problems.add(item, path, f"names {quoted(name)} twice", "each rating once")
+        elif name in known:
+            found.append(name)
+        elif name in reading.table.by_name:
+            reading.problems.add(item, path, f"{name} is no rating of a material or a bought part", one_of(known))
+        else:
+            reading.unknown_quantity(item, path, "rating", name, known)
+    return tuple(found)
+
+
+def _accept_schema(table: Table) -> Schema:
+    name = {"enum": rating_names(table)}
+    return {"anyOf": [{"type": "array", "uniqueItems": True, "items": name}, name, {"type": "null"}]}
+
+
 REQUIRE = Section("require", "limits on outputs", _read_require, _require_schema, _write_require)
 MINIMIZE = Section(
     "minimize",
@@ -220,4 +256,8 @@ FRONT = Section(
     "front", "two or three outputs to trade against one another, and the number of designs",
     _read_front, _front_schema,
     lambda study: study.front and {"of": list(study.front.of), "points": study.front.points},
+)  # fmt: skip
+ACCEPT = Section(
+    "accept", "ratings of materials and bought parts that the design may exceed",
+    _read_accept, _accept_schema, lambda study: list(study.accept),
 )  # fmt: skip

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+import stat
+from collections.abc import Callable
 from pathlib import Path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, did_you_mean
-from tvimdesign.study.text.named_file import ordinary_bytes, printable
 
 MOST_BYTES = 1_000_000
 CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff\ufeff]")
@@ -79,3 +80,43 @@ def _similar(path: Path) -> str:
 def _place(text: str, index: int) -> At:
     start = text.rfind("\n", 0, index) + 1
     return At(text.count("\n", 0, index) + 1, index - start + 1)
+
+
+# --- files a user names ---
+
+
+def printable(path: Path) -> str:
+    """Write a path so that a terminal shows it and obeys nothing in it."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(path))
+
+
+def is_folder(path: Path) -> bool:
+    """Return whether a path is a folder; one that is too long to be a path is none."""
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):  # no permission, a name too long
+        return False
+
+
+def ordinary_bytes(path: Path, most: int, wanted: str, too_big: Callable[[int], Exception]) -> bytes:
+    """Return at most `most` + 1 bytes of an ordinary file; `wanted` says what should have been given.
+
+    Raises FileNotFoundError as it is, what `too_big` makes of a size above `most`, and InputError for the rest: a
+    folder, a pipe or a device, which might never end.
+    """
+    shown = printable(path)
+    try:
+        status = path.stat()
+        if stat.S_ISDIR(status.st_mode):
+            raise InputError(f"{shown} is a folder; give the path of {wanted}")
+        if not stat.S_ISREG(status.st_mode):
+            raise InputError(f"{shown} is no ordinary file; give the path of {wanted}")
+        if status.st_size > most:
+            raise too_big(status.st_size)
+        with path.open("rb") as file:
+            return file.read(most + 1)
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InputError(f"{shown} cannot be read: {reason}") from None

@@ -224,3 +224,37 @@ def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes) -> None:
     line = lines[place.line - 1] if 0 < place.line <= len(lines) else ""
     hint = next((remedy for sign, words, remedy in _REMEDIES if words in said and re.search(sign, line)), "")
     problems.add(place, "", f"not valid YAML ({said or 'unreadable'})", hint=hint)
+
+
+# --- from nodes back to text ---
+
+_WIDTH = 120
+
+
+def yaml_of(root: Node) -> str:
+    """Return the YAML text of a tree, from which the reader makes the same tree, without comments and places."""
+    events = [yaml.StreamStartEvent(), yaml.DocumentStartEvent(), *_written_events(root), yaml.DocumentEndEvent()]
+    text: str = yaml.emit([*events, yaml.StreamEndEvent()], width=_WIDTH, allow_unicode=True)
+    return text
+
+
+def _written_events(node: Node) -> Iterator[yaml.Event]:
+    match node:
+        case Mapping():
+            flow = all(isinstance(value, Text) for _, value in node.entries.values()) and len(node.entries) < 3
+            yield yaml.MappingStartEvent(None, None, True, flow_style=flow)
+            for key, value in node.entries.values():
+                yield from _written_events(key)
+                yield from _written_events(value)
+            yield yaml.MappingEndEvent()
+        case Sequence():
+            yield yaml.SequenceStartEvent(None, None, True, flow_style=True)
+            for item in node.items:
+                yield from _written_events(item)
+            yield yaml.SequenceEndEvent()
+        case Text():
+            text = Text(0, 0, node.value)
+            quotes = "'" if text.empty and not node.plain else None
+            yield yaml.ScalarEvent(None, None, (True, True), node.value, style=quotes)
+        case Broken():
+            raise ValueError("a study with mistakes is not written")
