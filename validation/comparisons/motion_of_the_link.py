@@ -11,7 +11,7 @@ from scipy.interpolate import CubicHermiteSpline
 from comparisons.numbers import Array
 from tvimdesign.physics.motions import dynamics, motion
 from tvimdesign.simulation.link_motion import link
-from tvimdesign.simulation.link_motion.dry_friction import Plant, released
+from tvimdesign.simulation.link_motion.course import Plant
 
 Found = Mapping[str, Any]
 _RIGID = 1e9  # N*m/rad: a structure that does not give
@@ -45,7 +45,7 @@ def released_on_a_dashpot(inputs: Found) -> Found:
     short = inputs["shortest"]
     modes = [(short, inputs["damping"] / short)]
     joint = _joint(inputs, 1e3 * inputs["damping"] / short)
-    moved = link.released(joint, modes, inputs["start"], np.full(1, inputs["start"]))
+    moved = link.released(Plant(joint, modes), inputs["start"], np.full(1, inputs["start"])).motion
     return {"angle": _at(moved, inputs["time"])}
 
 
@@ -53,13 +53,13 @@ def released_on_maxwell(inputs: Found) -> Found:
     """Angle [rad] over time of a link let go beside Maxwell modes behind a structure."""
     modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
     start = np.full(len(modes), inputs["start"])
-    moved = link.released(_joint(inputs), modes, inputs["start"], start)
+    moved = link.released(Plant(_joint(inputs), modes), inputs["start"], start).motion
     return {"angle": _at(moved, inputs["time"])}
 
 
 def rubbed(inputs: Found) -> Found:
     """Amplitudes [rad] at which a link let go against dry friction turns, and where it comes to rest."""
-    found = released(Plant(_joint(inputs), _NOTHING, False), inputs["friction"], inputs["start"], np.full(1, 0.0))
+    found = link.released(Plant(_joint(inputs), _NOTHING), inputs["start"], np.full(1, 0.0), inputs["friction"])
     moved = found.motion
     stops = np.flatnonzero(moved.speed == 0.0)
     turned = moved.angle[stops][np.abs(np.diff(moved.angle[stops], prepend=np.nan)) > 1e-9]

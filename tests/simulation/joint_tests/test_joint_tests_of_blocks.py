@@ -12,13 +12,14 @@ from support import ROOT
 from tvimdesign.physics.motions import one_sided
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.virtual_tests import TESTS, find_test
-from tvimdesign.simulation.joint_tests import joint_motion, step_test
 from tvimdesign.simulation.joint_tests import release as release_test
+from tvimdesign.simulation.joint_tests import step_test
 from tvimdesign.simulation.joint_tests.case import Case, cases
 from tvimdesign.simulation.joint_tests.load_through_cycle import SliceHistory
 from tvimdesign.simulation.joint_tests.release import contact_seen
-from tvimdesign.simulation.link_motion import contact, link
-from tvimdesign.simulation.link_motion.contact_simulation import OneSided
+from tvimdesign.simulation.link_motion import link
+from tvimdesign.simulation.link_motion.course import Plant
+from tvimdesign.simulation.link_motion.sampled_motion import OneSided
 from tvimdesign.simulation.trial import CurveTable, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.result import answer
@@ -118,7 +119,7 @@ def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(
     last = first + int(np.argmin(free[first:]))
     way = one.column("angle").values[first] - one.column("angle").values[last]
     case = case_of(resolved, name)
-    gap = joint_motion.gap(case, joint_motion.held(case, 0.1, 10.0))
+    gap = case.plant.gap(link.held(case.plant, 0.1, 10.0))
     assert 0.9 * gap < way <= gap * (1.0 + 1e-9)
 
 
@@ -205,7 +206,8 @@ def test_blocks_that_could_not_part_are_released_as_the_linear_link_is(resolved:
     bonded = with_rows(resolved, parting_share=0.0)
     release = release_test.release(bonded, kelvin_voigt=False)
     case = case_of(bonded, "hot")
-    linear = link.released(case.joint, case.modes, 0.1, link.held(case.joint, case.modes, 0.1, 10.0))
+    bonded = Plant(case.joint, case.modes)
+    linear = link.released(bonded, 0.1, link.held(bonded, 0.1, 10.0)).motion
     assert sheet(release, "release_hot").column("angle").values == pytest.approx(linear.angle, abs=1e-12)
     assert value(release, "contact_lost@hot") == 0.0
 
@@ -215,13 +217,13 @@ def test_blocks_squeezed_beyond_the_swing_are_the_linear_link_with_both_senses(
     resolved: ResolvedModule, name: str
 ) -> None:
     case = case_of(resolved, name)
-    blocks, joint = joint_motion.blocks_of(case), case.joint
+    joint = case.joint
     # No hold: melt that is squeezed lets go of that as well.
-    held = contact.held(joint, blocks, 0.01, 0.0, precompression=50.0)
-    moved = contact.released(joint, blocks, 0.01, held)
+    held = link.held(case.plant, 0.01, 0.0, precompression=50.0)
+    moved = link.released(case.plant, 0.01, held)
     both = joint._replace(structure_stiffness=2.0 * joint.structure_stiffness)
     modes = [(tau, 2.0 * k) for tau, k in case.modes]
-    linear = link.released(both, modes, 0.01, np.zeros(len(modes)))
+    linear = link.released(Plant(both, modes), 0.01, np.zeros(len(modes))).motion
     first = min(moved.events[0].time if moved.events else np.inf, linear.times[-1], moved.motion.times[-1])
     early = moved.motion.times < first
     assert np.sum(early) > 20
@@ -234,9 +236,9 @@ def test_blocks_that_do_not_relax_swing_as_one_spring_and_lose_no_contact(resolv
     stiffness = 4e3
     elastic = replace(resolved, values={**resolved.values, "pcl_modes@cold": [(1e16, 3e3), (1e16, 1e3)]})
     case = case_of(elastic, "cold")
-    internal = joint_motion.held(case, 0.1, 10.0)
-    assert joint_motion.gap(case, internal) == pytest.approx(0.0, abs=1e-15)
-    moved = joint_motion.released(case, 0.1, internal)
+    internal = link.held(case.plant, 0.1, 10.0)
+    assert case.plant.gap(internal) == pytest.approx(0.0, abs=1e-15)
+    moved = link.released(case.plant, 0.1, internal, case.friction)
     support, springs = resolved.quantity("elastic_support@cold"), resolved.quantity("spring_stiffness")
     rate = np.sqrt((springs + stiffness * support / (stiffness + support)) / resolved.quantity("moving_inertia"))
     assert moved.motion.angle == pytest.approx(0.1 * np.cos(rate * moved.motion.times), abs=1e-7)
@@ -258,9 +260,9 @@ def test_sine_pushes_molten_blocks_aside_and_keeps_frozen_ones(
 @pytest.mark.parametrize("name", ["cold", "hot"])
 def test_step_presses_the_blocks_ahead_throughout_and_none_behind(resolved: ResolvedModule, name: str) -> None:
     case = case_of(resolved, name)
-    moved = joint_motion.turned(case, 0.104, 0.01, [(1e-3, 50), (1.0, 50)])
+    moved = link.turned(case.plant, 0.104, 0.01, [(1e-3, 50), (1.0, 50)])
     internal = [*moved.motion.internal, *np.zeros_like(moved.motion.internal)]
-    ahead, behind = one_sided.pulls(moved.motion.angle, internal, joint_motion.blocks_of(case))
+    ahead, behind = one_sided.pulls(moved.motion.angle, internal, case.plant.polymer)
     assert np.all(ahead[1:] > -1e-9 * np.max(ahead))
     assert np.all(behind[1:] < 0.0)
     assert np.array_equal(moved.touching, np.array([[True], [False]]).repeat(len(moved.motion.times), axis=1))
@@ -286,7 +288,7 @@ def test_load_through_a_switch_leaves_a_gap_and_not_a_pose(resolved: ResolvedMod
 
 def test_average_weighs_each_value_with_the_time_it_lasts(resolved: ResolvedModule) -> None:
     case = case_of(resolved, "cold")
-    moved = joint_motion.turned(case, 0.1, 0.24, [(1.0, 2)])
+    moved = link.turned(case.plant, 0.1, 0.24, [(1.0, 2)])
     found = OneSided(moved.motion, moved.touching, ())
     values = np.where(moved.motion.times < 0.24 - 1e-9, 5.0, 2.0)
     assert found.average(values, 0.0, 2.24) == pytest.approx((5.0 * 0.24 + 2.0 * 2.0) / 2.24, rel=1e-9)

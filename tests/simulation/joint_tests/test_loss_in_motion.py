@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tvimdesign.simulation.joint_tests import joint_motion
 from tvimdesign.simulation.joint_tests import sine as sine_test
 from tvimdesign.simulation.joint_tests.case import cases
+from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.lossy_structure import spectrum
 from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -110,7 +110,7 @@ def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: R
     start = np.array([0.01, *np.zeros(1 + len(slow) + len(slower))])
     settings = {"method": "Radau", "rtol": 1e-8, "atol": 1e-12}
     held = solve_ivp(lambda t, y: rates(t, y, moving=False), (0.0, 0.2), start, **settings).y[:, -1]
-    moved = joint_motion.released(case, 0.01, joint_motion.held(case, 0.01, 0.2)).motion
+    moved = link.released(case.plant, 0.01, link.held(case.plant, 0.01, 0.2), case.friction).motion
     times = moved.times[moved.times < 0.02]
     again = solve_ivp(rates, (0.0, times[-1]), held, t_eval=times, **settings)
     assert moved.angle[: len(times)] == pytest.approx(again.y[0], abs=2e-6 * 0.01)
@@ -118,7 +118,7 @@ def test_release_of_a_frozen_link_is_that_of_an_independent_integration(shear: R
 
 def test_frozen_link_rings_down_by_half_its_loss_factor(shear: ResolvedModule) -> None:
     case = next(one for one in cases(shear) if one.point == "cold")
-    moved = joint_motion.released(case, 0.01, joint_motion.held(case, 0.01, 1e-6)).motion
+    moved = link.released(case.plant, 0.01, link.held(case.plant, 0.01, 1e-6), case.friction).motion
     crests = np.flatnonzero((moved.angle[1:-1] > moved.angle[:-2]) & (moved.angle[1:-1] > moved.angle[2:]))[:5] + 1
     decrement = np.log(moved.angle[crests[0]] / moved.angle[crests[3]]) / 3.0
     loss, stiffness = (shear.quantity(f"joint_{name}@cold") for name in ("damping", "stiffness"))

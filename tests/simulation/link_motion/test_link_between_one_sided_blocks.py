@@ -9,8 +9,9 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.physics.motions import motion, one_sided
 from tvimdesign.physics.motions.one_sided import Blocks
-from tvimdesign.simulation.link_motion import contact, link
-from tvimdesign.simulation.link_motion.contact_simulation import OneSided
+from tvimdesign.simulation.link_motion import link
+from tvimdesign.simulation.link_motion.course import Plant
+from tvimdesign.simulation.link_motion.sampled_motion import DEAD, SAMPLES_A_PERIOD, OneSided
 
 Array = NDArray[np.float64]
 INERTIA, SPRINGS = 4.156e-4, 5.61  # the paper's table I
@@ -99,7 +100,7 @@ def radau(blocks: Blocks, angle: float, hold: float, times: Array) -> tuple[Arra
 @pytest.mark.parametrize("hold", [0.02, pytest.param(10.0, marks=pytest.mark.slow)])
 def test_release_and_its_events_are_those_of_radau(pair: str, hold: float) -> None:
     blocks = PAIRS[pair]
-    moved = contact.released(JOINT, blocks, 0.1, contact.held(JOINT, blocks, 0.1, hold))
+    moved = link.released(Plant(JOINT, blocks), 0.1, link.held(Plant(JOINT, blocks), 0.1, hold))
     last = min(moved.events[5].time, 0.05) if len(moved.events) > 5 else 0.05
     early = moved.motion.times <= last
     angle, events = radau(blocks, 0.1, hold, moved.motion.times[early])
@@ -113,7 +114,7 @@ def test_release_and_its_events_are_those_of_radau(pair: str, hold: float) -> No
 def test_relaxed_link_meets_the_other_block_when_its_cosine_says() -> None:
     # The block ahead stands back out of reach; the one behind stands 0.02 rad behind rest.
     blocks = Blocks([(1e10, 300.0)], [(1e10, 300.0)])
-    moved = contact.released(JOINT, blocks, 0.05, np.array([0.06, 0.02]))
+    moved = link.released(Plant(JOINT, blocks), 0.05, np.array([0.06, 0.02]))
     found = moved.events[0]
     assert (found.side, found.touching) == (1, True)
     assert not np.any(moved.touching[:, 0])
@@ -133,7 +134,7 @@ def test_relaxed_link_meets_the_other_block_when_its_cosine_says() -> None:
 @NAMED
 def test_pull_is_zero_at_every_event(pair: str) -> None:
     blocks = PAIRS[pair]
-    moved = contact.released(JOINT, blocks, 0.1, contact.held(JOINT, blocks, 0.1, 10.0))
+    moved = link.released(Plant(JOINT, blocks), 0.1, link.held(Plant(JOINT, blocks), 0.1, 10.0))
     times = moved.motion.times
     for event in moved.events[:40]:
         sample = int(np.flatnonzero(times == event.time)[-1])
@@ -147,7 +148,7 @@ def test_pull_is_zero_at_every_event(pair: str) -> None:
 @NAMED
 def test_no_block_ever_pulls(pair: str) -> None:
     blocks = PAIRS[pair]
-    moved = contact.released(JOINT, blocks, 0.1, contact.held(JOINT, blocks, 0.1, 10.0))
+    moved = link.released(Plant(JOINT, blocks), 0.1, link.held(Plant(JOINT, blocks), 0.1, 10.0))
     pulls = one_sided.pulls(moved.motion.angle, list(moved.motion.internal), blocks)
     for side, touching in zip(pulls, moved.touching, strict=True):
         scale = 1e-12 * np.max(np.abs(side))
@@ -162,8 +163,9 @@ def test_squeezed_blocks_that_keep_contact_are_the_two_sided_link(pair: str) -> 
         blocks = Blocks(blocks.first, [(tau, k) for tau, k in blocks.first])
     doubled = JOINT._replace(structure_stiffness=2.0 * JOINT.structure_stiffness)
     modes = [(tau, 2.0 * k) for tau, k in blocks.first]
-    moved = contact.released(JOINT, blocks, 0.01, contact.held(JOINT, blocks, 0.01, 1e-4, precompression=10.0))
-    linear = link.released(doubled, modes, 0.01, link.held(doubled, modes, 0.01, 1e-4))
+    moved = link.released(Plant(JOINT, blocks), 0.01, link.held(Plant(JOINT, blocks), 0.01, 1e-4, precompression=10.0))
+    layer = Plant(doubled, modes)
+    linear = link.released(layer, 0.01, link.held(layer, 0.01, 1e-4)).motion
     first = moved.events[0].time if moved.events else np.inf
     both = min(first, moved.motion.times[-1], linear.times[-1])
     early, wanted = moved.motion.times < both, linear.times < both
@@ -176,11 +178,11 @@ def test_squeezed_blocks_that_keep_contact_are_the_two_sided_link(pair: str) -> 
 
 def test_release_between_swapped_blocks_is_its_mirror_image() -> None:
     blocks = PAIRS["one side cold"]
-    inner = contact.held(JOINT, blocks, 0.1, 1.0)
-    other = contact.held(JOINT, Blocks(blocks.second, blocks.first), -0.1, 1.0)
+    inner = link.held(Plant(JOINT, blocks), 0.1, 1.0)
+    other = link.held(Plant(JOINT, Blocks(blocks.second, blocks.first)), -0.1, 1.0)
     assert np.concatenate([other[6:], other[:6]]) == pytest.approx(inner, abs=1e-15)
-    moved = contact.released(JOINT, blocks, 0.1, inner)
-    mirrored = contact.released(JOINT, Blocks(blocks.second, blocks.first), -0.1, other)
+    moved = link.released(Plant(JOINT, blocks), 0.1, inner)
+    mirrored = link.released(Plant(JOINT, Blocks(blocks.second, blocks.first)), -0.1, other)
     early = slice(0, 300)
     assert mirrored.motion.angle[early] == pytest.approx(-moved.motion.angle[early], abs=1e-9)
     assert np.array_equal(mirrored.touching[::-1, early], moved.touching[:, early])
@@ -189,7 +191,7 @@ def test_release_between_swapped_blocks_is_its_mirror_image() -> None:
 def test_hold_behind_a_structure_relaxes_with_its_longer_time() -> None:
     # One mode k behind S: the dashpot follows with tau (S + k)/S; the block behind is not touched and stays free.
     k, tau = 400.0, 0.1
-    inner = contact.held(JOINT, Blocks([(tau, k)], [(tau, k)]), 0.05, 0.2)
+    inner = link.held(Plant(JOINT, Blocks([(tau, k)], [(tau, k)])), 0.05, 0.2)
     assert inner[0] == pytest.approx(0.05 * (1.0 - np.exp(-0.2 * 919.0 / (tau * (919.0 + k)))), rel=1e-9)
     assert inner[1] == 0.0
 
@@ -203,7 +205,7 @@ def test_gap_after_a_hold_by_a_rigid_structure_is_what_relaxed_less_the_precompr
     # By hand: the block ahead stands back (0.1 + p) loss - p, the one behind max(p - 0.1, 0) loss - p.
     modes = PAIRS[pair].first
     rigid = JOINT._replace(structure_stiffness=1e14)
-    inner = contact.held(rigid, Blocks(modes, modes), 0.1, 2.0, precompression)
+    inner = link.held(Plant(rigid, Blocks(modes, modes)), 0.1, 2.0, precompression)
     loss = sum(k * -np.expm1(-2.0 / tau) for tau, k in modes) / sum(k for _, k in modes)
     expected = (0.1 + precompression + max(precompression - 0.1, 0.0)) * loss - 2.0 * precompression
     assert one_sided.gap(inner, Blocks(modes, modes)) == pytest.approx(max(expected, 0.0), rel=1e-6, abs=1e-9)
@@ -211,7 +213,7 @@ def test_gap_after_a_hold_by_a_rigid_structure_is_what_relaxed_less_the_precompr
 
 def test_elastic_blocks_never_lose_a_link_that_is_swung() -> None:
     blocks = Blocks([(1e16, 300.0)], [(1e16, 100.0)])
-    moved = contact.swung(JOINT, blocks, 0.1, 3.0, 3, 96)
+    moved = link.swung(Plant(JOINT, blocks), 0.1, 3.0, 3, 96)
     assert moved.lost_share(0.0, 1.0) == 0.0
     angle = 0.1 * np.sin(6.0 * np.pi * moved.motion.times)
     assert moved.motion.angle == pytest.approx(angle, abs=1e-10)
@@ -225,7 +227,7 @@ def test_elastic_blocks_never_lose_a_link_that_is_swung() -> None:
 def test_block_that_is_only_grazed_between_two_samples_is_found() -> None:
     # Faces 0.0999 rad away on either side, ten samples a period: the crests of 0.1 rad lie between samples.
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
-    moved = contact.swung(JOINT, blocks, 0.1, 1.0, 1, 10, precompression=-0.0999)
+    moved = link.swung(Plant(JOINT, blocks), 0.1, 1.0, 1, 10, precompression=-0.0999)
     reach = np.arccos(0.999) / (2.0 * np.pi)
     expected = [0.25 - reach, 0.25 + reach, 0.75 - reach, 0.75 + reach]
     assert [event.time for event in moved.events] == pytest.approx(expected, rel=1e-9)
@@ -236,7 +238,7 @@ def test_block_that_is_only_grazed_between_two_samples_is_found() -> None:
 def test_link_left_again_within_a_step_is_found() -> None:
     # Blocks squeezed by as much as the swing but for its crest: the one behind is left there alone.
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
-    moved = contact.swung(JOINT, blocks, 0.1, 1.0, 1, 10, precompression=0.0999)
+    moved = link.swung(Plant(JOINT, blocks), 0.1, 1.0, 1, 10, precompression=0.0999)
     reach = np.arccos(0.999) / (2.0 * np.pi)
     expected = [0.25 - reach, 0.25 + reach, 0.75 - reach, 0.75 + reach]
     assert [event.time for event in moved.events] == pytest.approx(expected, rel=1e-9)
@@ -246,7 +248,7 @@ def test_link_left_again_within_a_step_is_found() -> None:
 
 def test_first_swing_between_faces_out_of_reach_is_a_period_of_the_springs() -> None:
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
-    moved = contact.released(JOINT, blocks, 0.1, np.array([0.2, 0.2]))
+    moved = link.released(Plant(JOINT, blocks), 0.1, np.array([0.2, 0.2]))
     assert moved.events == ()
     step = np.max(np.diff(moved.motion.times))
     assert moved.first_swing() == pytest.approx(2.0 * np.pi / SWING, abs=1.01 * step)
@@ -254,15 +256,15 @@ def test_first_swing_between_faces_out_of_reach_is_a_period_of_the_springs() -> 
 
 
 def test_release_ends_when_its_energy_is_gone() -> None:
-    moved = contact.released(JOINT, PAIRS["melt"], 0.1, contact.squeezed(PAIRS["melt"], 0.5))
+    moved = link.released(Plant(JOINT, PAIRS["melt"]), 0.1, link.squeezed(Plant(JOINT, PAIRS["melt"]), 0.5))
     share = moved.motion.energy / moved.motion.energy[0]
-    assert share[-1] <= link.DEAD**2 < share[-2 * link.SAMPLES_A_PERIOD]
+    assert share[-1] <= DEAD**2 < share[-2 * SAMPLES_A_PERIOD]
 
 
 def test_fluid_blocks_are_pushed_aside_once_and_not_touched_again() -> None:
     # A fluid that relaxes at once stays where the first swing has pushed it.
     blocks = Blocks([(1e-7, 300.0)], [(1e-7, 300.0)])
-    moved = contact.swung(JOINT, blocks, 0.1, 1.0, 4, 48)
+    moved = link.swung(Plant(JOINT, blocks), 0.1, 1.0, 4, 48)
     assert moved.lost_share(1.0, 4.0) > 0.98
     # In the first period it touches from rest to the crest, and from rest to the trough.
     assert moved.lost_share(0.0, 1.0) == pytest.approx(0.5, abs=0.01)
@@ -271,7 +273,9 @@ def test_fluid_blocks_are_pushed_aside_once_and_not_touched_again() -> None:
 @pytest.mark.parametrize("seconds", [0.1, 1.0, 10.0])
 def test_longer_holds_lose_contact_for_longer(seconds: float) -> None:
     def lost(hold: float) -> float:
-        moved = contact.released(JOINT, PAIRS["half frozen"], 0.1, contact.held(JOINT, PAIRS["half frozen"], 0.1, hold))
+        moved = link.released(
+            Plant(JOINT, PAIRS["half frozen"]), 0.1, link.held(Plant(JOINT, PAIRS["half frozen"]), 0.1, hold)
+        )
         return moved.lost_share(0.0, moved.first_swing())
 
     assert lost(seconds) > lost(0.1 * seconds) > 0.0
@@ -292,7 +296,7 @@ def test_energy_never_rises_once_the_link_is_let_go(
 ) -> None:
     joint = motion.Joint(INERTIA, SPRINGS, 10.0**structure)
     blocks = Blocks(first, second)
-    moved = contact.released(joint, blocks, 0.1, contact.held(joint, blocks, 0.1, 10.0**hold, squeeze))
+    moved = link.released(Plant(joint, blocks), 0.1, link.held(Plant(joint, blocks), 0.1, 10.0**hold, squeeze))
     assert np.max(np.diff(moved.motion.energy)) <= 1e-9 * moved.motion.energy[0]
     assert np.all(moved.motion.energy >= 0.0)
     assert np.all(np.diff(moved.motion.times) >= 0.0)

@@ -10,7 +10,8 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.link_motion import link
-from tvimdesign.simulation.link_motion.linear_system import doubling, times_of
+from tvimdesign.simulation.link_motion.course import Plant
+from tvimdesign.simulation.link_motion.sampled_motion import doubling, settling_time
 
 Array = NDArray[np.float64]
 INERTIA, SPRINGS = 4.156e-4, 5.61  # the paper's table I
@@ -40,7 +41,7 @@ def crossings(times: Array, values: Array) -> Array:
 
 def test_springs_alone_ring_at_18_5_hertz() -> None:
     nothing = [(1.0, 1e-9)]
-    moved = link.released(JOINT, nothing, 0.1, np.zeros(1))
+    moved = link.released(Plant(JOINT, nothing), 0.1, np.zeros(1)).motion
     frequency = 0.5 / np.mean(np.diff(crossings(moved.times, moved.angle)))
     assert frequency == pytest.approx(np.sqrt(SPRINGS / INERTIA) / (2.0 * np.pi), rel=1e-6)
     assert frequency == pytest.approx(18.5, abs=0.05)
@@ -52,7 +53,7 @@ def test_springs_alone_ring_at_18_5_hertz() -> None:
 @pytest.mark.parametrize("ratio", [0.05, 0.3])
 def test_light_dashpot_gives_the_textbook_decay(ratio: float) -> None:
     joint, modes = dashpot(ratio * 2.0 * np.sqrt(SPRINGS * INERTIA))
-    moved = link.released(joint, modes, 0.1, relaxed(modes))
+    moved = link.released(Plant(joint, modes), 0.1, relaxed(modes)).motion
     omega = np.sqrt(SPRINGS / INERTIA)
     damped = omega * np.sqrt(1.0 - ratio**2)
     textbook = 0.1 * np.exp(-ratio * omega * moved.times) * (
@@ -65,12 +66,12 @@ def test_light_dashpot_gives_the_textbook_decay(ratio: float) -> None:
 
 def test_heavy_dashpot_creeps_back_with_two_exponentials() -> None:
     joint, modes = dashpot(5.0)
-    moved = link.released(joint, modes, 0.1, relaxed(modes))
+    moved = link.released(Plant(joint, modes), 0.1, relaxed(modes)).motion
     fast, slow = np.sort(np.roots([INERTIA, 5.0, SPRINGS]))
     textbook = 0.1 * (fast * np.exp(slow * moved.times) - slow * np.exp(fast * moved.times)) / (fast - slow)
     assert moved.angle == pytest.approx(textbook, abs=1e-6)
     # b/K_s = 0.891 s; three of them to 5 %.
-    settled = link.settling_time(moved.times, moved.angle, 0.05)
+    settled = settling_time(moved.times, moved.angle, 0.05)
     assert settled == pytest.approx(np.log(20.0) * 5.0 / SPRINGS, rel=2e-3)
     swings = link.swings(joint, modes, 0.1, relaxed(modes))
     assert swings.ringing() == (0.0, 1.0)
@@ -80,7 +81,7 @@ def test_heavy_dashpot_creeps_back_with_two_exponentials() -> None:
 @pytest.mark.parametrize("damping", [0.01, 5.0])
 def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping: float) -> None:
     joint, modes = dashpot(damping)
-    moved = link.released(joint, modes, 0.1, relaxed(modes))
+    moved = link.released(Plant(joint, modes), 0.1, relaxed(modes)).motion
     angle, torque = link.kelvin_voigt(joint, damping, SPRINGS, 0.1, moved)
     assert angle == pytest.approx(moved.angle, abs=1e-6)
     # A rigid link would have to turn at once: the dashpot's torque agrees once it has.
@@ -91,7 +92,7 @@ def test_kelvin_voigt_is_the_dashpot_beside_the_spring(damping: float) -> None:
 def test_standard_linear_solid_relaxes_as_in_the_textbook() -> None:
     joint = motion.Joint(INERTIA, SPRINGS, 1e12)
     tau, permanent, passing, rise = 0.5, 100.0, 40.0, 0.2
-    moved = link.turned(joint, [(1e16, permanent), (tau, passing)], 0.1, rise, doubling(1e-3, 5.0))
+    moved = link.turned(Plant(joint, [(1e16, permanent), (tau, passing)]), 0.1, rise, doubling(1e-3, 5.0)).motion
     after = moved.times >= rise
     # A ramp of gamma/rise, then rest: k1 gamma tau/rise (1 - exp(-rise/tau)) exp(-(t - rise)/tau).
     fading = passing * 0.1 * tau / rise * (1.0 - np.exp(-rise / tau)) * np.exp(-(moved.times[after] - rise) / tau)
@@ -102,7 +103,7 @@ def test_standard_linear_solid_relaxes_as_in_the_textbook() -> None:
 def test_structure_in_series_stretches_the_relaxation_time() -> None:
     # One mode k behind S: torque falls from S k/(S + k) with the time constant tau (S + k)/S.
     joint, k, tau = motion.Joint(INERTIA, 0.0, 919.0), 400.0, 0.1
-    moved = link.turned(joint, [(tau, k)], 0.1, 1e-7, doubling(1e-3, 1.0))
+    moved = link.turned(Plant(joint, [(tau, k)]), 0.1, 1e-7, doubling(1e-3, 1.0)).motion
     after = moved.times >= 1e-7
     expected = 0.1 * 919.0 * k / (919.0 + k) * np.exp(-moved.times[after] / (tau * (919.0 + k) / 919.0))
     assert -moved.torque[after] == pytest.approx(expected, rel=1e-5)
@@ -125,8 +126,8 @@ def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: 
     torques = k * structure * 0.1 / (structure + np.sum(k))
     if hold:
         torques = solve_ivp(still, (0.0, hold), torques, method="Radau", rtol=1e-10, atol=1e-12).y[:, -1]
-    internal = link.held(JOINT, LAYERS[layer], 0.1, hold)
-    moved = link.released(JOINT, LAYERS[layer], 0.1, internal)
+    internal = link.held(Plant(JOINT, LAYERS[layer]), 0.1, hold)
+    moved = link.released(Plant(JOINT, LAYERS[layer]), 0.1, internal).motion
     early = moved.times <= 0.02
     reference = solve_ivp(
         free, (0.0, 0.021), np.concatenate([[0.1, 0.0], torques]), method="Radau", t_eval=moved.times[early],
@@ -141,7 +142,7 @@ def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: 
 @pytest.mark.parametrize("frequency", [0.2, 1.0, 18.5])
 @pytest.mark.parametrize("layer", LAYERS)
 def test_sine_in_time_has_the_complex_stiffness_of_the_frequency_domain(layer: str, frequency: float) -> None:
-    moved = link.swung(JOINT, LAYERS[layer], 0.104, frequency, 10, 240)
+    moved = link.swung(Plant(JOINT, LAYERS[layer]), 0.104, frequency, 10, 240).motion
     s = 2j * np.pi * frequency
     inner = sum(k * s * tau / (1.0 + s * tau) for tau, k in LAYERS[layer])
     expected = SPRINGS + 1.0 / (1.0 / JOINT.structure_stiffness + 1.0 / inner)
@@ -165,13 +166,13 @@ def test_energy_never_rises_once_the_link_is_let_go(
     layer: list[tuple[float, float]], structure: float, hold: float
 ) -> None:
     joint = motion.Joint(INERTIA, SPRINGS, 10.0**structure)
-    moved = link.released(joint, layer, 0.1, link.held(joint, layer, 0.1, 10.0**hold))
+    moved = link.released(Plant(joint, layer), 0.1, link.held(Plant(joint, layer), 0.1, 10.0**hold)).motion
     assert np.max(np.diff(moved.energy)) <= 1e-9 * moved.energy[0]
     assert np.all(moved.energy >= 0.0)
 
 
 def test_energy_lost_is_the_heat_of_the_dashpots() -> None:
-    moved = link.released(JOINT, HALF, 0.1, link.held(JOINT, HALF, 0.1, 10.0))
+    moved = link.released(Plant(JOINT, HALF), 0.1, link.held(Plant(JOINT, HALF), 0.1, 10.0)).motion
     early = moved.times <= 0.2
     heat = textbook.dissipation(moved.angle, list(moved.internal), JOINT, HALF)[early]
     lost = moved.energy[0] - moved.energy[early][-1]
@@ -179,14 +180,14 @@ def test_energy_lost_is_the_heat_of_the_dashpots() -> None:
 
 
 def test_cold_ring_is_sampled_twenty_times_a_period_as_long_as_it_lives() -> None:
-    moved = link.released(JOINT, HALF, 0.1, link.held(JOINT, HALF, 0.1, 10.0))
-    frequency, ratio = link.swings(JOINT, HALF, 0.1, link.held(JOINT, HALF, 0.1, 10.0)).ringing()
+    moved = link.released(Plant(JOINT, HALF), 0.1, link.held(Plant(JOINT, HALF), 0.1, 10.0)).motion
+    frequency, ratio = link.swings(JOINT, HALF, 0.1, link.held(Plant(JOINT, HALF), 0.1, 10.0)).ringing()
     alive = 6.0 / (2.0 * np.pi * frequency * ratio)
     assert np.max(np.diff(moved.times[moved.times < alive])) < 1.0 / (20.0 * frequency)
 
 
 def test_doubling_stretches_end_where_they_are_told() -> None:
-    times = times_of(doubling(1e-4, 100.0))
+    times = np.cumsum([0.0, *(step for step, count in doubling(1e-4, 100.0) for _ in range(count))])
     assert times[0] == 0.0
     assert times[1] == pytest.approx(1e-4)
     assert times[-1] == pytest.approx(100.0, rel=1e-12)

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.physics.motions import motion
+from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.simulation.joint_tests import release as release_test
-from tvimdesign.simulation.link_motion.contact_simulation import OneSided, turns_of
-from tvimdesign.simulation.link_motion.dry_friction import Plant, released
+from tvimdesign.simulation.link_motion.course import Plant
+from tvimdesign.simulation.link_motion.link import released
+from tvimdesign.simulation.link_motion.sampled_motion import OneSided, turns_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
@@ -28,9 +30,9 @@ BAND = FRICTION / SPRINGS
 
 def let_go(modes: motion.Modes, one_sided: bool = False, friction: float = FRICTION) -> OneSided:
     """Released from 0.1 rad, the polymer relaxed there."""
-    plant = Plant(JOINT, modes, one_sided)
+    plant = Plant(JOINT, Blocks(modes, modes) if one_sided else modes)
     ahead, behind = np.full(len(modes), 0.1), np.full(len(modes), -0.1)
-    return released(plant, friction, 0.1, np.concatenate([ahead, behind]) if one_sided else ahead)
+    return released(plant, 0.1, np.concatenate([ahead, behind]) if one_sided else ahead, friction)
 
 
 @pytest.mark.parametrize("one_sided", [False, True])

@@ -19,7 +19,7 @@ _DECADES = 30.0
 
 
 def fit_data(measured: Measured) -> dict[str, Any]:
-    """What `fit.json` has."""
+    """Return the content of `fit.json`."""
     found = measured.measurement
     names = [one.name for one in found.fit.problem.parameters]
     shown = [names.index(one.name) for one in found.fit.parameters]
@@ -53,7 +53,7 @@ def _deviation(relative: bool, noise: float, unit: str) -> float:
 
 
 def residuals_csv(fit: Fit) -> str:
-    """Every value with what the fit predicts, in the units of the data; a row each."""
+    """Return every value with what the fit predicts, in the units of the data; a row each."""
     lines = ["channel,over,over unit,at,unit,measured,fitted,residual over noise"]
     for channel, predicted, noise in zip(fit.problem.channels, fit.predicted, fit.noise, strict=True):
         over = from_si_array(channel.at, channel.at_unit)
@@ -68,18 +68,18 @@ def residuals_csv(fit: Fit) -> str:
 
 
 def from_si_array(values: Any, unit: str) -> Any:
-    """Values in a unit."""
+    """Return values in a unit."""
     zero = from_si(0.0, unit)
     return zero + (from_si(1.0, unit) - zero) * values
 
 
 def figure_data(measured: Measured) -> dict[str, Any]:
-    """What the figure is drawn from: panels of values and curves, each with its residuals below."""
+    """Return the panels of the figure: values and curves, each with its residuals below."""
     return {"title": f"{measured.kind.name}: measured and fitted", "panels": list(_panels(measured.measurement.fit))}
 
 
 def _panels(fit: Fit) -> Iterator[dict[str, Any]]:
-    """A panel for every channel, the first few of many."""
+    """Yield a panel for every channel, the first few of many."""
     for channel, predicted, noise in list(zip(fit.problem.channels, fit.predicted, fit.noise, strict=True))[
         :_MOST_PANELS
     ]:

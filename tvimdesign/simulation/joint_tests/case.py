@@ -9,9 +9,12 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from tvimdesign.physics.motions import motion
+from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.lossy_structure import with_loss
-from tvimdesign.simulation.trial import Finding
+from tvimdesign.simulation.link_motion.sampled_motion import OneSided
+from tvimdesign.simulation.trial import Column, CurveTable, Finding
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
@@ -60,25 +63,30 @@ class Case:
     """Torque by which the legs' friction on their pins resists the link [N*m]."""
 
     @property
+    def plant(self) -> Plant:
+        """The link with its layer, or with the blocks on either side, which are alike."""
+        return Plant(self.joint, Blocks(self.modes, self.modes) if self.one_sided else self.modes)
+
+    @property
     def name(self) -> str:
         """The point's name, with the history's where there is more than one."""
         return "_".join(part for part in (self.point, self.history.name) if part)
 
     @property
     def label(self) -> str:
-        """The same for people."""
+        """The name for people."""
         place = f"{self.point}, {self.temperature - ZERO_CELSIUS:.0f} °C"
         return f"{place}, {self.history.label}" if self.history.label else place
 
     def rows(self, resolved: ResolvedModule, names: Sequence[str]) -> dict[str, Any]:
-        """Rows of the table at this point, as this history leaves it, by plain name."""
+        """Return rows of the table at this point, as this history leaves it, by plain name."""
         values = {**resolved.values, f"solid_fraction@{self.point}": self.history.fraction}
         found = resolved.table.evaluate(values, [f"{name}@{self.point}" for name in names])
         return {name: found[f"{name}@{self.point}"] for name in names}
 
 
 def joint_of(resolved: ResolvedModule, point: str) -> motion.Joint:
-    """Inertia, springs and structure of the module on the bench, warm as at an operating point."""
+    """Return inertia, springs and structure of the module on the bench, warm as at an operating point."""
     names = ("moving_inertia", "spring_stiffness", f"elastic_support@{point}")
     return motion.Joint(*(float(resolved.quantity(name)) for name in names))
 
@@ -107,12 +115,12 @@ def histories_at(resolved: ResolvedModule, temperature: float) -> tuple[History,
 
 
 def one_sided(resolved: ResolvedModule) -> bool:
-    """Whether the polymer only pushes."""
+    """Return whether the polymer only pushes."""
     return float(resolved.quantity("parting_share")) > 0.0
 
 
 def cases(resolved: ResolvedModule) -> list[Case]:
-    """The joint at every operating point, once for each history that matters there, the nominal one first."""
+    """Return the joint at every operating point, once for each history that matters there, the nominal one first."""
     pushes = one_sided(resolved)
     friction = float(resolved.quantity("pin_friction_torque"))
     found = []
@@ -136,27 +144,45 @@ _Tested = TypeVar("_Tested", bound=_HasCase)
 
 
 def by_point(found: Sequence[_Tested]) -> list[tuple[str, list[_Tested]]]:
-    """What was tested, operating point after operating point."""
+    """Return the tested cases by operating point."""
     points = dict.fromkeys(one.case.point for one in found)
     return [(point, [one for one in found if one.case.point == point]) for point in points]
 
 
 def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Finding:
-    """One number of a point from those of its histories, the nominal first: an interval where there are several."""
+    """Return one number of a point from its histories', the nominal first; an interval where there are several."""
     if len(numbers) == 1:
         return Finding(name, numbers[0], unit, meaning)
     return Finding(name, numbers[0], unit, meaning, low=min(numbers), high=max(numbers))
 
 
+def contact_columns(case: Case, found: OneSided) -> tuple[Column, ...]:
+    """Return which blocks touch at each sample; nothing where none can part."""
+    if not case.one_sided:
+        return ()
+    ahead, behind = found.touching.astype(float)
+    return Column("ahead_touches", "1", ahead), Column("behind_touches", "1", behind)
+
+
+def event_sheets(name: str, found: OneSided) -> tuple[CurveTable, ...]:
+    """Return the moments at which a block was left or met, as a sheet of its own; none where none was."""
+    if not found.events:
+        return ()
+    rows = np.array([[event.time, float(event.side == 0), float(event.touching)] for event in found.events]).T
+    names = (("time", "s"), ("block_ahead", "1"), ("touches_from_here", "1"))
+    columns = (Column(title, unit, values) for (title, unit), values in zip(names, rows, strict=True))
+    return (CurveTable(f"{name}_events", tuple(columns)),)
+
+
 def notes_for(found: Sequence[Case]) -> tuple[str, ...]:
-    """What a reader of these cases must know."""
+    """Return the notes on these cases."""
     pushes = (PUSHES,) if any(case.one_sided for case in found) else ()
     history = (HISTORY,) if any(case.history.name for case in found) else ()
     return (LINEAR, *pushes, *history)
 
 
 def overload_notes(resolved: ResolvedModule, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
-    """Where a test asks more torque [N*m] of a joint than it bears: the points, in a sentence; nothing otherwise."""
+    """Return a sentence on the points where a test asks more torque [N*m] of a joint than it bears."""
     most = float(resolved.quantity("holding_torque"))
     beyond = " and ".join(dict.fromkeys(case.point for case, torque in torques if torque > most))
     if not beyond:

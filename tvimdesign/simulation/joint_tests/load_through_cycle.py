@@ -60,7 +60,7 @@ class Carried:
 
 
 def slice_histories(resolved: ResolvedModule) -> SliceHistory:
-    """Temperatures and solid fractions of the layer's cells over the working cycle: softening, then stiffening."""
+    """Return temperatures and solid fractions of the layer's cells over the working cycle."""
     model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
     cycle = Simulator(model).run(model.start, resolved.current_profiles, ["stiffening"])
     begins = 0.0
@@ -86,7 +86,7 @@ class Changing:
     """
 
     def __init__(self, logarithms: Array, times: Array, structure: motion.Modes = ()) -> None:
-        """`logarithms` of (relaxation time [s], stiffness [N*m/rad]): what, mode, slice, time; not of a structure's."""
+        """Take logarithms of (relaxation time [s], stiffness [N*m/rad]): which, mode, slice, time; no structure's."""
         from scipy.interpolate import PchipInterpolator
 
         self._curves = PchipInterpolator(times, logarithms, axis=-1)
@@ -94,7 +94,7 @@ class Changing:
         self._structure = structure
 
     def at(self, time: float) -> slices.Slices:
-        """The slices at one time."""
+        """Return the slices at one time."""
         relaxation_times, stiffnesses = np.exp(self._curves(time))
         fields = relaxation_times, stiffnesses, self._slopes(time)[1]
         if not self._structure:
@@ -104,7 +104,7 @@ class Changing:
 
 
 def _beside(layer: Array, structure: Array, absent: float) -> list[Array]:
-    """One field of the layer's slices with the structure's as the last; modes that either has not are `absent`."""
+    """Return one field of the slices with the structure's last; modes that either has not are `absent`."""
     count = max(len(layer), len(structure))
     both = np.full((count, layer.shape[1] + 1), absent)
     both[: len(layer), :-1] = layer
@@ -113,7 +113,7 @@ def _beside(layer: Array, structure: Array, absent: float) -> list[Array]:
 
 
 def changing(resolved: ResolvedModule, history: SliceHistory) -> Changing:
-    """The slices of a module's layer over a history, all of one thickness, and its structure as warm as when cold."""
+    """Return slices of a module's layer over a history, of one thickness, and its structure as warm as when cold."""
     rheology, moment, thickness = (resolved.quantity(n) for n in ("pcl_rheology", "pcl_moment", "pcl_depth"))
     spectrum = polymer.spectrum(history.temperatures, history.fractions, rheology)
     modes = motion.layer_modes(spectrum, moment, thickness / len(history.temperatures))
@@ -122,7 +122,7 @@ def changing(resolved: ResolvedModule, history: SliceHistory) -> Changing:
 
 
 def _structure_of(resolved: ResolvedModule) -> motion.Modes:
-    """Maxwell elements of a lossy structure at the cold point; its spring is one that never relaxes."""
+    """Return Maxwell elements of a lossy structure at the cold point; its spring is one that never relaxes."""
     stiffness, loss = (float(part) for part in resolved.quantity("support@cold"))
     if loss <= 0.0:
         return ()
@@ -169,6 +169,6 @@ def carry(layer: Changing, support: slices.Support, load: float, times: Array) -
 
 
 def support_of(resolved: ResolvedModule) -> slices.Support:
-    """Springs and structure of the module on the bench, as warm as at the cold point; a lossy one gives as a slice."""
+    """Return springs and structure on the bench, as warm as at the cold point; a lossy one gives as a slice."""
     joint = joint_of(resolved, "cold")
     return slices.Support(joint.spring_stiffness, RIGID if _structure_of(resolved) else joint.structure_stiffness)

@@ -10,11 +10,12 @@ import numpy as np
 
 from tvimdesign.device.table.quantity import TOUCHING
 from tvimdesign.physics.motions.one_sided import Touching
-from tvimdesign.simulation.joint_tests import joint_motion
 from tvimdesign.simulation.joint_tests.case import (
     Case,
     by_point,
     cases,
+    contact_columns,
+    event_sheets,
     finding,
     notes_for,
     one_sided,
@@ -22,8 +23,7 @@ from tvimdesign.simulation.joint_tests.case import (
     with_paper_points,
 )
 from tvimdesign.simulation.link_motion import link
-from tvimdesign.simulation.link_motion.contact_simulation import TURNS_OF_A_SWING, OneSided, turns_of
-from tvimdesign.simulation.link_motion.link import Array, Motion
+from tvimdesign.simulation.link_motion.sampled_motion import TURNS_OF_A_SWING, Array, Motion, OneSided, turns_of
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
@@ -35,7 +35,7 @@ SETTLED = 0.05  # share of the angle within which the link counts as back
 
 @dataclass(frozen=True)
 class Simple:
-    """The same release with one spring and one dashpot (Kelvin-Voigt), at the same times."""
+    """A release with one spring and one dashpot (Kelvin-Voigt), at the times of the full model."""
 
     angle: Array
     torque: Array
@@ -105,7 +105,7 @@ def release(
 
 
 def _friction_note(found: Sequence[Released]) -> tuple[str, ...]:
-    """What friction does to the curves; nothing where there is none."""
+    """Return a sentence on what friction does to the curves; nothing where there is none."""
     friction = max(one.case.friction for one in found)
     if not friction:
         return ()
@@ -117,7 +117,7 @@ def _friction_note(found: Sequence[Released]) -> tuple[str, ...]:
 
 
 def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
-    """Where a link that rattles between its blocks was not followed until it settles."""
+    """Return a sentence on the points where a link was not followed until it settles."""
     points = " and ".join(dict.fromkeys(one.case.point for one in found if not np.isfinite(one.settling)))
     if not points:
         return ()
@@ -125,7 +125,7 @@ def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
 
 
 def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tuple[float, float, float]]:
-    """Nominal, least and largest value of every row that a first swing shows, by full name, after `hold_time`."""
+    """Return nominal, least and largest value of every quantity of a first swing, after `hold_time`."""
     if not one_sided(resolved):
         values = _rows_of_a_swing(resolved, Touching(1.0, 1.0))
         return {f"{name}@{point}": (float(x),) * 3 for point in resolved.points for name, x in values.items()}
@@ -137,37 +137,35 @@ def contact_seen(resolved: ResolvedModule, angle: float = ANGLE) -> dict[str, tu
 
 
 def _rows_of_a_swing(resolved: ResolvedModule, touching: Touching) -> dict[str, Any]:
-    """Every row that a swing shows, where the blocks touch as said; a bonded layer does whatever the link does."""
+    """Evaluate every quantity that a swing shows, where the blocks touch as given; a bonded layer always does."""
     names = [row.name for row in resolved.table.first_oscillations]
     return resolved.table.evaluate_instant({**resolved.values, TOUCHING: touching}, names)
 
 
 def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[str, float]:
-    """Mean of every row of a swing over the first one."""
-    found = joint_motion.released(
-        case, angle, joint_motion.held(case, angle, float(resolved.quantity("hold_time"))), TURNS_OF_A_SWING
-    )
+    """Return the mean of every row of a swing over the first one."""
+    internal = link.held(case.plant, angle, float(resolved.quantity("hold_time")))
+    found = link.released(case.plant, angle, internal, case.friction, TURNS_OF_A_SWING)
     instants = _rows_of_a_swing(resolved, Touching(*found.touching.astype(float)))
     return {name: found.average(values, 0.0, found.first_swing()) for name, values in instants.items()}
 
 
 def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
-    internal = joint_motion.held(case, angle, hold)
-    found = joint_motion.released(case, angle, internal)
-    moved, gap = found.motion, joint_motion.gap(case, internal)
+    internal = link.held(case.plant, angle, hold)
+    found = link.released(case.plant, angle, internal, case.friction)
     # Friction holds the link off its old rest: it settles where it stays.
     settling = found.settling_time(SETTLED)
     if case.one_sided:
-        return Released(case, found, gap, *_first_ringing(found), settling, None)
+        return Released(case, found, case.plant.gap(internal), *_first_ringing(found), settling, None)
     swings = link.swings(case.joint, case.modes, angle, internal)
     if not np.isfinite(settling):
         settling = swings.fading_time(SETTLED * abs(angle))
-    simple = _simple(resolved, case, angle, moved) if kelvin_voigt else None
-    return Released(case, found, gap, *swings.ringing(), settling, simple)
+    simple = _simple(resolved, case, angle, found.motion) if kelvin_voigt else None
+    return Released(case, found, 0.0, *swings.ringing(), settling, simple)
 
 
 def _first_ringing(found: OneSided) -> tuple[float, float]:
-    """Frequency [Hz] of the first swing and the damping ratio that would take as much of it; 0 and 1 if there is none.
+    """Return frequency [Hz] and equivalent damping ratio of the first swing; 0 and 1 if there is none.
 
     From the decrement d of one period: z = d/sqrt(4 pi^2 + d^2) (textbook).
     """
@@ -196,19 +194,19 @@ def _sheets(one: Released) -> tuple[CurveTable, ...]:
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
         Column("stored_energy", "J", moved.energy),
-        *joint_motion.contact_columns(one.case, one.found),
+        *contact_columns(one.case, one.found),
     ]
     if one.simple:
         columns += [
             Column("angle_kelvin_voigt", "rad", one.simple.angle),
             Column("torque_kelvin_voigt", "N*m", one.simple.torque),
         ]
-    events = joint_motion.event_sheets(name, one.found)
+    events = event_sheets(name, one.found)
     return (CurveTable(name, tuple(columns)), *_first_swing(one, columns), *events)
 
 
 def _first_swing(one: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
-    """The first swing alone, whose loop shows loss and backlash; later ones lie over it."""
+    """Return the first swing alone, whose loop shows loss and backlash; later ones lie over it."""
     count = int(np.searchsorted(one.motion.times, one.found.first_swing(), side="right"))
     return (CurveTable(_loop_name(one), tuple(replace(column, values=column.values[:count]) for column in columns)),)
 

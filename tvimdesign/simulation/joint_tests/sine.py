@@ -7,18 +7,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tvimdesign.simulation.joint_tests import joint_motion
 from tvimdesign.simulation.joint_tests.case import (
     Case,
     by_point,
     cases,
+    contact_columns,
+    event_sheets,
     finding,
     notes_for,
     overload_notes,
     with_paper_points,
 )
-from tvimdesign.simulation.link_motion.contact_simulation import OneSided
-from tvimdesign.simulation.link_motion.link import Array, Motion
+from tvimdesign.simulation.link_motion import link
+from tvimdesign.simulation.link_motion.sampled_motion import Array, Motion, OneSided
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
@@ -76,7 +77,7 @@ def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
 
 def _swung(resolved: ResolvedModule, case: Case, periods: int) -> Swung:
     frequency = float(resolved.quantity(f"frequency@{case.point}"))
-    found = joint_motion.swung(case, float(resolved.quantity("stroke")), frequency, periods, SAMPLES)
+    found = link.swung(case.plant, float(resolved.quantity("stroke")), frequency, periods, SAMPLES)
     moved = found.motion
     complex_stiffness = complex_stiffness_of(moved, frequency)
     lossy = complex_stiffness.imag
@@ -95,13 +96,13 @@ def _swung(resolved: ResolvedModule, case: Case, periods: int) -> Swung:
 
 
 def last_period(moved: Motion, frequency: float) -> slice:
-    """The samples of the last period, both its ends included; more than elsewhere where blocks are left and met."""
+    """Return samples of the last period, both its ends included; more than elsewhere where blocks are left and met."""
     begin = moved.times[-1] - (1.0 + ROUNDING) / frequency
     return slice(int(np.searchsorted(moved.times, begin)), None)
 
 
 def complex_stiffness_of(moved: Motion, frequency: float) -> complex:
-    """Complex stiffness [N*m/rad] from the first harmonics of torque and angle over the last period."""
+    """Return the complex stiffness [N*m/rad] from the first harmonics of torque and angle over the last period."""
     loop = last_period(moved, frequency)
     times = moved.times[loop]
     wave: Array = np.exp(-2j * np.pi * frequency * times)
@@ -115,18 +116,18 @@ def _sheets(one: Swung) -> tuple[CurveTable, ...]:
         Column("time", "s", moved.times),
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
-        *joint_motion.contact_columns(one.case, one.found),
+        *contact_columns(one.case, one.found),
     )
     name, loop = f"sine_{one.case.name}", last_period(moved, one.frequency)
     return (
         CurveTable(name, columns),
         CurveTable(f"{name}_loop", tuple(replace(column, values=column.values[loop]) for column in columns)),
-        *joint_motion.event_sheets(name, one.found),
+        *event_sheets(name, one.found),
     )
 
 
 def _lines(found: Sequence[Swung], x: str) -> tuple[PlottedLine, ...]:
-    """The torque of the last period; all before it are like it once the layer has forgotten how it began."""
+    """Return the torque of the last period; all before it are like it once the layer has forgotten how it began."""
     return tuple(PlottedLine(f"sine_{one.case.name}_loop", x, "torque", one.case.label) for one in found)
 
 

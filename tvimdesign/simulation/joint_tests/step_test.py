@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.joint_tests import joint_motion
 from tvimdesign.simulation.joint_tests.case import (
     Case,
     cases,
+    contact_columns,
     finding,
     notes_for,
     overload_notes,
@@ -24,8 +24,8 @@ from tvimdesign.simulation.joint_tests.load_through_cycle import (
     slice_histories,
     support_of,
 )
-from tvimdesign.simulation.link_motion.contact_simulation import OneSided
-from tvimdesign.simulation.link_motion.linear_system import doubling
+from tvimdesign.simulation.link_motion import link
+from tvimdesign.simulation.link_motion.sampled_motion import OneSided, doubling
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
@@ -78,7 +78,7 @@ def step(
 
 
 def _never_soft(history: SliceHistory) -> tuple[str, ...]:
-    """What to say of a cycle that does not get as far as melting the layer."""
+    """Return a sentence on a cycle that does not melt the layer; nothing otherwise."""
     if float(np.min(history.fractions)) < HALF_MOLTEN:
         return ()
     hottest = float(np.max(history.temperatures)) - ZERO_CELSIUS
@@ -87,14 +87,14 @@ def _never_soft(history: SliceHistory) -> tuple[str, ...]:
 
 def _turned(resolved: ResolvedModule, case: Case, rise: float) -> OneSided:
     stretches = doubling(min(FIRST_STEP, rise), WATCHED)
-    return joint_motion.turned(case, float(resolved.quantity("stroke")), rise, stretches)
+    return link.turned(case.plant, float(resolved.quantity("stroke")), rise, stretches)
 
 
 def _sheet(case: Case, found: OneSided) -> CurveTable:
     moved = found.motion
     return CurveTable(f"step_{case.name}", (
         Column("time", "s", moved.times), Column("angle", "rad", moved.angle),
-        Column("holding_torque", "N*m", -moved.torque), *joint_motion.contact_columns(case, found),
+        Column("holding_torque", "N*m", -moved.torque), *contact_columns(case, found),
     ))  # fmt: skip
 
 
@@ -125,7 +125,7 @@ def _relaxed(resolved: ResolvedModule, found: Sequence[tuple[Case, OneSided]]) -
 
 
 def _yielded(carried: Carried, load: float, one_sided: bool) -> list[Finding]:
-    """What the loaded link did; blocks that only push let the springs turn it back to rest, and leave a gap there."""
+    """Return findings on the loaded link; springs turn it back from blocks, which only push and leave a gap."""
     first, last = float(carried.angle[0]), float(carried.angle[-1])
     way = np.abs(carried.angle - first)
     half = float(np.interp(0.5 * np.max(way), np.maximum.accumulate(way), carried.times))

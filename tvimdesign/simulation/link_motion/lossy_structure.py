@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.physics.motions.motion import Joint, Modes
-from tvimdesign.simulation.link_motion.linear_system import Array
+from tvimdesign.simulation.link_motion.sampled_motion import Array
 
 BAND = (0.1, 100.0)
 """Frequencies [Hz] between which elements follow the law, and wider where a point lies out."""
@@ -34,7 +34,7 @@ APART = 1e-7
 
 
 def with_loss(joint: Joint, modes: Modes, loss: float, frequency: float) -> tuple[Joint, Modes]:
-    """Joint and modes that have the structure's stiffness and loss [N*m/rad] at a frequency [Hz]; floats.
+    """Return joint and modes that have the structure's stiffness and loss [N*m/rad] at a frequency [Hz]; floats.
 
     A structure without loss stays as it is.
     """
@@ -45,7 +45,7 @@ def with_loss(joint: Joint, modes: Modes, loss: float, frequency: float) -> tupl
 
 
 def spectrum(stiffness: float, loss: float, frequency: float) -> tuple[float, Modes]:
-    """Spring [N*m/rad] and elements (time [s], stiffness [N*m/rad]) of a constant loss factor, exact at a frequency.
+    """Return spring [N*m/rad] and elements (time [s], stiffness [N*m/rad]) of a loss factor, exact at a frequency.
 
     Least squares without negative stiffnesses, of what each is of the law at frequencies over the band.
     """
@@ -66,7 +66,7 @@ def spectrum(stiffness: float, loss: float, frequency: float) -> tuple[float, Mo
 
 
 def in_series(layer: Modes, spring: float, elements: Modes) -> Modes:
-    """Modes of a layer of Maxwell elements in series with a spring beside Maxwell elements, or with the spring alone.
+    """Return the modes of a layer of Maxwell elements in series with a spring beside Maxwell elements, or alone.
 
     K = Q S/(Q + S) with Q, S = sum k s/(s + r) along s = -x: one zero of Q + S lies below the least rate r and one
     between each two, and is the rate of a mode; its stiffness is Q^2/(x d(Q + S)/ds) there.
@@ -86,13 +86,13 @@ def in_series(layer: Modes, spring: float, elements: Modes) -> Modes:
 
 
 def _apart(layer: Array, structure: Array) -> Array:
-    """All rates [1/s], none of the structure's the same as one of the layer's."""
+    """Return all rates [1/s], none of the structure's the same as one of the layer's."""
     same = np.any(np.abs(structure[:, None] / layer - 1.0) < APART, axis=1)
     return np.concatenate([layer, np.where(same, structure * (1.0 + 2.0 * APART), structure)])
 
 
 def _zeros(ends: Array, stiffnesses: Array, spring: float) -> tuple[Array, Array]:
-    """Zeros x of spring + sum k x/(x - r) between each two ends, and x - r, a row a zero, exact next to the ends."""
+    """Return zeros x of spring + sum k x/(x - r) between each two ends, and x - r, a row a zero, exact at the ends."""
     width, count = np.diff(ends), len(stiffnesses)
     low, high = np.full(count, -REACH), np.full(count, REACH)
     below, above = np.arange(1, count), np.arange(count)

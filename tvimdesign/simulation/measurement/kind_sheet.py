@@ -44,11 +44,11 @@ class KindSheet:
     """Whether it is fitted only where it is asked for."""
 
     def column(self, block: Block, need: tuple[str, ...]) -> str | None:
-        """Which of the columns that will do a block has."""
+        """Return the first of the columns that will do and that a block has."""
         return next((name for name in need if name in block.columns), None)
 
     def fits(self, block: Block) -> bool:
-        """Whether a block has every column, and what must change in it changes, what must not does not."""
+        """Return whether a block has every column, and what must change in it changes, what must not does not."""
         there = [name for name in self.varies if name in block.columns]
         return (
             all(self.column(block, need) for need in self.needs)
@@ -57,7 +57,7 @@ class KindSheet:
         )
 
     def lacking(self, block: Block) -> str:
-        """What a block lacks, in words; why a column of that name could not be read, where there is one."""
+        """Say what a block lacks, or why a column of that name could not be read."""
         for need in self.needs:
             if self.column(block, need) is None:
                 why = next((block.problems[name] for name in need if name in block.problems), "")
@@ -65,7 +65,7 @@ class KindSheet:
         return ""
 
     def values(self, given: Mapping[str, str]) -> dict[str, Any]:
-        """Settings in SI: those given, as `name=value with unit`, and the defaults. Raises InputError."""
+        """Return settings in SI: those given, as `name=value with unit`, and the defaults. Raises InputError."""
         found: dict[str, Any] = {
             name: to_si(float(entry["default"]), entry["unit"])
             for name, entry in self.settings.items()
@@ -95,7 +95,7 @@ def _refuse_beyond(name: str, value: float, setting: Mapping[str, Any]) -> None:
 
 
 def _changes(block: Block, name: str) -> bool:
-    """Whether a column changes: a temperature by some kelvin, all else by more than a third from its middle.
+    """Return whether a column changes: a temperature by some kelvin, all else by more than a third from its middle.
 
     Values near zero are none of its own: what is taken off, as the stress of a recovery. A tenth of the rows may stray.
     """
@@ -113,7 +113,7 @@ def _changes(block: Block, name: str) -> bool:
 
 @cache
 def kind_sheets() -> dict[str, KindSheet]:
-    """Every kind by its name."""
+    """Return every kind by its name."""
     tree = plain_data(_FILE.read_text(encoding="utf-8"))
     return {
         name: KindSheet(
@@ -130,7 +130,7 @@ def _words(text: str) -> tuple[str, ...]:
 
 
 def kind_sheet(name: str) -> KindSheet:
-    """A kind by its name. Raises InputError with the nearest."""
+    """Return a kind by its name. Raises InputError with the nearest."""
     sheets = kind_sheets()
     if name in sheets:
         return sheets[name]

@@ -16,7 +16,7 @@ from tvimdesign.simulation.measurement.reading.data_file import Block, DataFile,
 
 @dataclass(frozen=True)
 class Measured:
-    """What files of a kind come to."""
+    """The fit of some files."""
 
     kind: KindSheet
     files: tuple[DataFile, ...]
@@ -25,11 +25,11 @@ class Measured:
     measurement: Measurement
 
     def read(self) -> list[str]:
-        """What was understood of the files, and how many of their tables were fitted, in lines."""
+        """Return lines on what was understood of the files, and how many of their tables were fitted."""
         return [*(line for file in self.files for line in file.shown()), self._taken()]
 
     def read_for_the_fit(self, most: int) -> list[str]:
-        """The same of the first few tables that were fitted, and of the columns that the fit uses."""
+        """Return lines on the first few tables that were fitted, and the columns that the fit uses."""
         uses = [name for need in self.kind.needs for name in need] + list(self.kind.takes)
         lines = [f"{file.path}: {file.how}" for file in self.files]
         lines += [line for block in self.blocks[:most] for line in block.shown(uses)]
@@ -68,7 +68,7 @@ def measure_files(
 
 
 def measure_of(sheet: KindSheet) -> Callable[..., Measurement]:
-    """What fits tables of a kind."""
+    """Return the function that fits tables of a kind."""
     module, _, function = sheet.function.rpartition(".")
     measure: Callable[..., Measurement] = getattr(import_module(f"{__package__}.kinds.{module}"), function)
     return measure
@@ -79,7 +79,7 @@ def _rows(block: Block, sheet: KindSheet) -> int:
 
 
 def _likely_kind(blocks: Sequence[Block]) -> KindSheet:
-    """The one kind whose columns a table has. Raises InputError where there is none, or several."""
+    """Return the one kind whose columns a table has. Raises InputError where there is none, or several."""
     guessed = [sheet for sheet in kind_sheets().values() if not sheet.only_asked]
     likely = [sheet for sheet in guessed if any(sheet.fits(block) for block in blocks)]
     if len(likely) == 1:

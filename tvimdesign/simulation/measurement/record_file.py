@@ -30,7 +30,7 @@ _DIGITS = 6
 
 
 def record_text(measured: Measured, name: str, based_on: str) -> str:
-    """The kind's own record as YAML. Raises InputError where nothing follows for one."""
+    """Return the kind's own record as YAML. Raises InputError where nothing follows for one."""
     found = measured.measurement
     lines = list(_value_lines(measured, found.record_values))
     if not measured.kind.category or not (lines or found.record_tables):
@@ -81,12 +81,12 @@ def write_records(
 
 
 def write_record(measured: Measured, folder: Path, name: str, based_on: str = "", *, overwrite: bool = False) -> Path:
-    """The same; returns the first of the files."""
+    """Write the records and return the first of the files."""
     return next(iter(write_records(measured, folder, name, based_on, overwrite=overwrite).values()))
 
 
 def _records(measured: Measured, name: str, based_on: str) -> list[tuple[str, str, str, str]]:
-    """Category, choice, base and text of every record that follows. Raises InputError where none does."""
+    """Return category, choice, base and text of every record that follows. Raises InputError where none does."""
     category, found = measured.kind.category, []
     base = based_on or BASED_ON.get(category, "")
     others = [one for one in measured.measurement.more_records if any(_value_lines(measured, one.values))]

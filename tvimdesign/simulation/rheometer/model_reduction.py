@@ -72,11 +72,11 @@ class Comparison:
     """By kind; the nominal state's first."""
 
     def curves(self, name: str, unit: str, answer: StudyResult) -> tuple[Column, ...]:
-        """What the nominal state's bodies answer, a column each."""
+        """Return the response of the nominal state's bodies, a column each."""
         return tuple(Column(f"{name}_{kind}", unit, answer(fits[0].body)) for kind, fits in self.fits.items())
 
     def findings(self) -> tuple[Finding, ...]:
-        """The residual of every body."""
+        """Return the residual of every body."""
         found = []
         for kind, fits in self.fits.items():
             residuals = dict(zip(self.specimen.states, (fit.residual for fit in fits), strict=True))
@@ -98,12 +98,12 @@ def compare(
 
 
 def _size(state: State, time: float) -> float:
-    """Modulus [Pa] of the size a test of that length sees."""
+    """Return the modulus [Pa] of the size a test of that length sees."""
     return sum(modulus * tau / (tau + time) for tau, modulus in state.modes)
 
 
 def parameters(comparisons: Sequence[Comparison]) -> CurveTable:
-    """Every fitted body's parameters and residual, one row for each temperature and solid fraction."""
+    """Return every fitted body's parameters and residual, one row for each temperature and solid fraction."""
     rows = []
     for compared in comparisons:
         for index, state in enumerate(compared.specimen.states):

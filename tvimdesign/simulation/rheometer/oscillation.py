@@ -29,7 +29,7 @@ Cooling = Callable[[float], float]
 
 
 def _star(state: State, angular_frequency: float | Array, strain: float | Array) -> tuple[Array, Array]:
-    """Storage and loss modulus [Pa] at a strain; softening takes the same share of both."""
+    """Return storage and loss modulus [Pa] at a strain; softening takes the same share of both."""
     storage, loss = maxwell_moduli(angular_frequency, state.modes)
     return storage * state.left(strain), loss * state.left(strain)
 
@@ -204,7 +204,7 @@ def _at_1_hertz(states: Sequence[State]) -> tuple[Array, Array]:
 
 
 def _columns(name: str, unit: str, nominal: Array, every: Sequence[Array]) -> tuple[Column, ...]:
-    """A quantity along the sweep with its least and largest value at each temperature."""
+    """Return a quantity along the sweep with its least and largest value at each temperature."""
     return (
         Column(name, unit, nominal),
         Column(f"{name}_low", unit, np.array([values.min() for values in every])),
@@ -262,7 +262,7 @@ def _temperature_panels(sheets: Sequence[CurveTable]) -> tuple[Panel, ...]:
 
 
 def _crossing(heating: CurveTable) -> float:
-    """Temperature [K] at which the nominal loss factor passes one, between two samples."""
+    """Return the temperature [K] at which the nominal loss factor passes one, between two samples."""
     factor, at = heating.column("loss_factor").values, heating.column("temperature").values
     first = int(np.argmax(factor >= 1.0))
     if factor[0] >= 1.0 or factor[first] < 1.0:
@@ -271,7 +271,7 @@ def _crossing(heating: CurveTable) -> float:
 
 
 def _flow_range(heating: CurveTable) -> tuple[float, float]:
-    """Lowest temperature [K] at which some history flows, highest at which some history is still solid."""
+    """Return the lowest temperature [K] at which some history flows, highest at which some history is still solid."""
     at = heating.column("temperature").values
     flows = at[heating.column("loss_factor_high").values >= 1.0]
     holds = at[heating.column("loss_factor_low").values < 1.0]

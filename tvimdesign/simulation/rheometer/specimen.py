@@ -34,7 +34,7 @@ class State:
     """Strain at which the storage modulus has fallen 5 % [1]."""
 
     def left(self, strain: float | Array) -> float | Array:
-        """Share of the linear modulus that is left at a strain."""
+        """Return the share of the linear modulus that is left at a strain."""
         share: float | Array = polymer.damping_function(strain, self.linear_strain)
         return share
 
@@ -63,7 +63,7 @@ class Specimen:
         return f"{_celsius(self.temperature)} °C"
 
     def columns(self, name: str, unit: str, of: Callable[[State], Array]) -> tuple[Column, ...]:
-        """A quantity of the nominal state; where history decides, its least and largest values beside it."""
+        """Return a quantity of the nominal state; where history decides, its least and largest values beside it."""
         nominal = Column(name, unit, of(self.nominal))
         if not self.others:
             return (nominal,)
@@ -71,7 +71,7 @@ class Specimen:
         return nominal, Column(f"{name}_low", unit, every.min(axis=0)), Column(f"{name}_high", unit, every.max(axis=0))
 
     def finding(self, name: str, unit: str, meaning: str, of: Callable[[State], float]) -> Finding:
-        """A number read off; where history decides, with its least and largest value."""
+        """Return a number read off; where history decides, with its least and largest value."""
         value = float(of(self.nominal))
         if not self.others:
             return Finding(f"{name}@{self.point}", value, unit, meaning)
@@ -79,13 +79,13 @@ class Specimen:
         return Finding(f"{name}@{self.point}", value, unit, meaning, min(every), max(every))
 
     def line(self, sheet: str, x: str, y: str, label: str | None = None, *, dashed: bool = False) -> PlottedLine:
-        """A quantity of `columns` drawn over another, with its band where it has one."""
+        """Return a quantity of `columns` drawn over another, with its band where it has one."""
         band = (f"{y}_low", f"{y}_high") if self.others else None
         return PlottedLine(sheet, x, y, self.label if label is None else label, band, dashed)
 
 
 def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float) -> State:
-    """The polymer of a rig's module at a temperature [K] and a solid fraction. Raises InputError for no spectrum."""
+    """Return polymer of a rig's module at a temperature [K] and a solid fraction. Raises InputError for no spectrum."""
     spectrum = polymer.spectrum(temperature, fraction, resolved.quantity("pcl_rheology"))
     modes = tuple((float(time), float(modulus)) for time, modulus in spectrum)
     check_spectrum(modes, f"pcl_grade {resolved.values['pcl_grade'].name} at {_celsius(temperature)} °C")
@@ -93,7 +93,7 @@ def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float) -
 
 
 def specimen(resolved: ResolvedModule, temperature: float) -> Specimen:
-    """The polymer of a rig's module at a temperature [K], in every state its history allows."""
+    """Return the polymer of a rig's module at a temperature [K], in every state its history allows."""
     low, nominal, high = fractions_at(resolved, temperature)
     others = np.linspace(low, high, HISTORIES) if high > low else np.array([])
     return Specimen(
@@ -104,7 +104,7 @@ def specimen(resolved: ResolvedModule, temperature: float) -> Specimen:
 
 
 def specimens(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> list[Specimen]:
-    """The polymer at rising temperatures [K]; at those of the study's operating points where none are given.
+    """Return the polymer at rising temperatures [K]; at those of the study's operating points where none are given.
 
     A study that has only the standard points, at their temperatures, gets the paper's three.
     """
@@ -117,7 +117,7 @@ def specimens(resolved: ResolvedModule, temperatures: Sequence[float] | None = N
 
 
 def history_note(resolved: ResolvedModule) -> str:
-    """What the bands mean, in one sentence."""
+    """Return a sentence on what the bands mean."""
     first, last = (_celsius(at) for at in melting_range(resolved))
     return (
         f"Between {first} and {last} °C the answer depends on history: the line is the equilibrium curve on heating; "

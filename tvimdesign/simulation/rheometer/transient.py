@@ -104,7 +104,7 @@ def _creep_findings(at: Specimen) -> tuple[Finding, ...]:
 
 
 def _static_load(at: Specimen, fitted: Comparison) -> tuple[Finding, ...]:
-    """What the fitted bodies make of a load that stays: the one cannot hold it, the other cannot flow under it."""
+    """Return the compliance of the fitted bodies under a load that stays: one cannot hold it, another cannot flow."""
     found = []
     for kind, fits in fitted.fits.items():
         bodies = dict(zip(at.states, (fit.body for fit in fits), strict=True))

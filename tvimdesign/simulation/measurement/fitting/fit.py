@@ -37,7 +37,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Fit:
-    """What the data say."""
+    """The outcome of a fit."""
 
     problem: Problem
     parameters: tuple[Estimate, ...]
@@ -52,11 +52,11 @@ class Fit:
     words: tuple[str, ...]
 
     def value(self, name: str) -> float:
-        """The value of a parameter, or of what follows [SI]."""
+        """Return the value of a parameter, or of what follows [SI]."""
         return self[name].value
 
     def __getitem__(self, name: str) -> Estimate:
-        """A parameter, or what follows, by its name."""
+        """Return a parameter, or what follows, by its name."""
         return next(one for one in (*self.parameters, *self.derived) if one.name == name)
 
 
@@ -68,11 +68,11 @@ class BestFit(NamedTuple):
 
     @property
     def problem(self) -> Problem:
-        """What was fitted."""
+        """The problem that was fitted."""
         return self.residuals.problem
 
     def predicted(self) -> list[Array]:
-        """What each channel should be [SI]."""
+        """Return the fitted values of each channel [SI]."""
         return self.residuals.predicted(self.found.inner)
 
 
@@ -91,7 +91,7 @@ def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
 
 
 def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
-    """The intervals of a best fit, and what follows from it; without `profiles` they are those of the covariance."""
+    """Return intervals of a best fit, and what follows from it; without `profiles` they are those of the covariance."""
     residuals, best = fit
     known = spread(residuals, best)
     free = {i for direction in known.free_directions for i in moved_by(direction)}
@@ -117,7 +117,7 @@ def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profile
 
 
 def _within(one: Parameter, low: float, high: float) -> tuple[float, float]:
-    """An interval within a parameter's bounds; open where a positive one reaches them: the data do not end it."""
+    """Return an interval within a parameter's bounds; open where a positive one reaches them."""
     least, most = one.bounds
     if not one.positive:
         return max(low, least), min(high, most)
@@ -135,7 +135,7 @@ def _unbounded(one: Parameter, ends: tuple[float | None, float | None]) -> list[
 
 
 def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Estimate, ...]:
-    """What follows, with the intervals of its logarithm by the covariance; none where a free direction moves it."""
+    """Return derived quantities with intervals by the covariance; none where a free direction moves one."""
     logarithms, slopes = residuals.derived(best.inner)
     found = []
     for one, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
@@ -148,7 +148,7 @@ def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Esti
 
 
 def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
-    """Sentences about free directions, close correlations, and residuals that follow one another.
+    """Return sentences about free directions, close correlations, and residuals that follow one another.
 
     `inner` are the solver's numbers of the best fit.
     """
@@ -164,7 +164,7 @@ def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
 
 
 def _following(problem: Problem, known: Spread) -> list[str]:
-    """Whether residuals follow one another, or are so few that nobody can tell."""
+    """Return whether residuals follow one another, or are so few that nobody can tell."""
     most = max(range(len(known.follows)), key=lambda i: known.follows[i].rho)
     rho, name = known.follows[most].rho, problem.channels[most].name
     wider = np.sqrt((1.0 + rho) / (1.0 - rho))
@@ -182,7 +182,7 @@ def _following(problem: Problem, known: Spread) -> list[str]:
 
 
 def correlation(covariance: Array) -> Array:
-    """Correlation of the parameters; zero where one has no spread."""
+    """Return the correlation of the parameters; zero where one has no spread."""
     deviation = np.sqrt(np.diag(covariance))
     deviation[deviation == 0.0] = np.inf
     return np.asarray(covariance / np.outer(deviation, deviation))

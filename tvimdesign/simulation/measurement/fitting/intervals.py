@@ -62,32 +62,32 @@ class Spread:
     """Covariance over that of the loss's own curvature, for each number."""
 
     def deviation(self, direction: Array) -> float:
-        """Standard deviation of a linear combination of the numbers."""
+        """Return the standard deviation of a linear combination of the numbers."""
         return sqrt(max(float(direction @ self.covariance @ direction), 0.0))
 
     def quantile(self, direction: Array) -> float:
-        """Deviations of a linear combination to the end of its interval of `CONFIDENCE`."""
+        """Return deviations of a linear combination to the end of its interval of `CONFIDENCE`."""
         variances = [max(float(direction @ part @ direction), 0.0) for part in self.parts]
         return float(stdtrit(effective_freedom(variances, self.freedom), 0.5 + 0.5 * CONFIDENCE))
 
     def half(self, direction: Array) -> float:
-        """Half the width of that interval."""
+        """Return half the width of that interval."""
         return self.quantile(direction) * self.deviation(direction)
 
     def axis(self, at: int) -> Array:
-        """The combination that is one of the numbers alone."""
+        """Return the combination that is one of the numbers alone."""
         return np.asarray(np.eye(len(self.covariance))[at])
 
 
 def effective_freedom(variances: Sequence[float], freedom: Sequence[float]) -> float:
-    """Degrees of freedom of a sum of estimated variances that have `freedom` each: (sum v)^2 / sum v^2/f [S]."""
+    """Return degrees of freedom of a sum of estimated variances that have `freedom` each: (sum v)^2 / sum v^2/f [S]."""
     parts = np.asarray(variances) / (max(variances) or 1.0)
     squares = float(np.sum(parts**2 / np.asarray(freedom)))
     return float(np.sum(parts)) ** 2 / squares if squares > 0.0 else min(freedom)
 
 
 def spread(residuals: Residuals, fit: RobustFit) -> Spread:
-    """Covariance H^-1 M H^-1 of the robust fit [H], M by noise that may follow itself (`serial_correlation`).
+    """Return covariance H^-1 M H^-1 of the robust fit [H], M by noise that may follow itself (`serial_correlation`).
 
     The weight of each group of channels is estimated, and errs: the covariance is widened for it [KR].
     """
@@ -116,7 +116,7 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
 
 
 def _box(one: Parameter) -> float:
-    """One over the variance of a nuisance that is known to lie between two ends, width^2/12 [R]; 0 of others."""
+    """Return one over the variance of a nuisance that is known to lie between two ends, width^2/12 [R]; 0 of others."""
     least, most = one.bounds
     bounded = one.nuisance and not one.positive and np.isfinite(most - least)
     return 12.0 / (most - least) ** 2 if bounded else 0.0
@@ -132,7 +132,7 @@ class _Group(NamedTuple):
 
 
 def _group(channels: Sequence[tuple[Array, Array]], everything: Array, taken: float) -> _Group:
-    """From each channel's residuals over their noise with their derivatives, and how many parameters they determine.
+    """Build a group from each channel's scaled residuals with derivatives, and how many parameters they determine.
 
     `everything` is the curvature of the sum of squares of all data.
     """
@@ -150,7 +150,7 @@ def _group(channels: Sequence[tuple[Array, Array]], everything: Array, taken: fl
 
 
 def _of_weights(groups: Sequence[_Group], given: Sequence[Array], inverse: Array) -> Array:
-    """What errors of the estimated noises add to the covariance: sum of 2/f (P - P H C), symmetric [KR].
+    """Return the covariance due to errors of the estimated noises: sum of 2/f (P - P H C), symmetric [KR].
 
     P is what a group gives to the covariance, H its curvature, f the degrees of freedom of its noise, C the inverse of
     all curvatures together. It is none where one group has all the data. [KR] counts it twice: the numbers scatter more
@@ -164,7 +164,7 @@ def _of_weights(groups: Sequence[_Group], given: Sequence[Array], inverse: Array
 
 
 def _inverse(matrix: Array) -> tuple[Array, tuple[Array, ...]]:
-    """Inverse of a curvature without the directions in which there is none, and these."""
+    """Invert a curvature without the directions in which there is none, and return these too."""
     scale = np.sqrt(np.diag(matrix))
     scale[scale == 0.0] = 1.0
     values, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
@@ -176,12 +176,12 @@ def _inverse(matrix: Array) -> tuple[Array, tuple[Array, ...]]:
 
 
 def moved_by(direction: Array) -> list[int]:
-    """The parameters that a direction moves."""
+    """Return the parameters that a direction moves."""
     return [i for i, part in enumerate(np.abs(direction)) if part > _PART]
 
 
 def profile_end(residuals: Residuals, fit: RobustFit, known: Spread, at: int, side: Literal[-1, 1]) -> float:
-    """The end of a parameter's interval: where the best fit with it held there is worse by what chance explains [B].
+    """Find the end of an interval: where the best fit with the parameter held is worse by what chance explains [B].
 
     The solver's number, no farther than the parameter's bound; infinite where the data do not bound it within
     `_FARTHEST` deviations.

@@ -42,11 +42,11 @@ class Parameter:
     """Whether it is of this measurement alone, such as a baseline: fitted with the others, not reported."""
 
     def inner(self, value: float) -> float:
-        """The number the solver sees."""
+        """Return the number the solver sees."""
         return float(np.log(value)) if self.positive else value / self.scale
 
     def outer(self, inner: Any) -> Any:
-        """The value [SI] of the solver's number; symbols too."""
+        """Return the value [SI] of the solver's number; symbols too."""
         if not self.positive:
             return inner * self.scale
         return np.exp(min(inner, _LARGEST)) if isinstance(inner, float) else np.exp(inner)
@@ -61,7 +61,7 @@ class Parameter:
 
 
 def from_zero(name: str, unit: str, meaning: str, start: float) -> Parameter:
-    """A parameter that may be zero, such as a friction that may not be there; `start` is a usual size too."""
+    """Return a parameter that may be zero, such as a friction that may not be there; `start` is a usual size too."""
     return Parameter(name, unit, meaning, start, positive=False, scale=start, least=0.0)
 
 
@@ -137,7 +137,7 @@ class Residuals:
         """Channels that err alike, each group once."""
 
     def at(self, inner: Array) -> Array:
-        """Residuals, in the units of the channels, or as a share of the value.
+        """Return residuals, in the units of the channels, or as a share of the value.
 
         No larger than `_FARTHEST` times the largest value measured, where the equations give less or no number.
         """
@@ -147,18 +147,18 @@ class Residuals:
         return clipped
 
     def jacobian(self, inner: Array) -> Array:
-        """Their derivatives by the solver's numbers."""
+        """Return the residuals' derivatives by the solver's numbers."""
         slopes = np.nan_to_num(np.asarray(self._jacobian(inner).full()), posinf=0.0, neginf=0.0)
         clipped: Array = np.clip(-slopes, -_STEEPEST, _STEEPEST)
         return clipped
 
     def derived(self, inner: Array) -> tuple[Array, Array]:
-        """Logarithms of what follows, and their derivatives."""
+        """Return logarithms of what follows, and their derivatives."""
         values, slopes = self._derived(inner)
         return np.asarray(values).ravel(), np.asarray(slopes.full())
 
     def predicted(self, inner: Array) -> list[Array]:
-        """What each channel should be [SI]."""
+        """Return the fitted values of each channel [SI]."""
         values = np.asarray(self._values(inner)).ravel()
         return [
             np.exp(values[part]) if channel.relative else values[part]

@@ -39,18 +39,18 @@ class RobustFit:
 
 
 def loss(z: Array) -> Array:
-    """Loss of residuals over their noise, 2 c^2 (sqrt(1 + z^2/c^2) - 1): z^2 for small ones."""
+    """Return the loss of residuals over their noise, 2 c^2 (sqrt(1 + z^2/c^2) - 1): z^2 for small ones."""
     return np.asarray(2.0 * LINEAR_UP_TO**2 * (np.hypot(1.0, z / LINEAR_UP_TO) - 1.0))
 
 
 def influence(z: Array) -> tuple[Array, Array]:
-    """Half the derivative of the loss by the residual, and its slope."""
+    """Return half the derivative of the loss by the residual, and its slope."""
     slant = np.hypot(1.0, z / LINEAR_UP_TO)
     return z / slant, slant**-3.0
 
 
 def _mean_square() -> float:
-    """Mean square of the influence of an error of normal distribution."""
+    """Return the mean square of the influence of an error of normal distribution."""
     z = np.linspace(-8.0, 8.0, 4001)
     density = np.exp(-0.5 * z**2)
     return float(np.sum(influence(z)[0] ** 2 * density) / np.sum(density))
@@ -99,7 +99,7 @@ def _refuse_wild(residuals: Residuals, start: Array) -> None:
 
 
 def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None = None) -> Array:
-    """The numbers of least loss for a given noise; one may stay as it is, and the others are then found to less."""
+    """Find the numbers of least loss for a given noise; one may stay fixed, and the tolerance is then larger."""
     tolerance, steps = (_EXACT, _MOST_STEPS) if fixed is None else (_ROUGH, _FEW_STEPS)
     free = np.arange(len(start)) != fixed
     weights = weights_of(residuals, noise)
@@ -126,7 +126,7 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
 
 
 def parameters_of(residuals: Residuals, inner: Array, noise: Array) -> Array:
-    """How many of the parameters each channel determines: the sum of the leverages of its values."""
+    """Return how many parameters each channel determines: the sum of the leverages of its values."""
     jacobian = residuals.jacobian(inner) * weights_of(residuals, noise)[:, None]
     left, sizes, _ = np.linalg.svd(jacobian, full_matrices=False)
     leverage = np.sum(left[:, sizes > 1e-10 * sizes[0]] ** 2, axis=1)
@@ -134,7 +134,7 @@ def parameters_of(residuals: Residuals, inner: Array, noise: Array) -> Array:
 
 
 def weights_of(residuals: Residuals, noise: Array) -> Array:
-    """One over the noise, for every value."""
+    """Return one over the noise, for every value."""
     weights = np.empty(residuals.problem.count)
     for part, one in zip(residuals.parts, noise, strict=True):
         weights[part] = 1.0 / one
@@ -142,12 +142,12 @@ def weights_of(residuals: Residuals, noise: Array) -> Array:
 
 
 def cost(residuals: Residuals, inner: Array, noise: Array) -> float:
-    """Sum of the loss."""
+    """Return the sum of the loss."""
     return float(np.sum(loss(residuals.at(inner) * weights_of(residuals, noise))))
 
 
 def _noises(residuals: Residuals, inner: Array, taken: Array) -> Array:
-    """Noise of every channel, from the residuals of all that err alike; `taken` is what `parameters_of` gives."""
+    """Return each channel's noise, from the residuals of all that err alike; `taken` is as of `parameters_of`."""
     values = residuals.at(inner)
     return np.array(
         [
@@ -158,7 +158,7 @@ def _noises(residuals: Residuals, inner: Array, taken: Array) -> Array:
 
 
 def _noise_of(values: Array, parameters: float) -> float:
-    """Deviation of a channel, for which the mean square of the influence is what it is of a normal error [H].
+    """Return deviation of a channel, for which the mean square of the influence is what it is of a normal error [H].
 
     Parameters take their share of the residuals away. Begins at the median of the sizes; 1 where all are zero.
     """

@@ -42,7 +42,7 @@ class Series(NamedTuple):
 
 
 class Following(NamedTuple):
-    """What is known of a noise that may follow itself."""
+    """The estimated serial correlation of a noise."""
 
     rho: float
     """Coefficient to count with."""
@@ -56,7 +56,7 @@ INDEPENDENT = Following(0.0, 1.0, 1.0)
 
 
 def following(series: Sequence[Series], others: Array, freedom: float) -> Following:
-    """From the residuals of channels that err alike.
+    """Estimate the serial correlation from the residuals of channels that err alike.
 
     `others` is what all else says of the numbers fitted (their curvature), `freedom` the values less the parameters
     that they determine.
@@ -79,7 +79,7 @@ def following(series: Sequence[Series], others: Array, freedom: float) -> Follow
 
 
 def moved_by_noise(slopes: Array, rho: float) -> Array:
-    """X' R X with R = rho^|i-j|: what such noise of variance one does to the gradient of a sum of squares.
+    """Return X' R X, R = rho^|i-j|: covariance of the gradient of a sum of squares under such noise of variance one.
 
     Never less than X' X in any direction: a noise that follows itself moves what swings from value to value less, but
     only a noise of exactly this kind does.
@@ -96,14 +96,14 @@ def moved_by_noise(slopes: Array, rho: float) -> Array:
 
 
 def _products(one: Series) -> tuple[Array, Array, Array]:
-    """Sums of products of a row (slopes, pull) with itself, with its neighbours, and with itself without both ends."""
+    """Return sums of products of rows (slopes, pull): with themselves, with neighbours, and without both ends."""
     rows = np.column_stack([one.slopes, one.pulls])
     beside = rows[1:].T @ rows[:-1]
     return rows.T @ rows, beside + beside.T, rows[1:-1].T @ rows[1:-1]
 
 
 def _left_and_logarithm(squares: Sequence[Array], others: Array, rho: Array) -> tuple[Array, Array]:
-    """Sum of squares that the best fit leaves where the noise follows itself by `rho`, and log of the curvature's size.
+    """Return the sum of squares left where the noise follows itself by `rho`, and the log of the curvature's size.
 
     R^-1 has 1, 1 + rho^2, ..., 1 and -rho beside them, over 1 - rho^2. The fit at hand has no gradient: that of the
     other data is minus that of these as if they were independent.

@@ -40,7 +40,7 @@ class OtherRecord:
 
 @dataclass(frozen=True)
 class Measurement:
-    """What data of a kind come to."""
+    """The result of fitting a kind of measurement."""
 
     fit: Fit
     notes: tuple[str, ...] = ()
@@ -53,12 +53,12 @@ class Measurement:
     more_records: Sequence[OtherRecord] = ()
 
     def with_note(self, note: str) -> Measurement:
-        """The same with one more note, first."""
+        """Return a copy with one more note, first."""
         return replace(self, notes=(note, *self.notes))
 
 
 def required(settings: Settings, name: str, why: str) -> Any:
-    """A setting that must be there. Raises InputError."""
+    """Return a setting that must be there. Raises InputError."""
     if name not in settings:
         raise InputError(f"--set {name}=...: needed, {why}")
     return settings[name]
@@ -79,7 +79,7 @@ def resolve_measured(source: Path) -> ResolvedModule:
 
 
 def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
-    """These columns of a block, the rows in which all of them stand. Raises InputError where there are too few."""
+    """Return columns of a block, the rows in which all of them stand. Raises InputError where there are too few."""
     count = block.complete(quantities)
     if count < LEAST_ROWS:
         raise InputError(
@@ -93,7 +93,7 @@ def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
 
 
 def series_of(block: Block, quantities: Sequence[str], most: int = 0) -> list[Array]:
-    """The same of a series in time, which stands first; of more than `most` rows every second, third, ... one.
+    """Return columns as `rows_of`, time first; of more than `most` rows every second, third, ... one.
 
     Raises InputError where time does not rise.
     """

@@ -29,7 +29,7 @@ class ColumnMap:
     """`SI`: what has no unit is in SI."""
 
     def applied(self, headings: list[Heading]) -> list[Heading]:
-        """The headings with what the map says; a quantity it names is no longer found elsewhere."""
+        """Return the headings with what the map says; a quantity it names is no longer found elsewhere."""
         taken = [one._replace(quantity="") if one.quantity in self.columns else one for one in headings]
         for quantity, entry in self.columns.items():
             for i, one in enumerate(taken):
@@ -42,7 +42,7 @@ class ColumnMap:
 
 
 def _in_si(one: Heading) -> Heading:
-    """A heading without a unit with that of SI."""
+    """Return a heading without a unit with that of SI."""
     return one if one.unit or not one.quantity else one._replace(unit=pretty(si_unit(unit_of(one.quantity))))
 
 
@@ -56,7 +56,7 @@ def read_column_map(path: Path) -> ColumnMap:
 
 
 def column_map(tree: Any, file: str) -> ColumnMap:
-    """A column map from plain data. Raises InputError naming the key and what was expected."""
+    """Return a column map from plain data. Raises InputError naming the key and what was expected."""
     if not isinstance(tree, Mapping):
         raise InputError(f"{file}: expected quantities with their columns, as in `angle: {{column: 2, unit: deg}}`")
     quantities = known()["quantities"]

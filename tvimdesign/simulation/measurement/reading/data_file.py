@@ -54,11 +54,11 @@ class Block:
         return f"{self.file}:{self.lines[0]}"
 
     def values(self, quantity: str) -> Array:
-        """The values of a column in SI. Raises KeyError where the block lacks it."""
+        """Return the values of a column in SI. Raises KeyError where the block lacks it."""
         return self.columns[quantity].values
 
     def complete(self, quantities: Sequence[str]) -> int:
-        """Rows in which all these stand; 0 where a column lacks. Raises InputError where one could not be read."""
+        """Count rows in which all these stand; 0 where a column lacks. Raises InputError for an unreadable one."""
         for quantity in quantities:
             if quantity in self.problems:
                 raise InputError(self.problems[quantity])
@@ -67,7 +67,7 @@ class Block:
         return int(np.sum(np.all([np.isfinite(self.values(one)) for one in quantities], axis=0)))
 
     def number(self, setting: str) -> float | None:
-        """A setting said before the table, in SI; None where it is not there or no number."""
+        """Return a setting said before the table, in SI; None where it is not there or no number."""
         words = self.settings.get(setting, "").replace(",", ".").split()
         entry = known()["settings"][setting]
         try:
@@ -78,7 +78,7 @@ class Block:
         return None if found is None else found[0] + found[1] * value
 
     def shown(self, uses: Sequence[str] = ()) -> list[str]:
-        """Its columns with their units and ranges, in lines: those of `uses`, or all, and what is unused then."""
+        """Return lines on its columns with their units and ranges: those of `uses`, or all, and what is unused then."""
         rows = max((len(column.values) for column in self.columns.values()), default=0)
         title = f" {self.title!r}" if self.title else ""
         lines = [f"  lines {self.lines[0]} to {self.lines[1]}{title}: {rows} rows"]
@@ -102,7 +102,7 @@ class DataFile:
     blocks: tuple[Block, ...]
 
     def shown(self) -> list[str]:
-        """What was understood, in lines: each block with its columns, their units and ranges, and what is unused."""
+        """Return lines on each block with its columns, their units and ranges, and what is unused."""
         lines = [f"{self.path}: {self.how}, {len(self.blocks)} {'table' if len(self.blocks) == 1 else 'tables'}"]
         return [*lines, *(line for block in self.blocks for line in block.shown())]
 
@@ -148,7 +148,7 @@ def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
 
 
 def _column(at: int, one: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Column | None:
-    """A column in SI; None where all its cells are empty. Raises InputError."""
+    """Return a column in SI; None where all its cells are empty. Raises InputError."""
     cells = [row.cells[at] if at < len(row.cells) else "" for row in raw.rows]
     if all(cell.lower() in _NOTHING for cell in cells):
         return None
@@ -181,7 +181,7 @@ def _number(cell: str, line: int, at: int, sheet: Sheet, file: str) -> float:
 
 
 def _range(column: Column) -> str:
-    """`'G'' [Pa], 120 to 4.1e5`, in the file's own unit."""
+    """Describe a column, as in `'G'' [Pa], 120 to 4.1e5`, in the file's own unit."""
     found = conversion(column.unit, unit_of(column.quantity))
     assert found is not None
     finite = column.values[np.isfinite(column.values)]

@@ -20,7 +20,7 @@ _ALONE = {"-", "--", "[-]", "[1]", "[]", "()", "a.u.", "°", "1"}
 
 
 class Heading(NamedTuple):
-    """What a heading says: the quantity by its name in `headings.yaml`, or none, and the unit, or none."""
+    """A column heading: the quantity by its name in `headings.yaml`, or none, and the unit, or none."""
 
     text: str
     quantity: str
@@ -29,14 +29,14 @@ class Heading(NamedTuple):
 
 @cache
 def known() -> dict[str, Any]:
-    """The content of `headings.yaml`."""
+    """Return the content of `headings.yaml`."""
     content: dict[str, Any] = plain_data(_FILE.read_text(encoding="utf-8"))
     return content
 
 
 @cache
 def _by_name() -> dict[str, list[str]]:
-    """The quantities a name may stand for."""
+    """Return the quantities a name may stand for."""
     found: dict[str, list[str]] = {}
     for key, entry in known()["quantities"].items():
         for name in [*entry["names"], key]:
@@ -45,7 +45,7 @@ def _by_name() -> dict[str, list[str]]:
 
 
 def plain(name: str) -> str:
-    """A name in small letters, without accents, signs before and after it, and double blanks."""
+    """Return a name in small letters, without accents, signs before and after it, and double blanks."""
     folded = unicodedata.normalize("NFKD", name.replace("″", '"').replace("′", "'").replace("''", '"'))
     letters = "".join(sign for sign in folded if not unicodedata.combining(sign)).lower().replace("_", " ")
     return " ".join(letters.strip(" #:.*/").split())
@@ -63,14 +63,14 @@ def heading(text: str, unit: str = "") -> Heading:
 
 
 def _quantity(text: str, unit: str) -> str:
-    """The quantity of a name: of several, the one that has such a unit."""
+    """Return the quantity of a name: of several, the one that has such a unit."""
     without = _IN_BRACKETS.fullmatch(text)
     may_be = _by_name().get(plain(text)) or (_by_name().get(plain(without[1])) if without else None) or [""]
     return next((one for one in may_be if one and unit and conversion(unit, unit_of(one)) is not None), may_be[0])
 
 
 def read_unit(text: str) -> str:
-    """A unit as instruments write it, in this package's spelling; empty where there is none."""
+    """Return a unit as instruments write it, in this package's spelling; empty where there is none."""
     inner = text.strip()
     while len(inner) > 1 and (inner[0], inner[-1]) in {("[", "]"), ("(", ")")}:
         inner = inner[1:-1].strip()
@@ -84,7 +84,7 @@ def read_unit(text: str) -> str:
 
 
 def is_unit(text: str) -> bool:
-    """Whether a cell can be a unit: one in brackets, or one this package reads."""
+    """Return whether a cell can be a unit: one in brackets, or one this package reads."""
     stripped = text.strip()
     if not stripped or stripped in _ALONE or re.fullmatch(r"\[[^\]]*\]", stripped):
         return True
@@ -93,7 +93,7 @@ def is_unit(text: str) -> bool:
 
 @cache
 def conversion(unit: str, wanted: str) -> tuple[float, float] | None:
-    """Offset and factor with which a number in `unit` is one in SI; None where `unit` is not of the kind of `wanted`.
+    """Return offset and factor from `unit` to SI; None where `unit` is not of the kind of `wanted`.
 
     Without `wanted` any unit will do.
     """
@@ -109,11 +109,11 @@ def conversion(unit: str, wanted: str) -> tuple[float, float] | None:
 
 
 def unit_of(quantity: str) -> str:
-    """A unit of the kind a quantity has."""
+    """Return a unit of the kind a quantity has."""
     return str(known()["quantities"][quantity]["unit"])
 
 
 def setting_name(text: str) -> str:
-    """The setting a line before a table is about; empty for one that is of no use here."""
+    """Return the setting a line before a table is about; empty for one that is of no use here."""
     name = plain(text).replace("/", "").replace("  ", " ")
     return next((key for key, entry in known()["settings"].items() if name in entry["names"]), "")

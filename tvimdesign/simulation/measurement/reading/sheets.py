@@ -50,7 +50,7 @@ class Row:
 
     @property
     def empty(self) -> bool:
-        """Whether nothing stands in it."""
+        """True where nothing stands in it."""
         return not any(self.cells)
 
     @property
@@ -70,16 +70,16 @@ class Sheet:
     title: str = ""
 
     def number(self, cell: str) -> float | None:
-        """The number in a cell; None where it has none."""
+        """Return the number in a cell; None where it has none."""
         return number(cell, self.decimal)
 
     def numbers(self, row: Row) -> int:
-        """Cells of a row that are numbers."""
+        """Return cells of a row that are numbers."""
         return sum(self.number(cell) is not None for cell in row.cells)
 
 
 def file_bytes(path: Path) -> bytes:
-    """Content of a file of measured data. Raises InputError where there is none, or more than `LARGEST_FILE` bytes."""
+    """Return the bytes of a file. Raises InputError where there is none, or more than `LARGEST_FILE` bytes."""
     try:
         if not path.is_file():
             raise InputError(f"{path}: there is no such file")
@@ -92,7 +92,7 @@ def file_bytes(path: Path) -> bytes:
 
 
 def decoded(data: bytes, file: str) -> tuple[str, str]:
-    """The text, and the encoding it was in. Raises InputError where it is no text."""
+    """Return the text, and the encoding it was in. Raises InputError where it is no text."""
     encoding = _encoding(data)
     try:
         text = data.decode(encoding)
@@ -130,9 +130,7 @@ def read_sheets(path: Path, data: bytes, separator: str = "", decimal: str = "")
 
 
 def number(cell: str, decimal: str) -> float | None:
-    """The number in a cell, with a decimal `point` or `comma`; None where the cell is not a number, or a greater one
-    than a computer has.
-    """
+    """Return the number in a cell, with a decimal `point` or `comma`; None where it is none, or too large."""
     form, text = (_COMMA, cell.replace(",", ".")) if decimal == "comma" else (_POINT, cell)
     value = float(text) if form.fullmatch(cell) else math.inf
     return value if math.isfinite(value) else None
@@ -164,7 +162,7 @@ def separated(text: str, file: str, separator: str = "", decimal: str = "") -> S
 
 
 def cells_of(line: str, separator: str) -> tuple[str, ...]:
-    """The cells of a line, without blanks and quotation marks around them."""
+    """Return the cells of a line, without blanks and quotation marks around them."""
     sign = SEPARATORS[separator]
     if not sign:
         by_tab = [cell.strip() for cell in line.split("\t")]
@@ -176,7 +174,7 @@ def cells_of(line: str, separator: str) -> tuple[str, ...]:
 
 
 def _counts(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, int]:
-    """Numbers that stand beside others, and cells of digits that are none: cut in the wrong place."""
+    """Return numbers that stand beside others, and cells of digits that are none: cut in the wrong place."""
     together, wrong = 0, 0
     for line in lines:
         cells = [cell for cell in cells_of(line, separator) if cell]
@@ -198,7 +196,7 @@ def _refuse_thousands(lines: Sequence[str], separator: str, file: str) -> None:
 
 
 def json_sheets(text: str, file: str) -> list[Sheet]:
-    """Every object with `columns` (name, unit) and rows of `values`, in the file's order. Raises InputError.
+    """Return every object with `columns` (name, unit) and rows of `values`, in the file's order. Raises InputError.
 
     Lines count in the rows of the data set: 1 is the headings, 2 the units.
     """
@@ -244,7 +242,7 @@ def _sheet(columns: list[Any], values: list[Any], title: str, file: str) -> Shee
 
 
 def workbook_sheets(data: bytes, file: str) -> list[Sheet]:
-    """The sheets of a workbook that have something in them. Raises InputError where it cannot be read."""
+    """Return the sheets of a workbook that have something in them. Raises InputError where it cannot be read."""
     from python_calamine import CalamineError, CalamineWorkbook
 
     try:
@@ -261,7 +259,7 @@ def workbook_sheets(data: bytes, file: str) -> list[Sheet]:
 
 
 def _cell(value: Any) -> str:
-    """A cell as text: numbers in full, so that none is rounded."""
+    """Return a cell as text: numbers in full, so that none is rounded."""
     if isinstance(value, bool):
         return str(value)
     return repr(float(value)) if isinstance(value, int | float) else str(value).strip()

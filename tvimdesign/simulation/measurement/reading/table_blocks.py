@@ -30,7 +30,7 @@ class RawBlock:
 
 
 def blocks_of(sheet: Sheet, file: str, ending: str) -> list[RawBlock]:
-    """Every table of a sheet. Raises InputError, with the line, where rows and headings do not go together."""
+    """Return every table of a sheet. Raises InputError, with the line, where rows and headings do not go together."""
     found: list[RawBlock] = []
     settings: dict[str, str] = {}
     titles, begin = [(0, sheet.title)], 0
@@ -56,7 +56,7 @@ def _is_data(sheet: Sheet, row: Row) -> bool:
 
 
 def _end(sheet: Sheet, begin: int, file: str) -> tuple[int, list[int]]:
-    """Where the numbers that begin at a row end, and the lines among them to leave out."""
+    """Find where the numbers that begin at a row end, and the lines among them to leave out."""
     rows, skipped, end = sheet.rows, [], begin
     while end < len(rows) and not rows[end].empty:
         row = rows[end]
@@ -72,7 +72,7 @@ def _end(sheet: Sheet, begin: int, file: str) -> tuple[int, list[int]]:
 
 
 def _begins(sheet: Sheet, at: int) -> bool:
-    """Whether a table's numbers begin here: two such rows, or one under headings."""
+    """Return whether a table's numbers begin here: two such rows, or one under headings."""
     rows = sheet.rows
     if not _is_data(sheet, rows[at]):
         return False
@@ -82,7 +82,7 @@ def _begins(sheet: Sheet, at: int) -> bool:
 
 
 def _may_head(row: Row, sheet: Sheet) -> bool:
-    """Whether headings may stand in a row or above it: a line of separators alone does not end them."""
+    """Return whether headings may stand in a row or above it: a line of separators alone does not end them."""
     return _heads(row, sheet) or (row.empty and len(row.cells) > 1)
 
 
@@ -109,7 +109,7 @@ def _said(row: Row, settings: dict[str, str]) -> str:
 
 
 def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> tuple[list[Heading], int]:
-    """Headings of the numbers that begin at a row, and the line where they begin.
+    """Return headings of the numbers that begin at a row, and the line where they begin.
 
     Names and units are from the rows above it, or the format's own.
     """
@@ -137,7 +137,7 @@ def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> tuple[list[He
 
 
 def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
-    """The rows with several cells and no number right above some numbers, nearest first.
+    """Return the rows with several cells and no number right above some numbers, nearest first.
 
     A blank line may stand between them and the numbers, as in NETZSCH's exports, where they name quantities.
     """
@@ -153,7 +153,7 @@ def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
 
 
 def _names_and_units(above: Sequence[Row], enough: int) -> tuple[Row | None, Row | None]:
-    """The row of names and that of units among the rows above the numbers, nearest first."""
+    """Return the row of names and that of units among the rows above the numbers, nearest first."""
     units = next((row for row in above if _are_units(row)), None)
     names = next((row for row in above if row is not units and row.filled >= enough), None)
     if names is None and units is not None and units.filled >= enough:
@@ -162,7 +162,7 @@ def _names_and_units(above: Sequence[Row], enough: int) -> tuple[Row | None, Row
 
 
 def _are_units(row: Row) -> bool:
-    """Most cells are units, and none is a name: some instruments have units of their own, such as g.cm."""
+    """Return whether most cells are units: some instruments have units of their own, such as g.cm."""
     cells = [cell for cell in (row.cells[1:] if plain(row.cells[0]) in {"units", "unit"} else row.cells) if cell]
     return sum(map(is_unit, cells)) >= _MOST * len(cells)
 
@@ -170,7 +170,7 @@ def _are_units(row: Row) -> bool:
 def _aligned(
     names: Row, units: Row | None, first: Row, sheet: Sheet, default: Sequence[tuple[str, str]]
 ) -> list[Heading]:
-    """Headings over the columns of the numbers; a label before the names, such as `Interval data:`, is not one."""
+    """Return headings over the columns; a label before the names, such as `Interval data:`, is not one."""
     texts, given = list(names.cells), list(units.cells) if units else []
     if texts[0] == "#":
         texts = texts[1:]
@@ -195,7 +195,7 @@ def _refuse_ragged(rows: Sequence[Row], count: int, file: str) -> None:
 
 
 def _divided(block: RawBlock) -> list[RawBlock]:
-    """A table by the column that names its parts, such as Malvern's `Action Name` or NETZSCH's `Segment`."""
+    """Split a table by the column that names its parts, such as Malvern's `Action Name` or NETZSCH's `Segment`."""
     names = [plain(one.text) for one in block.headings]
     column = next((names.index(name) for name in known()["divided_by"] if name in names), None)
     if column is None:

@@ -40,7 +40,7 @@ class Run:
 
 
 def runs_of(blocks: Sequence[Block], settings: Settings) -> tuple[list[Run], bool]:
-    """All runs, exothermic positive, and whether the files have it so. Raises InputError."""
+    """Return all runs, exothermic positive, and whether the files have it so. Raises InputError."""
     runs = [run for block in blocks for run in _runs(block, settings)]
     if not runs:
         raise InputError("no part of the data is cooled, held or heated for long enough to be fitted")
@@ -74,7 +74,7 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
 
 
 def _at_new_times(block: Block, which: str) -> list[Array]:
-    """Time, temperature and heat; of rows whose rounded times are the same the first. Raises InputError."""
+    """Return time, temperature and heat; of rows whose rounded times are the same the first. Raises InputError."""
     columns = rows_of(block, ["time", "temperature", which])
     steps = np.diff(columns[0])
     if np.any(steps < 0.0):
@@ -91,7 +91,7 @@ def _mass(block: Block, settings: Settings) -> float:
 
 
 def _exothermic(runs: Sequence[Run]) -> float:
-    """+1 where the files count heat given off as positive: freezing gives it off, melting takes it up."""
+    """Return +1 where the files count heat given off as positive: freezing gives it off, melting takes it up."""
     votes = 0.0
     for run in runs:
         bent = run.heat - np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]])

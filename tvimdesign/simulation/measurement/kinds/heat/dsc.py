@@ -71,7 +71,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 
 def kinetics_of(values: Values, settings: Settings) -> crystallization.Kinetics:
-    """The kinetics with the values that are fitted; the melting time has no part in freezing."""
+    """Return the kinetics with the values that are fitted; the melting time has no part in freezing."""
     return crystallization.Kinetics(
         values.get("avrami_exponent", settings.get("avrami_exponent", 3.0)), values["crystallization_half_time"],
         settings["reference_temperature"], values["nucleation_constant"],
@@ -80,7 +80,7 @@ def kinetics_of(values: Values, settings: Settings) -> crystallization.Kinetics:
 
 
 def melting_of(values: Values, settings: Settings) -> polymer.Melting:
-    """The melting with the values that are fitted."""
+    """Return the melting with the values that are fitted."""
     return polymer.Melting(
         settings["specific_heat_solid"], settings["specific_heat_melt"], values["latent_heat"],
         values.get("melting_start", settings["melting_start"]),
@@ -90,7 +90,7 @@ def melting_of(values: Values, settings: Settings) -> polymer.Melting:
 
 
 def frozen(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
-    """Heat given off [W/kg] by a run that freezes."""
+    """Return the heat given off [W/kg] by a run that freezes."""
     steps, temperature = ca.DM(np.diff(run.time)), ca.DM(run.temperature)
     time = ca.DM((run.time - run.time[0]) / (run.time[-1] - run.time[0]))
     rate = 0.0 if run.way == "held" else run.rate
@@ -109,7 +109,7 @@ def frozen(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
 
 
 def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
-    """Heat given off [W/kg] by a run that melts: negative."""
+    """Return the heat given off [W/kg] by a run that melts: negative."""
     time = ca.DM((run.time - run.time[0]) / (run.time[-1] - run.time[0]))
 
     def predicted(values: Values) -> Any:
@@ -129,7 +129,7 @@ def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
 
 
 def _fraction_and_slope(psi: Any, kinetics: crystallization.Kinetics) -> tuple[Any, Any]:
-    """X(psi) and dX/dpsi, the exact derivative of the product's equation."""
+    """Return X(psi) and dX/dpsi, the exact derivative of the product's equation."""
     one, exponent = ca.SX.sym("psi"), ca.SX.sym("n")
     fraction = crystallization.solid_fraction(one, kinetics._replace(avrami_exponent=exponent))
     both = ca.Function("both", [one, exponent], [fraction, ca.gradient(fraction, one)])
@@ -139,7 +139,7 @@ def _fraction_and_slope(psi: Any, kinetics: crystallization.Kinetics) -> tuple[A
 
 
 def _window_start(runs: Sequence[Run]) -> list[Parameter]:
-    """Start and width of the window, from the half-height of the melting peak."""
+    """Return start and width of the window, from the half-height of the melting peak."""
     run = max(runs, key=lambda one: float(np.ptp(one.heat)))
     down = np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]]) - run.heat
     inside = run.temperature[down > 0.4 * np.max(down)]

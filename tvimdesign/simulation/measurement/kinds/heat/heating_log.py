@@ -67,7 +67,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 
 def _rows(resolved: ResolvedModule, settings: Settings) -> list[Input]:
-    """The inputs that are fitted: those named, or all of `heat_paths` that count for the module."""
+    """Return the inputs that are fitted: those named, or all of `heat_paths` that count for the module."""
     there = {row.name: row for row in resolved.table.inputs if row.record and row.record[0] == "heat_paths"}
     chosen = settings.get("fitted", "").replace(",", " ").split()
     for name in chosen:
@@ -83,7 +83,7 @@ def _has(resolved: ResolvedModule, feature: Feature) -> bool:
 
 
 def _log(block: Block) -> tuple[Array, Array, dict[str, Array]]:
-    """Time from zero, current, and the temperatures that are there, at most so many rows. Raises InputError."""
+    """Return time from zero, current, and the temperatures that are there, at most so many rows. Raises InputError."""
     places = [name for name in PLACES if name in block.columns]
     time, current, *seen = series_of(block, ["time", "current", *places])
     where = f"{block.place}"
@@ -97,7 +97,7 @@ def _log(block: Block) -> tuple[Array, Array, dict[str, Array]]:
 
 
 def _course(time: Array, current: Array, file: str) -> tuple[Course, Array]:
-    """What is gone through, and the rows of the log at its moments. Raises InputError for a second heating."""
+    """Return what is gone through, and the rows of the log at its moments. Raises InputError for a second heating."""
     on = current > _ON * np.max(current)
     last = int(np.flatnonzero(on)[-1]) + 1 if np.any(on) else 0
     first = int(np.argmax(on))
@@ -111,7 +111,7 @@ def _course(time: Array, current: Array, file: str) -> tuple[Course, Array]:
 
 
 def _crowded(first: int, last: int) -> Any:
-    """Rows from one to another, the denser the nearer the first: temperatures change most after the current has."""
+    """Return rows from one to another, the denser the nearer the first, as temperatures change most then."""
     return first + np.round(np.linspace(0.0, 1.0, _ROWS) ** 2 * (last - first)).astype(int)
 
 

@@ -38,7 +38,7 @@ class LoggedModule:
     """One module with some of its inputs left to be fitted."""
 
     def __init__(self, resolved: ResolvedModule, names: Sequence[str]) -> None:
-        """`names` are the inputs that are fitted; all others stay what the module has."""
+        """Take the names of the inputs that are fitted; all others stay what the module has."""
         study = resolved.study
         self._model = DeviceFunctions(resolved.table, resolved.values, resolved.points, study.solver.cells)
         self._names = list(names)
@@ -49,7 +49,7 @@ class LoggedModule:
         self._inputs = ca.Function("inputs", [self._fitted], [inputs])
 
     def temperatures(self, course: Course, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Temperature [K] by place, a column for the moments of a course; everything begins at the ambient one."""
+        """Return temperature [K] by place, a column for the moments of a course; all begins at the ambient one."""
         given = ca.vertcat(*(values[name] for name in self._names))
         heating, cooling = self._model.phases["softening"], self._model.phases["stiffening"]
         inputs, at = self._inputs(given), course.cooled_from
@@ -71,7 +71,7 @@ class LoggedModule:
         return phase.temperatures.map(count)(states, ca.DM(current).T, ca.repmat(inputs, 1, count))
 
     def _march(self, phase: PhaseFunctions, begin: Any, time: Array, current: Array, given: Any) -> Any:
-        """The states at the end of every interval."""
+        """Return the states at the end of every interval."""
         lengths = np.diff(time)
         steps = int(np.ceil(float(np.max(lengths)) / _LONGEST_STEP))
         interval = self._interval(phase, steps)

@@ -67,13 +67,13 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 
 def _two_currents(every: Sequence[Array]) -> bool:
-    """Whether the currents differ enough for three values to follow."""
+    """Return whether the currents differ enough for three values to follow."""
     current = np.concatenate(every)
     return bool(np.ptp(current) > _SPREAD * np.max(np.abs(current)))
 
 
 def cold_temperature(module: peltier.PeltierModule, current: Any, hot: Any, heat: Any, leak: float, air: float) -> Any:
-    """Temperature [K] of the cold face at which `cold_side_heat` is what is put in and leaks in, linear in it."""
+    """Return the cold face's temperature [K] at which `cold_side_heat` is what is put in and leaks in, linear in it."""
     at_zero = peltier.cold_side_heat(module, current, hot, 0.0)
     slope = peltier.cold_side_heat(module, current, hot, 1.0) - at_zero
     return (heat + leak * air - at_zero) / (slope + leak)
@@ -98,11 +98,11 @@ class _State(NamedTuple):
         return hot, cold_temperature(_module(values), current, hot, heat, self.leak, self.ambient)
 
     def faces(self, values: Values) -> Any:
-        """Temperatures of the hot faces, then of the cold ones [K]."""
+        """Return temperatures of the hot faces, then of the cold ones [K]."""
         return ca.vertcat(*self._both(values))
 
     def voltage(self, values: Values) -> Any:
-        """Voltages [V]."""
+        """Return the voltages [V]."""
         return peltier.voltage(_module(values), ca.DM(self.current), *self._both(values))
 
 
@@ -114,7 +114,7 @@ def _heat(block: Block, settings: Settings) -> Array:
 
 
 def _start(current: Array, voltage: Array, hot: Array, cold: Array) -> tuple[float, float, float]:
-    """S and R by lines, then K from the heat of the row with the largest difference."""
+    """Return S and R by lines, then K from the heat of the row with the largest difference."""
     table = np.column_stack([hot - cold, current])
     seebeck, resistance = np.abs(np.linalg.lstsq(table, voltage, rcond=None)[0])
     most = int(np.argmax(np.abs(hot - cold)))

@@ -53,7 +53,7 @@ class Turned(NamedTuple):
 
     @property
     def bends(self) -> bool:
-        """Whether the torque falls behind the line of its lower half."""
+        """True where the torque falls behind the line of its lower half."""
         stiffness, zero = self.line
         return bool(np.max(self.torque) < _BENDS * stiffness * (np.max(self.angle) - zero))
 
@@ -63,7 +63,7 @@ class Turned(NamedTuple):
         return float(np.max(self.torque))
 
     def channel(self) -> Channel:
-        """Its torque, and what it should be."""
+        """Return the channel of its torque."""
         angle = ca.DM(self.angle)
 
         def predicted(values: Values) -> Any:
@@ -103,7 +103,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 
 def torque_of(angle: Any, values: Values, zero: str = "zero_angle", *, bends: bool = True) -> Any:
-    """Torque [N*m] at each angle [rad]; of a joint that does not bend before it breaks, a straight line."""
+    """Return torque [N*m] at each angle [rad]; of a joint that does not bend before it breaks, a straight line."""
     straight = values["stiffness"] * (angle - values[zero])
     if not bends:
         return straight
@@ -112,7 +112,7 @@ def torque_of(angle: Any, values: Values, zero: str = "zero_angle", *, bends: bo
 
 
 def _turned(block: Block, end: str) -> Turned:
-    """Angle and torque, above zero where the torque is largest, up to the break. Raises InputError."""
+    """Return angle and torque, above zero where the torque is largest, up to the break. Raises InputError."""
     angle, torque = rows_of(block, ["angle", "torque"])
     sign = np.sign(torque[np.argmax(np.abs(torque))])
     angle, torque = sign * angle, sign * torque

@@ -45,7 +45,7 @@ _FARTHEST = 8.0
 
 
 def _factor(share: Any) -> Any:
-    """Of a value, from what the solver sees: its logarithm near one."""
+    """Return the factor of a value for the solver's number: its logarithm near one."""
     return np.exp(_FARTHEST * np.tanh(share / _FARTHEST))
 
 
@@ -68,7 +68,7 @@ class JointOfModule:
         return rows[first], rows[second]
 
     def _impedance(self, given: Mapping[str, Any]) -> tuple[Any, Any]:
-        """Stiffness [N*m/rad] and damping [N*m*s/rad] of the module with some inputs replaced."""
+        """Return stiffness [N*m/rad] and damping [N*m*s/rad] of the module with some inputs replaced."""
         point, table = _POINTS[self.state], self.resolved.table
         as_built = {**self.resolved.values, **given, f"frequency@{point}": self.omega / (2.0 * np.pi)}
         if self.state == FROZEN:
@@ -80,7 +80,7 @@ class JointOfModule:
         return springs + branch[0], branch[1] / self.omega
 
     def derived(self) -> list[Derived]:
-        """The two inputs that follow from `stiffness` and `damping`, with the derivatives of the implicit function."""
+        """Return the two inputs that follow from `stiffness` and `damping`, by the implicit function."""
         rows = self._explained
         starts = [float(self.resolved.values[row.name]) for row in rows]
         share, seen = ca.SX.sym("share", 2), ca.SX.sym("seen", 2)
@@ -100,7 +100,7 @@ class JointOfModule:
         ]  # fmt: skip
 
     def kept(self, fit: Fit) -> tuple[Fit, list[str]]:
-        """The fit without what is no value of this module, and what has to be said of it."""
+        """Drop values that the module cannot have from a fit; return notes on them too."""
         names = [row.name for row in self._explained]
         if not {*names} <= {one.name for one in fit.derived} or self._given_again(fit, names):
             return fit, []
@@ -111,7 +111,7 @@ class JointOfModule:
         ]
 
     def _given_again(self, fit: Fit, names: Sequence[str]) -> bool:
-        """Whether the module with the values found has the stiffness and damping that were measured."""
+        """Return whether the module with the values found has the stiffness and damping that were measured."""
         if not all(self._may_be(fit[name]) for name in names):
             return False
         there = np.array(self._impedance({name: fit.value(name) for name in names}), dtype=float)
@@ -123,7 +123,7 @@ class JointOfModule:
         return bool(np.isfinite(one.value) and row.lower <= one.value <= row.upper)
 
     def records(self, fit: Fit, *, inertia: bool) -> tuple[dict[str, Estimate], list[OtherRecord], list[str]]:
-        """Values of the joint's own record, records of other categories, and what has to be said of them."""
+        """Return values of the joint's own record, records of other categories, and notes on them."""
         own, others, notes = {}, [], []
         if inertia:
             own[_INERTIA] = fit["inertia"]
@@ -144,7 +144,7 @@ class JointOfModule:
         return own, others, notes
 
     def _pin_friction(self, torque: Estimate) -> tuple[Estimate | None, list[str]]:
-        """The coefficient at the pins: what the axial preload's wave spring rubs is taken off."""
+        """Return the coefficient at the pins: what the axial preload's wave spring rubs is taken off."""
         table, values = self.resolved.table, self.resolved.values
         names = ["pin_friction_torque", "preload_friction_torque"]
         of_one = table.evaluate({**values, _FRICTION: 1.0}, names)
@@ -155,7 +155,7 @@ class JointOfModule:
         return Estimate(_FRICTION, "1", "Friction of legs on pins", (torque.value - rest) / unit, low, high), []
 
     def notes(self) -> list[str]:
-        """What was taken for what."""
+        """Return notes on the assumptions."""
         said = [
             f"The module is that of {self.source.name}, {self.state}, at {self.omega / (2.0 * np.pi):.3g} Hz: what its "
             "sizes and other materials are off by counts as the values found."
@@ -167,7 +167,7 @@ class JointOfModule:
 
 
 def joint_of_module(settings: Settings, omega: float, amplitude: float) -> JointOfModule | None:
-    """The module that was measured, where the settings name one. Raises InputError for what lacks."""
+    """Return the module that was measured, where the settings name one. Raises InputError for what lacks."""
     if "study" not in settings:
         return None
     state = settings.get("state", "")
@@ -185,7 +185,7 @@ def joint_of_module(settings: Settings, omega: float, amplitude: float) -> Joint
 
 
 def with_records(fit: Fit, notes: Sequence[str], module: JointOfModule | None, *, inertia: bool) -> Measurement:
-    """A measurement of a joint with what follows for records; `inertia` says whether it was fitted."""
+    """Return a measurement of a joint with what follows for records; `inertia` says whether it was fitted."""
     if module is None:
         said = "Without --set study=... and --set state=... nothing but the inertia goes to a record."
         own = {_INERTIA: fit["inertia"]} if inertia else {}

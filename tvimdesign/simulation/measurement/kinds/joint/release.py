@@ -59,7 +59,7 @@ class Record(NamedTuple):
         return CORNER * self.size * np.pi / self.period
 
     def own(self) -> list[Parameter]:
-        """Its parameters."""
+        """Return its own parameters."""
         rest = float(np.median(self.angle[-max(len(self.angle) // 10, 3) :]))
         speed = (self.angle[1] - self.angle[0]) / (self.time[1] - self.time[0])
         sizes = (self.size, self.size, self.size / self.period)
@@ -72,7 +72,7 @@ class Record(NamedTuple):
         ]
 
     def channel(self, known: Values) -> Channel:
-        """Its angle, and what it should be."""
+        """Return the channel of its angle."""
         steps = int(np.clip(_STEPS_A_PERIOD * np.max(np.diff(self.time)) / self.period, _LEAST_STEPS, _MOST_STEPS))
 
         def predicted(values: Values) -> Any:
@@ -133,7 +133,7 @@ def _thinned_note(record: Record, block: Block) -> list[str]:
 
 
 def swing(time: Array, values: Values, steps: int, corner: float) -> Any:
-    """Angle [rad] at each time [s], from the angle and speed at the first."""
+    """Return angle [rad] at each time [s], from the angle and speed at the first."""
     state = ca.SX.sym("state", 2)
     step, constants = ca.SX.sym("step"), ca.SX.sym("constants", 5)
     inertia, damping, friction, stiffness, zero = ca.vertsplit(constants)
@@ -160,8 +160,7 @@ def swing(time: Array, values: Values, steps: int, corner: float) -> Any:
 
 
 def period_and_decay(time: Array, angle: Array) -> tuple[float, float]:
-    """Period [s] by the crossings of rest and decay [1/s] by the sizes of the halves; for a record that creeps, its
-    length."""
+    """Return period [s] by the crossings of rest and decay [1/s] by the sizes of halves; its length if it creeps."""
     rest = float(np.median(angle[-max(len(angle) // 10, 3) :]))
     away = angle - rest
     noise = 0.05 * np.max(np.abs(away))

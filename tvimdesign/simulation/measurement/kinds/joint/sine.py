@@ -54,7 +54,7 @@ class Sine(NamedTuple):
         return float(np.hypot(*self.start[1:3]))
 
     def parameters(self) -> list[Parameter]:
-        """The frequency and the harmonics of the true angle: of this measurement alone."""
+        """Return the frequency and the harmonics of the true angle: of this measurement alone."""
         shape = [
             Parameter(f"shape{self.end}_{i}", "deg", "Part of the angle", float(one), positive=False, scale=self.size,
                       nuisance=True)
@@ -64,7 +64,7 @@ class Sine(NamedTuple):
         return [omega, *shape]
 
     def course(self, values: Values) -> tuple[Any, Any, Any]:
-        """Angle [rad], speed and acceleration at every sample."""
+        """Return angle [rad], speed and acceleration at every sample."""
         omega, time = values[f"omega{self.end}"], ca.DM(self.time - self.time[0])
         shape = [values[f"shape{self.end}_{i}"] for i in range(len(self.start))]
         angle, speed, acceleration = shape[0], 0.0, 0.0
@@ -77,7 +77,7 @@ class Sine(NamedTuple):
         return angle, speed, acceleration
 
     def channels(self, known: Values) -> list[Channel]:
-        """Angle and torque with what they should be."""
+        """Return the channels of angle and torque."""
 
         def torque(values: Values) -> Any:
             joint = {**values, **known}
@@ -122,12 +122,12 @@ def _at_one_frequency(records: Sequence[Sine]) -> bool:
 
 
 def _quadrature(record: Sine, values: Values) -> Any:
-    """Loss stiffness [N*m/rad]: b omega, and 4 T_f/(pi A) of the friction's loop (Den Hartog)."""
+    """Return the loss stiffness [N*m/rad]: b omega, and 4 T_f/(pi A) of the friction's loop (Den Hartog)."""
     return values["damping"] * record.omega + 4.0 * values["friction"] / (np.pi * record.size)
 
 
 def _joint(records: Sequence[Sine], known: Values, *, together: bool) -> list[Parameter]:
-    """What all records share; starts by linear least squares of the torque. `together`: K and I are one."""
+    """Return the shared parameters, started by least squares of the torque. `together`: K and I are one."""
     table, torque = [], []
     for record in records:
         values = {f"omega{record.end}": record.omega}
@@ -175,7 +175,7 @@ def _harmonics(time: Array, omega: float) -> Array:
 
 
 def _frequency(time: Array, angle: Array) -> float:
-    """Angular frequency of the sine that fits best: by the crossings of the mean, then near it by least squares."""
+    """Return the frequency of the sine that fits best: by crossings of the mean, then near it by least squares."""
     away = angle - np.mean(angle)
     crossings = np.flatnonzero((away[1:] > 0.0) != (away[:-1] > 0.0))
     rough = np.pi * max(len(crossings), 1) / (time[-1] - time[0])

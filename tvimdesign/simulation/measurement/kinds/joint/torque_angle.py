@@ -58,7 +58,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 
 def direction(torque: Array) -> Array:
-    """+1 where the torque has risen to its value, -1 where it has fallen; the first goes as the second does."""
+    """Return +1 where the torque has risen to its value, -1 where it has fallen; the first goes as the second does."""
     change = np.sign(np.diff(torque))
     steps = np.concatenate([[0.0], change])
     for i in range(1, len(steps)):
@@ -68,12 +68,12 @@ def direction(torque: Array) -> Array:
 
 
 def angle_of(torque: Array, values: Values) -> Any:
-    """Angle [rad] at each torque [N*m] of a series in the order in which it was measured."""
+    """Return angle [rad] at each torque [N*m] of a series in the order in which it was measured."""
     return _angle(torque, direction(torque), np.sign(torque), values)
 
 
 def _angle(torque: Any, way: Any, side: Any, values: Values) -> Any:
-    """The same, with the ways of the motion and the sides that are touched: those of the load, but for the friction."""
+    """Return the angle for given ways of the motion and touched sides: those of the load, but for the friction."""
     turned = (torque - way * values.get("friction", 0.0)) / values["stiffness"]
     return values["zero_angle"] + turned + side * (0.5 * values.get("backlash", 0.0))
 
@@ -84,7 +84,7 @@ def _predicted(torque: Array) -> Callable[[Values], Any]:
 
 
 def _series(block: Block, settings: Settings) -> tuple[Array, Array]:
-    """Torque [N*m] and angle [rad] in the order of the file."""
+    """Return torque [N*m] and angle [rad] in the order of the file."""
     load = next(name for name in ("torque", "force", "mass") if name in block.columns)
     given, angle = rows_of(block, [load, "angle"])
     if load == "torque":
@@ -99,7 +99,7 @@ def _line(torque: Array, angle: Array) -> tuple[float, float]:
 
 
 def _modulus(settings: Settings) -> Derived:
-    """E of the wire, for which the springs together have the stiffness that was measured: N k w'^2 = K."""
+    """Return E of the wire, for which the springs together have the stiffness that was measured: N k w'^2 = K."""
     d, D, n = (required(settings, name, "for the modulus of the wire") for name in _SIZES)
     of_one = settings["spring_count"] * settings["transmission"] ** 2 * spring.rate(1.0, d, D, n)
     return Derived("youngs_modulus", "GPa", "Modulus of the wire", lambda values: values["stiffness"] / of_one)

@@ -66,13 +66,13 @@ def _sweep(block: Block) -> tuple[Array, Array, Array]:
 
 
 def _limit(strain: Array, fallen: Array) -> float:
-    """A start: by the first row that has lost a tenth, or the largest strain."""
+    """Return a start: by the first row that has lost a tenth, or the largest strain."""
     gone = np.flatnonzero(fallen < _SEEN)
     return float(0.7 * strain[gone[0]]) if len(gone) else float(strain[-1])
 
 
 def _phase(temperatures: Sequence[float], settings: Settings) -> tuple[str, list[str]]:
-    """The record's value that the limit is, by the phase at these temperatures."""
+    """Return the record's value that the limit is, by the phase at these temperatures."""
     if np.isnan(temperatures).any():
         return "", ["A file does not say its temperature: no record is written; --set temperature=... says it."]
     if min(temperatures) >= settings["melting_end"]:

@@ -85,7 +85,7 @@ class Melt(NamedTuple):
         return sum(len(curve.measured) for test in self.tests for curve in test.curves)
 
     def factor(self, values: Values, test: MeltTest) -> Any:
-        """Shift of the rates of a test: one, or one for each row of a ramp."""
+        """Return the shift of the rates of a test: one, or one for each row of a ramp."""
         if self.energy is not None and (test.ramp is not None or self._near(test) != self.reference):
             at = self._near(test) if test.ramp is None else test.ramp
             return polymer.arrhenius_shift(at, self.reference, values.get("flow_activation_energy", self.energy))
@@ -103,7 +103,7 @@ class Melt(NamedTuple):
 
 
 def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
-    """The spectrum of tests, all together. Raises InputError for what lacks."""
+    """Return the spectrum of tests, all together. Raises InputError for what lacks."""
     least = settings.get("least_temperature", 0.0)
     untold = [test for test in tests if np.isnan(test.temperature)]
     if untold and len(untold) < len(tests):
@@ -140,7 +140,7 @@ def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
 
 
 def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fit, list[str]]:
-    """The fit with so many modes, by Arrhenius' law where that describes the shifts, and what is to be said of them.
+    """Return the fit with so many modes, by Arrhenius' law where that describes the shifts, and notes on them.
 
     `first` is the fit with so many modes and free shifts, or with the melt's own energy.
     """
@@ -156,17 +156,17 @@ def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fi
 
 
 def shift_name(temperature: float) -> str:
-    """The name of a temperature's factor."""
+    """Return the name of a temperature's factor."""
     return f"shift_{temperature - ZERO_CELSIUS:.0f}".replace("-", "minus_")
 
 
 def guessed_shift(temperature: Any, reference: float) -> Any:
-    """Shift factor to start from."""
+    """Return the shift factor to start from."""
     return 1.0 if np.isnan(reference) else polymer.arrhenius_shift(temperature, reference, _USUAL_ENERGY)
 
 
 def _fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
-    """Modes up to which one more betters Schwarz's criterion, from one to `most`, and the fit with them.
+    """Return modes up to which one more betters Schwarz's criterion, from one to `most`, and the fit with them.
 
     Raises InputError where there are fewer values than one mode has parameters.
     """
@@ -185,12 +185,12 @@ def _fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
 
 
 def _criterion(found: BestFit, melt: Melt) -> float:
-    """Schwarz's criterion, less is better [Sch]."""
+    """Return Schwarz's criterion, less is better [Sch]."""
     return _misfit(found) + len(found.problem.parameters) * float(np.log(melt.values))
 
 
 def _misfit(found: BestFit) -> float:
-    """Sum of n ln(mean square of the residuals) over what errs alike."""
+    """Return the sum of n ln(mean square of the residuals) over what errs alike."""
     squares: dict[str, list[Any]] = {}
     for channel, predicted in zip(found.problem.channels, found.predicted(), strict=True):
         left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
@@ -200,7 +200,7 @@ def _misfit(found: BestFit) -> float:
 
 
 def _problem(melt: Melt, count: int) -> Problem:
-    """Spectrum of `count` modes and shifts."""
+    """Return the spectrum of `count` modes and shifts."""
     parameters = _modes(melt, count)
     parameters += [curve.own for test in melt.tests for curve in test.curves if curve.own]
     if melt.energy is None:
@@ -233,12 +233,12 @@ def _problem(melt: Melt, count: int) -> Problem:
 
 
 def modes_of(values: Values, count: int) -> list[tuple[Any, Any]]:
-    """The spectrum (time [s], modulus [Pa]), slowest mode first."""
+    """Return the spectrum (time [s], modulus [Pa]), slowest mode first."""
     return [(values[f"time_{i}"], values[f"modulus_{i}"]) for i in range(1, count + 1)]
 
 
 def _modes(melt: Melt, count: int) -> list[Parameter]:
-    """Starts: times evenly over the range of the rates, moduli from those nearest to one over each."""
+    """Return starts: times evenly over the range of the rates, moduli from those nearest to one over each."""
     shifts = [guessed_shift(test.temperature, melt.reference) for test in melt.tests]
     rates = np.concatenate([test.rates * shift for test, shift in zip(melt.tests, shifts, strict=True)])
     size = np.concatenate([test.sizes for test in melt.tests])
@@ -277,12 +277,12 @@ class Activation(NamedTuple):
 
     @property
     def describes(self) -> bool:
-        """Whether the law may stand for the factors."""
+        """True where the law describes the factors."""
         return self.energy > 0.0 and self.farthest < _FAR
 
 
 def arrhenius(shifts: Mapping[float, Estimate], reference: float) -> Activation:
-    """Energy by least squares of ln a_T over 1/T - 1/T_ref, through zero, weighted by the intervals."""
+    """Return the energy by least squares of ln a_T over 1/T - 1/T_ref, through zero, weighted by the intervals."""
     inverse = np.array([1.0 / one - 1.0 / reference for one in shifts])
     logs = np.array([np.log(one.value) for one in shifts.values()])
     halves = np.array([_half(one) for one in shifts.values()])
@@ -293,12 +293,12 @@ def arrhenius(shifts: Mapping[float, Estimate], reference: float) -> Activation:
 
 
 def _half(one: Estimate) -> float:
-    """Half the interval of a factor's logarithm."""
+    """Return half the interval of a factor's logarithm."""
     return 1.0 if one.low is None or one.high is None else 0.5 * float(np.log(one.high / one.low))
 
 
 def shift_note(found: Activation, shifts: Mapping[float, Estimate], reference: float) -> list[str]:
-    """The factors in a line, and whether the law describes them."""
+    """Return the factors in a line, and whether the law describes them."""
     table = ", ".join(f"{one - ZERO_CELSIUS:.0f} degC: {shift.value:.3g}" for one, shift in shifts.items())
     law = (
         f"Arrhenius' law with {found.energy / 1e3:.1f} kJ/mol describes them."
@@ -310,7 +310,7 @@ def shift_note(found: Activation, shifts: Mapping[float, Estimate], reference: f
 
 
 def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: Sequence[str]) -> Measurement:
-    """The measurement of a spectrum of `count` modes, in a record of `most`."""
+    """Return the measurement of a spectrum of `count` modes, in a record of `most`."""
     values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
     if any(one.name == "flow_activation_energy" for one in best.parameters):
         values["flow_activation_energy"] = best["flow_activation_energy"]
@@ -322,7 +322,7 @@ def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: S
 
 
 def split_to(modes: Sequence[tuple[float, float]], count: int) -> list[tuple[float, float]]:
-    """The same spectrum in `count` rows: the strongest modes split in two of half the modulus, times falling."""
+    """Return the same spectrum in `count` rows: the strongest modes split in two of half the modulus, times falling."""
     rows = list(modes)
     while len(rows) < count:
         at = max(range(len(rows)), key=lambda i: rows[i][0] * rows[i][1])
