@@ -15,19 +15,19 @@ EVALUATED = {"coil_count": [3.0, 3.5], "wire_diameter": ["2 mm", "2.4 mm"]}
 
 
 @pytest.fixture(scope="module")
-def optimised(study: tvim.Study) -> tvim.Sweep:
+def optimised(study: tvim.Study) -> tvim.Sweep[tvim.Study]:
     # Where on its circle the coil ends decides how much leg and tang bend, so that each turn of the coil count has
     # optima of its own; a cell that begins at its neighbour's stays with that kind. Here all have the range of one end.
     return study.vary(coil_count=[3, 3.1]).sweep(pcl_thickness=tvim.linspace("0.6 mm", "0.8 mm", 3), progress=False)
 
 
 @pytest.fixture(scope="module")
-def grid() -> tvim.Sweep:
+def grid() -> tvim.Sweep[tvim.Study]:
     return tvim.example("paper_as_published").sweep(EVALUATED, progress=False)
 
 
 @pytest.mark.slow
-def test_a_cell_at_the_optimum_s_own_value_is_the_optimum(optimised: tvim.Sweep, result: tvim.Result) -> None:
+def test_cell_at_the_optimum_is_the_optimum(optimised: tvim.Sweep[tvim.Study], result: tvim.Result) -> None:
     assert result["pcl_thickness"].value == pytest.approx(0.6, rel=1e-6)  # the end of its range, where it binds
     # Mass and volume trade along a flat valley there, so what is minimised says whether it is the same optimum.
     reference, weights = result.design.solution["reference"], result.design.study["minimize"]
@@ -37,7 +37,7 @@ def test_a_cell_at_the_optimum_s_own_value_is_the_optimum(optimised: tvim.Sweep,
 
 
 @pytest.mark.slow
-def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Sweep) -> None:
+def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Sweep[tvim.Study]) -> None:
     assert optimised.warm_solves == 3
     cell = optimised[2]
     assert cell.result is not None
@@ -50,7 +50,7 @@ def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Swee
         assert own <= others * (1 + 1e-5)
 
 
-def test_evaluated_cells_are_those_of_single_evaluations(grid: tvim.Sweep) -> None:
+def test_evaluated_cells_are_those_of_single_evaluations(grid: tvim.Sweep[tvim.Study]) -> None:
     table = grid.table("spring_stiffness", "module_mass")
     assert table[["coil_count", "wire_diameter"]].to_numpy().tolist() == [
         [pytest.approx(n), pytest.approx(d)] for n in (3.0, 3.5) for d in (2.0, 2.4)
@@ -60,13 +60,13 @@ def test_evaluated_cells_are_those_of_single_evaluations(grid: tvim.Sweep) -> No
     assert grid.warm_solves == 0
 
 
-def test_stiffness_goes_with_the_fourth_power_of_the_wire_over_the_coils(grid: tvim.Sweep) -> None:
+def test_stiffness_goes_with_the_fourth_power_of_the_wire_over_the_coils(grid: tvim.Sweep[tvim.Study]) -> None:
     table = grid.table("spring_stiffness")
     shape = table.wire_diameter**4 / table.coil_count
     assert np.ptp(table.spring_stiffness / shape) < 1e-9 * float((table.spring_stiffness / shape).iloc[0])
 
 
-def test_units_stand_beside_the_table(grid: tvim.Sweep) -> None:
+def test_units_stand_beside_the_table(grid: tvim.Sweep[tvim.Study]) -> None:
     units = grid.table("module_mass").attrs["units"]
     assert units == {"coil_count": "1", "wire_diameter": "mm", "module_mass": "g"}
     assert "wire_diameter [mm]" in grid._repr_html_()
@@ -114,7 +114,7 @@ def test_what_cannot_be_swept_is_refused_before_anything_is_solved(
         study.sweep(axes, progress=False)
 
 
-def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid: tvim.Sweep) -> None:
+def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid: tvim.Sweep[tvim.Study]) -> None:
     (axes,) = grid.plot("spring_stiffness").axes
     assert len(axes.lines) == 2
     assert axes.get_xlabel() == "coil count"
@@ -131,7 +131,7 @@ def test_the_study_s_own_section_is_swept_and_a_sample_lies_between_its_ends() -
 
 
 @pytest.mark.gate
-def test_workers_and_a_folder_give_the_table_of_this_process(grid: tvim.Sweep, tmp_path: Path) -> None:
+def test_workers_and_a_folder_give_the_table_of_this_process(grid: tvim.Sweep[tvim.Study], tmp_path: Path) -> None:
     study = tvim.example("paper_as_published")
     outputs = ["spring_stiffness"]
     kept = study.sweep(EVALUATED, outputs=outputs, out=tmp_path / "sweep", workers=2, progress=False)

@@ -216,8 +216,8 @@ class Result:
 
         Plots that cannot be drawn are a warning.
         """
+        from tvimdesign.report.command import noting
         from tvimdesign.report.figures.plot_process import PlotProcess
-        from tvimdesign.report.output.partly_done import noting
         from tvimdesign.report.run.first_screen.run_screen import write_summary
         from tvimdesign.report.run.first_screen.screen import Told
         from tvimdesign.report.run.run_page.run_page import write_run_page

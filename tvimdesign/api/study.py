@@ -200,7 +200,7 @@ class Study:
         overwrite: bool = False,
         progress: bool = True,
         **more: Any,
-    ) -> Sweep:
+    ) -> Sweep[Study]:
         """Answer the study at every cell of a grid or a sample; each value is set as `set` does.
 
         An axis is a list of values, or a range `{"from": "0.6 mm", "to": "2 mm", "count": 20}`. Without axes the
@@ -226,7 +226,7 @@ class Study:
             tree = self._changed("sweep", "", {"sweep": given})._tree
         else:
             tree = self._changed("sweep", "sweep.", given)._tree if self._tree.section("sweep") else self._tree
-        return swept(tree, progress, out, Where(workers, scheduler), overwrite=overwrite)
+        return swept(tree, Study._of, progress, out, Where(workers, scheduler), overwrite=overwrite)
 
     # --- what it looks like ---
 

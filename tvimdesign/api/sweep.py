@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from tvimdesign.api import html
 from tvimdesign.api.result import Result
@@ -32,27 +32,25 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from tvimdesign.api.study import Study
-
+StudyT = TypeVar("StudyT")
+"""The study of Python users, which makes sweeps."""
 _WITH_DESIGN = {"evaluated", "optimal", "above_rating", "below_yield"}
 
 
 @dataclass(frozen=True)
-class Cell:
+class Cell(Generic[StudyT]):
     """One study of a sweep: where it stands on the axes, how it ended, and why where it has no design."""
 
     at: Mapping[str, str]
     status: str
     reason: str
-    _sweep: Sweep = field(repr=False)
+    _sweep: Sweep[StudyT] = field(repr=False)
     _texts: tuple[str, ...] = field(repr=False)
 
     @property
-    def study(self) -> Study:
-        """The cell's own study; run on its own it is searched from every start."""
-        from tvimdesign.api.study import Study
-
-        return Study._of(self._sweep.plan.cell_tree(self._texts))
+    def study(self) -> StudyT:
+        """Return the cell's own study; run on its own, it is searched from every start."""
+        return self._sweep.study_of(self._sweep.plan.cell_tree(self._texts))
 
     @cached_property
     def result(self) -> Result | None:
@@ -61,12 +59,14 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Sweep:
+class Sweep(Generic[StudyT]):
     """Every cell in its order: of a grid the last axis changes fastest."""
 
     plan: SweepPlan
     kept: Sequence[Kept]
     """What each cell came to, in SI."""
+    study_of: Callable[[StudyTree], StudyT]
+    """Makes the study of a cell."""
     folder: Path | None = None
     """Where it is written; None where it is not."""
 
@@ -138,13 +138,13 @@ class Sweep:
         """Count of cells."""
         return len(self.kept)
 
-    def __getitem__(self, number: int) -> Cell:
+    def __getitem__(self, number: int) -> Cell[StudyT]:
         """A cell by its number, from 0."""
         answer, texts = self.kept[number].answer, self.plan.points.texts(range(len(self))[number])
         names = [axis.name for axis in self.plan.axes]
         return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 
-    def __iter__(self) -> Iterator[Cell]:
+    def __iter__(self) -> Iterator[Cell[StudyT]]:
         """Every cell."""
         return (self[number] for number in range(len(self)))
 
@@ -167,8 +167,9 @@ def _label(name: str, unit: str) -> str:
 
 
 def swept(
-    tree: StudyTree, progress: bool, out: str | os.PathLike[str] | None, where: Where, *, overwrite: bool
-) -> Sweep:
+    tree: StudyTree, study_of: Callable[[StudyTree], StudyT], progress: bool, out: str | os.PathLike[str] | None,
+    where: Where, *, overwrite: bool,
+) -> Sweep[StudyT]:  # fmt: skip
     """Answer a study at every cell of its sweep: here, or by workers that keep what they find in the folder `out`.
 
     Raises InputError for no sweep, StudyError for what cannot be set.
@@ -176,11 +177,11 @@ def swept(
     plan = plan_of(tree)
     with shown_progress(progress) as say:
         if out is None:
-            return Sweep(plan, _here(plan, say))
+            return Sweep(plan, _here(plan, say), study_of)
         sweep_folder(plan, Path(out), where, say, overwrite=overwrite, resume=not overwrite, plots=False)
         keys = CellKeys(plan)
         every = (keys.key(plan.points.texts(number)) for number in range(plan.count))
-        return Sweep(plan, list(Shards(Path(out), plan.columns).kept(every)), Path(out))
+        return Sweep(plan, list(Shards(Path(out), plan.columns).kept(every)), study_of, Path(out))
 
 
 def _here(plan: SweepPlan, say: Any) -> list[Kept]:

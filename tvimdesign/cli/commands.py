@@ -9,14 +9,8 @@ import typer
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cli import completions
-from tvimdesign.cli.compare_command import compare
-from tvimdesign.cli.explore_command import explore
-from tvimdesign.cli.folders import default_folder, name_of
-from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, ResultOfRun, Settings, StudyFile, StudyOrDesign
-from tvimdesign.cli.parts_command import cad
-from tvimdesign.cli.sweep_command import sweep
-from tvimdesign.cli.tolerate_command import tolerate
-from tvimdesign.report.virtual_tests import TESTS
+from tvimdesign.cli.design_commands import compare, explore, robot, simulate, sweep, tolerate, verify
+from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, Settings, StudyFile, default_folder, name_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -112,9 +106,16 @@ def check(
     json: AsJson = False,
 ) -> None:
     """Read a study and say everything that is wrong with it, limits that cannot hold together included."""
+    if deep:
+        from tvimdesign.report.run.diagnostics import check_deep
+        from tvimdesign.study import read_tree
+        from tvimdesign.study.tree import tree_of_file
+
+        check_deep(read_tree(tree_of_file(study, settings or ())), as_json=json)
+        return
     from tvimdesign.report.run.check_study import check_study
 
-    check_study(study, settings or (), deep=deep, as_json=json)
+    check_study(study, settings or (), as_json=json)
 
 
 @app.command()
@@ -153,66 +154,39 @@ def schema() -> None:
     print_schema()
 
 
-app.command()(cad)
-
-
 @app.command()
-def robot(
-    result: ResultOfRun,
-    timestep: Annotated[
-        str,
-        typer.Option(
-            "--timestep", metavar="TIME", help="Time step of the simulation, such as '0.5 ms'; chosen unless given."
+def cad(
+    design: Annotated[
+        Path,
+        typer.Argument(
+            metavar="DESIGN|STUDY|SWEEP",
+            help="design.json of a run, a study file, or with --cells the folder of a sweep.",
+            autocompletion=completions.designs_and_studies,
         ),
+    ],
+    cells: Annotated[
+        str, typer.Option("--cells", metavar="CELLS", help="Cells of the sweep, such as 3,7-9, or best.")
     ] = "",
     out: Out = None,
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Write the joint for simulators (MJCF, URDF, FMU, meshes, tables) into results/<name>-robot."""
-    from tvimdesign.base.units import parse_quantity
-    from tvimdesign.report.robot.robot_files import write_robot
+    """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
+    if cells:
+        from tvimdesign.report.sweep.cell_parts import make_parts_of_cells
 
-    folder = out or Path("results") / f"{name_of(result)}-robot"
-    step = parse_quantity(timestep, "s") if timestep else None
-    write_robot(result, folder, step, overwrite=overwrite, as_json=json)
+        folder = out or design.parent / f"{name_of(design)}-cad"
+        make_parts_of_cells(design, folder, cells, overwrite=overwrite, as_json=json)
+        return
+    from tvimdesign.report.run.run_study import make_parts
 
-
-@app.command()
-def simulate(
-    study: StudyOrDesign,
-    test: Annotated[
-        str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=completions.tests)
-    ] = "",
-    out: Out = None,
-    overwrite: Overwrite = False,
-    settings: Settings = None,
-    json: AsJson = False,
-) -> None:
-    """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
-    from tvimdesign.report.simulate_study import simulate_study
-
-    folder = out or Path("results") / f"{name_of(study)}-{test}"
-    simulate_study(study, test, folder, overwrite=overwrite, as_json=json, settings=settings or ())
+    make_parts(design, out or default_folder(design), overwrite=overwrite, as_json=json)
 
 
+app.command()(robot)
+app.command()(simulate)
 app.command()(tolerate)
-
-
-@app.command()
-def verify(
-    result: ResultOfRun,
-    fe_python: FePython = "",
-    pictures: Annotated[bool, typer.Option("--pictures/--no-pictures", help="Draw the stress on the parts.")] = True,
-    out: Out = None,
-    overwrite: Overwrite = False,
-    json: AsJson = False,
-) -> None:
-    """Hold a design's model against finite elements on its exported parts, into results/<name>-verified."""
-    from tvimdesign.report.verify.verify_design import verify_design
-
-    folder = out or Path("results") / f"{name_of(result)}-verified"
-    verify_design(result, folder, fe_python, overwrite=overwrite, pictures=pictures, as_json=json)
+app.command()(verify)
 
 
 @app.command()

@@ -1,4 +1,4 @@
-"""Arguments and options that several commands have."""
+"""Arguments and options that several commands have, and where their results go by default."""
 
 from __future__ import annotations
 
@@ -45,3 +45,35 @@ FePython = Annotated[
     str,
     typer.Option("--fe-python", metavar="PATH", help="A Python that has netgen and ngsolve; this one unless given."),
 ]
+Workers = Annotated[int, typer.Option("--workers", min=0, help="Processes here; as many as processors unless given.")]
+Shard = Annotated[
+    str,
+    typer.Option(
+        "--shard", metavar="I/N", help="Compute part I of N: a job of a batch system's array; all share the folder."
+    ),
+]
+Scheduler = Annotated[
+    str, typer.Option("--scheduler", metavar="ADDRESS", help="Compute on a dask cluster, such as tcp://host:8786.")
+]
+Resume = Annotated[
+    bool, typer.Option("--resume", help="Go on in that folder: cells that are there are not computed again.")
+]
+
+
+def default_folder(source: Path) -> Path:
+    """results/<study>; for a design a folder of its own beside the run's, with -cad after the design's name."""
+    if source.suffix != ".json":
+        return Path("results") / source.stem
+    folder = source.resolve().parent
+    beside = folder.parent.parent if folder.name == "front" and source.name != "design.json" else folder.parent
+    return beside / f"{name_of(source)}-cad"
+
+
+def name_of(source: Path) -> str:
+    """What folders of a study or a design are named by: <run>, or <run>-front-03 of one of several in a folder."""
+    if source.suffix != ".json":
+        return source.resolve().name if source.is_dir() else source.stem
+    folder, own = source.resolve().parent, source.name.removesuffix(".json").removesuffix(".design")
+    if own == "design":
+        return folder.name
+    return f"{folder.parent.name}-front-{own}" if folder.name == "front" else f"{folder.name}-{own}"

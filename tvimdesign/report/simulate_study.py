@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,18 +11,17 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
-from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
-from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.page.blocks import Block, Drawn, Page, Points, Section
+from tvimdesign.report.command import Command, design_file
+from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.number_entry import finite
 from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
-from tvimdesign.report.output.progress import progress_output, wide_console
+from tvimdesign.report.output.page_sections import grid_of, made_by_words, study_section, there, versions_section
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import curves_csv, number
-from tvimdesign.report.trial_page import trial_page
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
@@ -38,45 +35,28 @@ def simulate_study(
 ) -> None:
     """Test a study's module and write the folder. Raises InputError, and TvimError once all but the figure is done."""
     do = find_test(test)
-    source = path / "design.json" if path.is_dir() else path
+    source = design_file(path)
     resolved, module = _rig(source, settings)
     study = resolved.study
-    failures: list[TvimError] = []
-    with ExitStack() as stack:
-        folder = stack.enter_context(ResultsFolder(out, overwrite))
-        progress = stack.enter_context(progress_output())
-        drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
-        progress(f"{test}: testing {study.name}")
+    with Command(out, overwrite=overwrite, as_json=as_json, plots=study.write.plots) as command:
+        folder = command.folder
+        command.progress(f"{test}: testing {study.name}")
         trial = do(resolved)
         trial = replace(trial, notes=(*module, *trial.notes))
-        if drawing:
-            figure = Drawing(trial.test, "virtual_test_figures.trial", figure_data(trial))
-            drawing.begin(folder.path, [figure], study.name)
+        figure = figure_data(trial)
+        command.begin_plots([Drawing(trial.test, "virtual_test_figures.trial", figure)], study.name)
         reported = findings(trial)
         tested = source.read_bytes() if source.suffix == ".json" else study_file(tree_of_file(source, settings))
         folder.write(f"tested{source.suffix}", tested)
         folder.write_json("findings.json", reported)
         for sheet in trial.sheets:
             folder.write(f"{sheet.name}.csv", sheet_csv(sheet))
-        if drawing:
-            progress("drawing the figure")
-            with noting(failures):
-                drawing.finish()
+        command.finish_plots()
         text = tested.decode() if isinstance(tested, bytes) else tested
-        page = trial_page(folder, study.name, trial, findings_table(trial), figure_data(trial), text)
-        write_page(folder, page)
-        progress("")
-        status = PARTLY_DONE if failures else "tested"
-        folder.finish(status, {"tested": source, **_records(resolved)}, study.model_dump(mode="json"))
-        if as_json:
-            print(json.dumps({**reported, "folder": str(out), **not_done(failures)}, indent=2, allow_nan=False))
-        else:
-            _print_trial(trial, wide_console())
-            wide_console().print(
-                f"\nCurves, figure and findings are in [bold]{escape(str(out))}[/bold]", soft_wrap=True
-            )
-    if failures:
-        raise done_in_part(failures)
+        page = _page(folder, study.name, trial, figure, text)
+        inputs = {"tested": source, **_records(resolved)}
+        command.finish("tested", inputs, study.model_dump(mode="json"), page=page)
+    command.report(reported, lambda console: _print_trial(trial, console), "Curves, figure and findings are")
 
 
 def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[str]]:
@@ -176,6 +156,18 @@ def _line(line: PlottedLine, sheet: CurveTable) -> dict[str, Any]:
         "label": line.label,
         "dashed": line.dashed,
     }
+
+
+def _page(folder: ResultsFolder, name: str, trial: Trial, figure: Mapping[str, Any], study: str) -> Page:
+    """Return the page of one test of the module of that name; `figure` is what its figure is drawn from."""
+    drawn = Drawn("curves", "lines.js", trial.title, figure, libraries=["echarts"])
+    files = {f"{sheet.name}.csv": f"{sheet.name.replace('_', ' ')} as CSV" for sheet in trial.sheets}
+    sections = [Section("curves", "Curves", [drawn]), study_section(study), versions_section(folder)]
+    first: list[Block] = [grid_of(findings_table(trial)), Points(trial.notes)]
+    return Page(
+        f"{name}: {trial.title}", f"virtual test {trial.test}", "TESTED", "", first, None, sections,
+        made_by_words(folder), there(folder, files),
+    )  # fmt: skip
 
 
 def _print_trial(trial: Trial, console: Console) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 from rich.markup import escape
 
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
+from tvimdesign.report.command import PARTLY_DONE
 from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.compare.comparison_page import comparison_page
@@ -20,7 +21,6 @@ from tvimdesign.report.compare.comparison_summary import print_comparison, summa
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.figures.plot_process import PlotProcess
 from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.partly_done import PARTLY_DONE
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.check_study import refuse_what_cannot_be

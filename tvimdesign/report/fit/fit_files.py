@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table as Grid
 
-from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.command import Command
+from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.fit.fit_data import figure_data, fit_data, residuals_csv
-from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
-from tvimdesign.report.output.progress import progress_output, wide_console
-from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.progress import wide_console
+from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import number
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
@@ -35,33 +33,21 @@ def fit_files(
     """Fit files; write the folder and the record. Raises InputError, and TvimError once all but the figure is done."""
     given = _given(settings)
     column_map = read_column_map(columns) if columns else None
-    failures: list[TvimError] = []
-    with ExitStack() as stack:
-        folder = stack.enter_context(ResultsFolder(out, overwrite))
-        progress = stack.enter_context(progress_output())
-        drawing = stack.enter_context(PlotProcess()) if plots else None
-        progress("fitting")
+    with Command(out, overwrite=overwrite, as_json=as_json, plots=plots) as command:
+        folder = command.folder
+        command.progress("fitting")
         measured = measure_files(paths, kind, given, column_map)
-        if drawing:
-            drawing.begin(folder.path, [Drawing("fit", "fit_figure.fit", figure_data(measured))], _named(paths))
+        names = ", ".join(path.name for path in paths)
+        command.begin_plots([Drawing("fit", "fit_figure.fit", figure_data(measured))], names)
         written = write_records(measured, catalog, record, based_on, overwrite=overwrite) if record else {}
         named = {choice: str(path) for choice, path in written.items()}
         first = next(iter(named.values()), None)
         data = fit_data(measured) | {"settings": dict(given), "record": first, "records": named}
         folder.write_json("fit.json", data)
         folder.write("residuals.csv", residuals_csv(measured.measurement.fit))
-        if drawing:
-            progress("drawing the figure")
-            with noting(failures):
-                drawing.finish()
-        progress("")
-        folder.finish(PARTLY_DONE if failures else "fitted", {path.name: path for path in paths}, {})
-    if as_json:
-        print(json.dumps({**data, "folder": str(out), **not_done(failures)}, indent=2, allow_nan=False))
-    else:
-        _print(measured, written, out, wide_console())
-    if failures:
-        raise done_in_part(failures)
+        command.finish_plots()
+        command.finish("fitted", {path.name: path for path in paths}, {})
+    command.report(data, lambda console: _print(measured, written, console), "Values, residuals and figure are")
 
 
 def list_kinds(as_json: bool) -> None:
@@ -90,28 +76,22 @@ def _given(settings: Sequence[str]) -> Mapping[str, str]:
     return found
 
 
-def _named(paths: Sequence[Path]) -> str:
-    return ", ".join(path.name for path in paths)
-
-
-def _print(measured: Measured, written: Mapping[str, Path], out: Path, console: Console) -> None:
+def _print(measured: Measured, written: Mapping[str, Path], console: Console) -> None:
     found = measured.measurement
     for line in measured.read_for_the_fit(_MOST_TABLES):
         console.print(escape(line), style="dim", soft_wrap=True)
-    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
-    for name in ("parameter", "value", "95 % from", "to", "unit", "meaning"):
-        grid.add_column(name, justify="right" if name in {"value", "95 % from", "to"} else "left", overflow="fold")
+    rows = []
     for one in (*found.fit.parameters, *found.fit.derived):
         ends = ["open" if end is None else number(from_si(end, one.unit)) for end in (one.low, one.high)]
-        grid.add_row(one.name, number(from_si(one.value, one.unit)), *ends, pretty(one.unit), one.meaning)
-    console.print(grid)
+        rows.append((one.name, number(from_si(one.value, one.unit)), *ends, pretty(one.unit), one.meaning))
+    heads = ("parameter", "value", "95 % from", "to", "unit", "meaning")
+    print_table(SummaryTable("", heads, rows, (1, 2, 3)), console)
     for line in (*found.notes, *found.fit.words):
         console.print(escape(line), soft_wrap=True)
     for i, path in enumerate(written.values()):
         console.print(f"{'' if i else chr(10)}Record: [bold]{escape(str(path))}[/bold]", soft_wrap=True)
     if written:
         console.print(escape(_use(written)), soft_wrap=True)
-    console.print(f"Values, residuals and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
 
 
 def _use(written: Mapping[str, Path]) -> str:

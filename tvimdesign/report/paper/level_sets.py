@@ -18,8 +18,8 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si, pretty
+from tvimdesign.report.command import PARTLY_DONE, done_in_part, noting
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, noting
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.paper import paper_case

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table as Grid
 
+from tvimdesign.report.command import Command, design_file
 from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.progress import Progress, progress_output, wide_console
+from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.report.robot import state_tables
 from tvimdesign.report.robot.fmu.fmu_file import WrittenFmu, write_fmu
@@ -27,16 +27,13 @@ from tvimdesign.study.design import Design, read_design, write_design
 
 def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, as_json: bool) -> None:
     """Write the joint of a design.json, or of the folder of a run. Raises InputError, GeometryError."""
-    source = path / "design.json" if path.is_dir() else path
+    source = design_file(path)
     design = read_design(source)
-    with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
-        model, fmu = write_models(design, folder, step, progress)
-        progress("")
-        folder.finish("written", {"design": source}, design.study)
-        if as_json:
-            print(json.dumps({**plain_model(model, fmu), "folder": str(out)}, indent=2, allow_nan=False))
-        else:
-            _print_model(model, fmu, out, wide_console())
+    with Command(out, overwrite=overwrite, as_json=as_json) as command:
+        model, fmu = write_models(design, command.folder, step, command.progress)
+        command.finish("written", {"design": source}, design.study)
+    data = plain_model(model, fmu)
+    command.report(data, lambda console: _print_model(model, fmu, console), "MJCF, URDF, FMU, meshes and tables are")
 
 
 def write_models(
@@ -94,16 +91,14 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
     }
 
 
-def _print_model(model: JointModel, fmu: WrittenFmu, out: Path, console: Console) -> None:
+def _print_model(model: JointModel, fmu: WrittenFmu, console: Console) -> None:
     console.print(f"[bold]{escape(model.name)}[/bold]: joint for simulators, time step {number(1e3 * model.step)} ms")
-    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
-    for column in ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz"):
-        grid.add_column(column, justify="left" if column == "state" else "right")
+    rows = []
     for row, state in zip(zip(*state_tables.states(model).values(), strict=True), model.states, strict=True):
         temperature, frequency, stiffness, damping = row[:4]
-        grid.add_row(state.point, number(temperature), number(stiffness), number(damping), number(frequency))
-    console.print(grid)
+        rows.append((state.point, *map(number, (temperature, stiffness, damping, frequency))))
+    heads = ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz")
+    print_table(SummaryTable("", heads, rows, (1, 2, 3, 4)), console)
     for sentence in model.left_out:
         console.print(f"[dim]{escape(sentence)}[/dim]")
     console.print(escape(fmu.told), soft_wrap=True)
-    console.print(f"\nMJCF, URDF, FMU, meshes and tables are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)

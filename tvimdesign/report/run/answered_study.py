@@ -10,8 +10,8 @@ from typing import Any, cast
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.device import Table
+from tvimdesign.report.command import noting
 from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.partly_done import noting
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.remaining_time import duration
 from tvimdesign.report.output.results_folder import ResultsFolder

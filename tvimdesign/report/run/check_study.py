@@ -13,18 +13,10 @@ from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import swept_cells
 
 
-def check_study(path: Path, settings: Sequence[str] = (), *, deep: bool, as_json: bool) -> None:
-    """Print what a study asks, or what is wrong with it; with `deep` what its problem is like for the solver.
-
-    Raises StudyError with every mistake, and what `refuse_what_cannot_be` raises.
-    """
+def check_study(path: Path, settings: Sequence[str] = (), *, as_json: bool) -> None:
+    """Print what a study asks. Raises StudyError with every mistake, and what `refuse_what_cannot_be` raises."""
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
-    if deep:
-        from tvimdesign.report.run.diagnostics import check_deep
-
-        check_deep(study, as_json=as_json)
-        return
     refuse_what_cannot_be(study)
     cells = swept_cells(tree)
     print(study.model_dump_json(indent=2) if as_json else describe(study))

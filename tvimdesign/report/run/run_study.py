@@ -20,7 +20,7 @@ from tvimdesign.base.errors import (
     TvimError,
 )
 from tvimdesign.base.extras import how_to_install
-from tvimdesign.report.output.partly_done import done_in_part, noting
+from tvimdesign.report.command import done_in_part, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.study import read_tree

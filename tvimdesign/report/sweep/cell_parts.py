@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.base.errors import GeometryError, InputError, TvimError
 from tvimdesign.base.extras import require_extra
+from tvimdesign.report.command import Command
 from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.progress import Progress, progress_output, wide_console
+from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.parts_of_design import make_parts_of
 from tvimdesign.report.sweep.swept_cells import CellFound, SweptCells, open_cells
@@ -69,13 +70,13 @@ def make_parts_of_cells(source: Path, out: Path, words: str, *, overwrite: bool,
     require_extra("cad", "parts")
     cells = open_cells(source)
     studies = {number: _evaluated(cells.found(number)) for number in chosen_cells(words, cells)}
-    with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
-        rows = [_made(folder, number, study, progress) for number, study in studies.items()]
-        folder.write("parts.csv", _csv(rows))
+    with Command(out, overwrite=overwrite, as_json=as_json) as command:
+        rows = [_made(command.folder, number, study, command.progress) for number, study in studies.items()]
+        command.folder.write("parts.csv", _csv(rows))
         reported: dict[str, Any] = {**head(), "sweep": str(source), "cells": rows}
-        folder.write_json("parts.json", reported)
-        folder.finish("parts made", {"study": source / "study.yaml"}, {})
-    _say(reported, out, as_json=as_json)
+        command.folder.write_json("parts.json", reported)
+        command.finish("parts made", {"study": source / "study.yaml"}, {})
+    command.report(reported, lambda console: _print(rows, console), "Parts are")
     failed = [row for row in rows if row["status"] != _MADE]
     if failed:
         lines = [f"  cell {row['cell']}: {row['status'].replace('_', ' ')}: {row['reason']}" for row in failed]
@@ -107,12 +108,7 @@ def _csv(rows: Sequence[dict[str, Any]]) -> str:
     return text.getvalue()
 
 
-def _say(reported: dict[str, Any], out: Path, *, as_json: bool) -> None:
-    if as_json:
-        print(json.dumps({**reported, "folder": str(out)}, indent=2, allow_nan=False))
-        return
-    console = wide_console()
-    for row in reported["cells"]:
+def _print(rows: Sequence[dict[str, Any]], console: Console) -> None:
+    for row in rows:
         kept = f"{row['checks'] - row['failed']} of {row['checks']} checks kept"
         console.print(f"cell {row['cell']}: {row['status'].replace('_', ' ')}, {kept}: {escape(row['folder'])}")
-    console.print(f"\nParts are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import TvimError
+from tvimdesign.report.command import PARTLY_DONE, done_in_part, not_done, noting
 from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.shared_folder import gatherer, joined, say_part

@@ -26,6 +26,7 @@ def print_tolerances(found: Spread, data: Mapping[str, Any], table: Table, conso
         print_table(shown, console)
     for sentence in data["sentences"]:
         console.print(escape(sentence))
+    print_table(unknown_table(data["not_known"]), console)
 
 
 def spread_table(found: Spread, data: Mapping[str, Any]) -> SummaryTable:
@@ -64,11 +65,6 @@ def _most_by(found: Spread, i: int) -> str:
     """The contributor that carries most of an output's spread, with its share."""
     most = int(found.shares[i].argmax())
     return f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
-
-
-def print_unknown(data: Mapping[str, Any], console: Console) -> None:
-    """The second block, under its own heading."""
-    print_table(unknown_table(data), console)
 
 
 def unknown_table(data: Mapping[str, Any]) -> SummaryTable:

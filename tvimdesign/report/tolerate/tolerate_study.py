@@ -2,28 +2,23 @@
 
 from __future__ import annotations
 
-import json
 import os
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from rich.markup import escape
-
-from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
+from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.partly_done import PARTLY_DONE, done_in_part, not_done, noting
-from tvimdesign.report.output.progress import Progress, progress_output, wide_console
+from tvimdesign.report.command import Command, design_file
+from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.tolerate.tolerance_page import tolerance_page
 from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
-from tvimdesign.report.tolerate.tolerance_screen import print_tolerances, print_unknown
+from tvimdesign.report.tolerate.tolerance_screen import print_tolerances
 from tvimdesign.report.tolerate.tolerance_tables import (
     as_csv,
     contributor_rows,
@@ -56,21 +51,18 @@ class TolerancedModule:
 
 
 def tolerate_study(
-    path: Path, out: Path, samples: int, workers: int, *, overwrite: bool, as_json: bool
+    path: Path, out: Path, samples: int, *, overwrite: bool, as_json: bool
 ) -> None:  # fmt: skip
     """Analyse a study's or a design's tolerances and write a folder. Raises InputError, InfeasibleError,
     and TvimError once all but the figure is done.
     """
     if not FEWEST <= samples <= MOST:
         raise InputError(f"--samples {samples}: must be {FEWEST} to {MOST}")
-    count, threads = power_of_two(samples), workers or os.cpu_count() or 1
-    source = path / "design.json" if path.is_dir() else path
-    failures: list[TvimError] = []
-    with ExitStack() as stack:
-        study = _study(source)
-        folder = stack.enter_context(ResultsFolder(out, overwrite))
-        progress = stack.enter_context(progress_output())
-        drawing = stack.enter_context(PlotProcess()) if study.write.plots else None
+    count, threads = power_of_two(samples), os.cpu_count() or 1
+    source = design_file(path)
+    study = _study(source)
+    with Command(out, overwrite=overwrite, as_json=as_json, plots=study.write.plots) as command:
+        folder, progress = command.folder, command.progress
         subject = _subject(source, study, progress)
         modules = [subject.resolved, *([subject.nominal] if subject.nominal else [])]
         analyses = [Tolerancing(module, progress, threads) for module in modules]
@@ -86,32 +78,11 @@ def tolerate_study(
             before, _ = _analysed(analyses[1], count)
             data["cost_of_robustness"] = _price(before, found, table, study)
         _write(folder, source, subject, data, found, table)
-        if drawing:
-            progress("drawing the figure")
-            figure = Drawing("spread", "tolerance_figure.spread", figure_data(found, table))
-            drawing.begin(folder.path, [figure], study.name)
-            with noting(failures):
-                drawing.finish()
-        text = source.read_text("utf-8")
-        write_page(folder, tolerance_page(folder, study.name, found, data, table, text))
-        progress("")
-        status = PARTLY_DONE if failures else "tolerated"
-        folder.finish(status, {"tolerated": source}, study.model_dump(mode="json"))
-        _say(found, data, table, out, failures, as_json=as_json)
-    if failures:
-        raise done_in_part(failures)
-
-
-def _say(
-    found: Spread, data: dict[str, Any], table: Table, out: Path, failures: list[TvimError], *, as_json: bool
-) -> None:
-    """Print the results, as tables or as JSON."""
-    if as_json:
-        print(json.dumps(data | {"folder": str(out)} | not_done(failures), indent=2, allow_nan=False))
-        return
-    print_tolerances(found, data, table, wide_console())
-    print_unknown(data["not_known"], wide_console())
-    wide_console().print(f"\nTables and figure are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
+        command.begin_plots([Drawing("spread", "tolerance_figure.spread", figure_data(found, table))], study.name)
+        command.finish_plots()
+        page = tolerance_page(folder, study.name, found, data, table, source.read_text("utf-8"))
+        command.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"), page=page)
+    command.report(data, lambda console: print_tolerances(found, data, table, console), "Tables and figure are")
 
 
 def _study(source: Path) -> Study:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import numpy as np
 from rich.markup import escape
@@ -16,8 +14,8 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.cad.fe.run_solvers import Solved, require_fe, run_solvers
 from tvimdesign.page.page_file import FILE
-from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.progress import Progress, progress_output, wide_console
+from tvimdesign.report.command import Command, design_file
+from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.run_page.verification_section import put_on_page
 from tvimdesign.report.verify.comparison import HEAT, SOLVERS, TIMES, Compared, compared
@@ -42,27 +40,24 @@ def verify_design(
 
     Nothing is printed unless `told`. Raises InputError, SimulationError, OutputError.
     """
-    source = path / "design.json" if path.is_dir() else path
+    source = design_file(path)
     design = read_design(source)
     python = fe_python or sys.executable
     require_fe(python)
     module = resolve_design(design)
     refuse_other_parts(module)
-    with ResultsFolder(out, overwrite) as folder, progress_output() as progress:
-        with TemporaryDirectory(dir=folder.path, prefix=_WORK) as work:
-            rows, data = _verified(design, module, folder, Path(work).resolve(), python, progress, pictures=pictures)
-        progress("")
-        folder.finish("verified", {"design": source}, design.study)
+    with Command(out, overwrite=overwrite, as_json=as_json) as command:
+        with TemporaryDirectory(dir=command.folder.path, prefix=_WORK) as work:
+            rows, solved = _solved(design, module, Path(work).resolve(), python, command.progress)
+            data = verified(rows, solved)
+            _write(command, design.name, rows, solved, Path(work), pictures=pictures)
+        page = verify_page(command.folder, design.name, rows, solved)
+        command.finish("verified", {"design": source}, design.study, page=page)
     on_page = put_on_page(out, source.parent)
-    if not told:
-        return
-    if as_json:
-        print(json.dumps({**data, "folder": str(out), "on_page_of_run": on_page}, indent=2, allow_nan=False))
-    else:
-        print_rows(rows, wide_console())
-        where = f"\nreport.html with table and pictures is in [bold]{escape(str(out))}[/bold]"
-        also = f"; {escape(str(source.parent))}/{FILE} has them, too" if on_page else ""
-        wide_console().print(where + also, soft_wrap=True)
+    if told:
+        also = f"{escape(str(source.parent))}/{FILE} shows table and pictures, too; they are" if on_page else ""
+        where = also or "report.html with table and pictures is"
+        command.report({**data, "on_page_of_run": on_page}, lambda console: print_rows(rows, console), where)
 
 
 def solvers_of(design: Design) -> tuple[str, ...]:
@@ -93,28 +88,30 @@ def refuse_other_parts(module: ResolvedModule) -> None:
         raise InputError(f"verify: liner_material is {liner.name}; FE knows no sheet between PCL and rotor")
 
 
-def _verified(
-    design: Design, module: ResolvedModule, folder: ResultsFolder, work: Path, python: str, progress: Progress,
-    *, pictures: bool,
-) -> tuple[list[Compared], dict[str, Any]]:  # fmt: skip
-    """Solve in a folder of work and write the results; the rows, and all as plain data."""
+def _solved(
+    design: Design, module: ResolvedModule, work: Path, python: str, progress: Progress
+) -> tuple[list[Compared], dict[str, Solved]]:
+    """Export the parts and solve in a folder of work; return the rows and what each solver found."""
     progress("verify: drawing the parts")
     _export(design, work / "parts")
     names = solvers_of(design)
     solved = run_solvers(names, work / "parts", work, python, lambda text: progress(f"verify: {text}"))
     if HEAT in solved:
         solved[HEAT] = _with_softening(module, solved[HEAT], work / "parts")
-    rows = compared(module, solved, design.values)
-    data = verified(rows, solved)
-    folder.write_json("verify.json", data)
+    return compared(module, solved, design.values), solved
+
+
+def _write(
+    command: Command, name: str, rows: list[Compared], solved: dict[str, Solved], work: Path, *, pictures: bool
+) -> None:
+    folder = command.folder
+    folder.write_json("verify.json", verified(rows, solved))
     folder.write("verify.csv", table_csv(rows))
-    folder.write("verify.md", page(design.name, rows, solved, pictures=pictures))
+    folder.write("verify.md", page(name, rows, solved, pictures=pictures))
     if pictures:
-        progress("verify: drawing the fields")
-        for name, one in solved.items():
-            _draw(folder, work, name, one)
-    write_page(folder, verify_page(folder, design.name, rows, solved))
-    return rows, data
+        command.progress("verify: drawing the fields")
+        for solver, one in solved.items():
+            _draw(folder, work, solver, one)
 
 
 def _export(design: Design, folder: Path) -> None:

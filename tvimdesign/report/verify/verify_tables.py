@@ -8,11 +8,11 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table as Grid
 
 from tvimdesign.base.units import pretty
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.verify.comparison import Compared
 
@@ -56,12 +56,7 @@ def table_csv(rows: Sequence[Compared]) -> str:
 
 def print_rows(rows: Sequence[Compared], console: Console) -> None:
     """Print the rows for people, worst first, and what to make of them."""
-    grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
-    for title in HEADS:
-        grid.add_column(title, justify="right" if title in ("model", "FE", "model / FE", "mesh") else "left")
-    for row in rows:
-        grid.add_row(*cells(row))
-    console.print(grid)
+    print_table(SummaryTable("", HEADS, [cells(row) for row in rows], (1, 2, 4, 5)), console)
     console.print(escape(summary(rows)))
 
 

@@ -1,0 +1,173 @@
+"""The commands that test, analyse, compare and explore modules."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from tvimdesign.cli import completions
+from tvimdesign.cli.options import (
+    AsJson,
+    FePython,
+    Out,
+    Overwrite,
+    ResultOfRun,
+    Resume,
+    Scheduler,
+    Settings,
+    Shard,
+    StudyFile,
+    StudyOrDesign,
+    Workers,
+    name_of,
+)
+from tvimdesign.report.virtual_tests import TESTS
+
+
+def robot(
+    result: ResultOfRun,
+    timestep: Annotated[
+        str,
+        typer.Option(
+            "--timestep", metavar="TIME", help="Time step of the simulation, such as '0.5 ms'; chosen unless given."
+        ),
+    ] = "",
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Write the joint for simulators (MJCF, URDF, FMU, meshes, tables) into results/<name>-robot."""
+    from tvimdesign.base.units import parse_quantity
+    from tvimdesign.report.robot.robot_files import write_robot
+
+    folder = out or Path("results") / f"{name_of(result)}-robot"
+    step = parse_quantity(timestep, "s") if timestep else None
+    write_robot(result, folder, step, overwrite=overwrite, as_json=json)
+
+
+def simulate(
+    study: StudyOrDesign,
+    test: Annotated[
+        str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=completions.tests)
+    ] = "",
+    out: Out = None,
+    overwrite: Overwrite = False,
+    settings: Settings = None,
+    json: AsJson = False,
+) -> None:
+    """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
+    from tvimdesign.report.simulate_study import simulate_study
+
+    folder = out or Path("results") / f"{name_of(study)}-{test}"
+    simulate_study(study, test, folder, overwrite=overwrite, as_json=json, settings=settings or ())
+
+
+def verify(
+    result: ResultOfRun,
+    fe_python: FePython = "",
+    pictures: Annotated[bool, typer.Option("--pictures/--no-pictures", help="Draw the stress on the parts.")] = True,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Hold a design's model against finite elements on its exported parts, into results/<name>-verified."""
+    from tvimdesign.report.verify.verify_design import verify_design
+
+    folder = out or Path("results") / f"{name_of(result)}-verified"
+    verify_design(result, folder, fe_python, overwrite=overwrite, pictures=pictures, as_json=json)
+
+
+def tolerate(
+    study: StudyOrDesign,
+    samples: Annotated[int, typer.Option("--samples", help="Modules drawn; the next power of two.")] = 65536,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    json: AsJson = False,
+) -> None:
+    """Say what tolerances do: worst case, root-sum-square and Monte Carlo, yield, into results/<study>-tolerances."""
+    from tvimdesign.report.tolerate.tolerate_study import tolerate_study
+
+    folder = out or Path("results") / f"{name_of(study)}-tolerances"
+    tolerate_study(study, folder, samples, overwrite=overwrite, as_json=json)
+
+
+def compare(
+    studies: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="STUDY STUDY...", help="Study files, of any modes.", autocompletion=completions.study_files
+        ),
+    ],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
+    ] = None,
+    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 6,
+    overwrite: Overwrite = False,
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
+    settings: Settings = None,
+    json: AsJson = False,
+) -> None:
+    """Hold studies with the same requirements against each other: as drawn, and each optimised for itself."""
+    from tvimdesign.report.compare.compare_studies import compare_studies
+
+    compare_studies(
+        studies, out or Path("results") / "-vs-".join(study.stem for study in studies), points=points,
+        overwrite=overwrite, plots=plots, as_json=json, settings=settings or (),
+    )  # fmt: skip
+
+
+def sweep(
+    study: StudyFile,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    resume: Resume = False,
+    workers: Workers = 0,
+    shard: Shard = "",
+    scheduler: Scheduler = "",
+    parquet: Annotated[bool, typer.Option("--parquet", help="Write cells.parquet too.")] = False,
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure.")] = True,
+    time_limit: Annotated[
+        str, typer.Option("--time-limit", metavar="TIME", help="End the search of a cell then; 30 min.")
+    ] = "",
+    settings: Settings = None,
+    json: AsJson = False,
+) -> None:
+    """Answer every cell of a study's `sweep:` and gather them to a table, into results/<study>-sweep."""
+    from tvimdesign.report.sweep.sweep_study import sweep_study
+    from tvimdesign.sweep.run_sweep import Where
+
+    sweep_study(
+        study, out or Path("results") / f"{name_of(study)}-sweep", Where.of(workers, scheduler, shard),
+        overwrite=overwrite, resume=resume, parquet=parquet, plots=plots, as_json=json,
+        settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
+    )  # fmt: skip
+
+
+def explore(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="STUDY|RESULT|SWEEP",
+            help="Study file, folder or design.json of a run, or folder of a sweep.",
+            autocompletion=completions.designs_and_studies,
+        ),
+    ],
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder of what is done; results/<name>-explore unless given.")
+    ] = None,
+    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; a free one unless given.")] = 0,
+    token: Annotated[
+        str, typer.Option("--token", help="Secret in the address, for one that stays; drawn unless given.")
+    ] = "",
+    browse: Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")] = True,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Begin again, without what was done before.")] = False,
+    settings: Settings = None,
+) -> None:
+    """Serve a page on this machine with controls that evaluate and optimise as they move."""
+    from tvimdesign.explore.server import serve
+
+    folder = out or Path("results") / f"{name_of(source)}-explore"
+    serve(source, folder, port, token, overwrite=overwrite, browse=browse, settings=settings or ())

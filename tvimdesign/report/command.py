@@ -1,0 +1,116 @@
+"""The shell of all commands that write a folder: its claim, progress, plots, failures and last words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+
+from tvimdesign.base.errors import InputError, TvimError
+from tvimdesign.page.blocks import Page
+from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.progress import progress_output, wide_console
+from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
+
+PARTLY_DONE = "partly done"
+"""Status in a manifest."""
+
+
+class Command:
+    """A command at work on its results folder.
+
+    Use it as a context manager. The block ends with `finish`; `report` follows the block, since plots may have failed.
+    """
+
+    def __init__(
+        self, out: Path, *, overwrite: bool = False, as_json: bool = False, plots: bool = False, resume: bool = False,
+        keep: str = PROGRESS,
+    ) -> None:  # fmt: skip
+        """Note what was asked; `keep` names the folder that a resumed command continues from."""
+        self.out, self.as_json = out, as_json
+        self.failures: list[TvimError] = []
+        self._claim, self._plots = (overwrite, resume, keep), plots
+        self._plotter: PlotProcess | None = None
+        self._stack = ExitStack()
+
+    def __enter__(self) -> Command:
+        """Claim the folder and start what draws. Raises InputError."""
+        with ExitStack() as stack:
+            self.folder = stack.enter_context(ResultsFolder(self.out, *self._claim))
+            self.progress = stack.enter_context(progress_output())
+            self._plotter = stack.enter_context(PlotProcess()) if self._plots else None
+            self._stack = stack.pop_all()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
+        """Stop what draws and release the folder."""
+        self._stack.__exit__(kind, value, at)
+
+    def begin_plots(self, drawings: Sequence[Drawing], study: str) -> None:
+        """Start to draw plots, signed with the study's name, unless no plots are asked for."""
+        if self._plotter and drawings:
+            self._plotter.begin(self.folder.path, drawings, study)
+
+    def finish_plots(self, what: str = "drawing the figure") -> None:
+        """Wait for the plots; a failure is noted."""
+        if self._plotter:
+            self.progress(what)
+            with noting(self.failures):
+                self._plotter.finish()
+
+    def finish(
+        self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None,
+        page: Page | None = None,
+    ) -> None:  # fmt: skip
+        """Write the page and the manifest, and put the results in place."""
+        self.progress("")
+        if page:
+            from tvimdesign.report.output.page_sections import write_page
+
+            write_page(self.folder, page)
+        self.folder.finish(PARTLY_DONE if self.failures else status, inputs, study, timing)
+
+    def report(self, data: Mapping[str, Any], show: Callable[[Console], None], where: str) -> None:
+        """Print the results as JSON, or for people; `where` says what is in the folder. Raises noted failures."""
+        if self.as_json:
+            print(json.dumps({**data, "folder": str(self.out), **not_done(self.failures)}, indent=2, allow_nan=False))
+        else:
+            console = wide_console()
+            show(console)
+            console.print(f"\n{where} in [bold]{escape(str(self.out))}[/bold]", soft_wrap=True)
+        if self.failures:
+            raise done_in_part(self.failures)
+
+
+@contextmanager
+def noting(failures: list[TvimError]) -> Iterator[None]:
+    """Add a failure to a list, so that the command continues; wrong input stays an error of its own."""
+    try:
+        yield
+    except InputError:
+        raise
+    except TvimError as error:
+        failures.append(error)
+
+
+def done_in_part(failures: list[TvimError]) -> TvimError:
+    """Return the error, with exit code 4, by which a command ends that has noted failures."""
+    error = TvimError("done in part: " + "; ".join(str(failure) for failure in failures))
+    error.exit_code = 4
+    return error
+
+
+def not_done(failures: list[TvimError]) -> dict[str, list[str]]:
+    """Return the failures as the field that the output of `--json` has."""
+    return {"not_done": [str(failure) for failure in failures]}
+
+
+def design_file(path: Path) -> Path:
+    """Return the design.json of the folder of a run, or the file itself."""
+    return path / "design.json" if path.is_dir() else path
