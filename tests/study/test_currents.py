@@ -7,7 +7,6 @@ from support import Command
 
 from tvimdesign.solve.result import answer
 from tvimdesign.study import Study, read_study_text
-from tvimdesign.study.text.mistakes import StudyError
 
 MODULE = """
 mode: shear
@@ -39,33 +38,6 @@ def test_the_module_follows_it() -> None:
     never = answer(study("{softening: {moments: [0 s, 1 s], currents: [0 A, 0 A]}}")).design
     assert never.values["response_time"] == float("inf")
     assert never.current_profiles == {"softening": {"moments": [0.0, 1.0], "currents": [0.0, 0.0]}}
-
-
-@pytest.mark.parametrize(
-    ("currents", "said"),
-    [
-        ("{softening: {moments: [0 s, 2 s, 1 s], currents: [1 A, 1 A, 1 A]}}", "the moments do not rise"),
-        ("{softening: {moments: [1 s, 2 s], currents: [1 A, 1 A]}}", "begins at 1 s"),
-        ("{softening: {moments: [0 s, 2 s], currents: [1 A]}}", "1 values"),
-        ("{softening: {moments: [0 s, 2 s], currents: [1 A, 2 A, 3 A]}}", "2 moments and 3 currents"),
-        ("{softening: {moments: [0 s, 2 s]}}", "has no currents"),
-        ("{softening: {moments: [0 s, 2 mm], currents: [1 A, 1 A]}}", "2 mm"),
-        ("{softening: 1 A}", "moments: [0 s"),
-        ("{softening: }", "moments: [0 s"),
-        ("{melting: {moments: [0 s, 2 s], currents: [1 A, 1 A]}}", "softening"),
-    ],
-)
-def test_what_is_no_current_is_named(currents: str, said: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        study(currents)
-    assert said in str(caught.value)
-    assert "currents" in str(caught.value)
-
-
-def test_a_search_finds_its_own() -> None:
-    text = "mode: shear\nvary: {current: [1 A, 2 A]}\nminimize: response_time\n"
-    with pytest.raises(StudyError, match="belong to a module that is evaluated"):
-        read_study_text(text + "currents: {softening: {moments: [0 s, 2 s], currents: [1 A, 1 A]}}", "s", Path())
 
 
 def test_tolerate_leaves_out_the_constant_current_that_a_profile_replaces(tvimdesign: Command, tmp_path: Path) -> None:

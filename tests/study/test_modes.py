@@ -6,7 +6,7 @@ import yaml
 
 from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
-from tvimdesign.study import StudyError, read_study_text
+from tvimdesign.study import read_study_text
 from tvimdesign.study.schema import json_schema
 
 TABLES = {mode: table_for(mode) for mode in MODES}
@@ -22,32 +22,19 @@ OF_THE_OTHER = [
 
 
 @pytest.mark.parametrize(("mode", "other", "text"), OF_THE_OTHER)
-def test_a_name_of_the_other_mode_is_told_as_such(mode: str, other: str, text: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        read_study_text(f"mode: {mode}\n{text}\n", "x.yaml")
-    (problem,) = caught.value.problems
-    assert problem.message.endswith(f"is of {other} mode, this study is {mode} mode")
-
-
-@pytest.mark.parametrize(("mode", "other", "text"), OF_THE_OTHER)
-def test_the_schema_takes_a_name_in_its_own_mode_only(mode: str, other: str, text: str) -> None:
+def test_the_schema_takes_a_name_in_its_own_mode(mode: str, other: str, text: str) -> None:
     validator = jsonschema.Draft7Validator(json_schema(TABLES))
     assert validator.is_valid(yaml.safe_load(f"mode: {other}\n{text}"))
     assert not validator.is_valid(yaml.safe_load(f"mode: {mode}\n{text}"))
 
 
-@pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("goal", ["require: {contact_lost@hot: '<= 0.1'}", "minimize: contact_lost@hot"])
-def test_what_only_a_simulated_release_shows_is_told_with_what_to_limit_instead(mode: str, goal: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        read_study_text(f"mode: {mode}\n{goal}\n", "x.yaml")
-    said = "seen in a simulated release once a design is found"
-    (problem,) = (problem for problem in caught.value.problems if said in problem.message)
-    assert "`backlash`" in problem.hint
-    assert not jsonschema.Draft7Validator(json_schema(TABLES)).is_valid(yaml.safe_load(f"mode: {mode}\n{goal}"))
+def test_the_schema_has_no_output_of_a_simulated_release(goal: str) -> None:
+    validator = jsonschema.Draft7Validator(json_schema(TABLES))
+    assert not any(validator.is_valid(yaml.safe_load(f"mode: {mode}\n{goal}")) for mode in MODES)
 
 
-def test_a_study_may_squeeze_its_blocks_further_than_the_assumed_rule() -> None:
+def test_a_study_may_exceed_an_assumed_rule() -> None:
     def limits(text: str) -> list[float]:
         study = read_study_text(f"mode: compression\n{text}")
         return [limit.limit for limit in constraints_of(study, TABLES["compression"]) if limit.output == "block_strain"]
@@ -56,11 +43,6 @@ def test_a_study_may_squeeze_its_blocks_further_than_the_assumed_rule() -> None:
     assert "assumed, 0.3 to 0.6" in rule.reason
     assert limits("") == [0.5]
     assert limits("require: {block_strain: '<= 0.6'}") == [0.6]
-
-
-def test_a_name_of_no_mode_is_told_with_the_nearest() -> None:
-    with pytest.raises(StudyError, match="did you mean 'block_depth'"):
-        read_study_text("mode: compression\nmodule: {block_deph: 5 mm}\n")
 
 
 def test_rows_of_one_name_mean_the_same_in_both_modes() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from tvimdesign.base.errors import InputError
 from tvimdesign.study import Options, read_study_text
 
 STUDY = "tvimdesign: 1\nname: x\nmode: shear\nvary: {{{}}}\nminimize: module_mass\n"
@@ -26,8 +25,3 @@ def test_the_lengths_a_screw_or_pin_is_sold_in_are_those_that_are_tried(
     found = study.vary[row]
     assert isinstance(found, Options)
     assert found.values == pytest.approx([1e-3 * length for length in lengths])
-
-
-def test_a_list_of_wires_is_none_of_a_screw_and_the_screws_are_told() -> None:
-    with pytest.raises(InputError, match=r"no such record in the category screws: 'metric'.*iso_7380_m4"):
-        read_study_text(STUDY.format("link_screw_length: {catalog: metric}"), "x.yaml")
