@@ -72,9 +72,7 @@ def test_every_line_is_drawn_from_columns_that_exist(kind: str, request: pytest.
 
 
 @pytest.mark.parametrize("kind", ["release", "sine", "step"])
-def test_findings_inside_the_melting_range_are_intervals_and_elsewhere_numbers(
-    kind: str, request: pytest.FixtureRequest
-) -> None:
+def test_findings_inside_the_melting_range_are_intervals(kind: str, request: pytest.FixtureRequest) -> None:
     trial: Trial = request.getfixturevalue(kind)
     for one in trial.findings:
         if one.name.endswith("@melting"):
@@ -160,9 +158,7 @@ def test_sine_in_time_agrees_with_the_rows_within_one_percent(
     assert value(sine, f"cycle_energy@{point}") == pytest.approx(heat, rel=1e-2)
 
 
-def test_step_of_angle_relaxes_to_the_springs_when_hot_and_hardly_when_cold(
-    resolved: ResolvedModule, step: Trial
-) -> None:
+def test_step_of_angle_relaxes_to_the_springs_when_hot(resolved: ResolvedModule, step: Trial) -> None:
     springs = resolved.quantity("spring_stiffness") * resolved.quantity("stroke")
     assert value(step, "step_final_torque@hot") == pytest.approx(springs, rel=1e-3)
     assert value(step, "step_final_torque@cold") > 0.95 * value(step, "step_peak_torque@cold")

@@ -94,9 +94,7 @@ def test_energy_never_rises_in_a_release(trial: Callable[[str], Trial]) -> None:
         assert max(found.value, found.high or 0.0) <= 1e-9
 
 
-def test_hot_blocks_leave_the_link_to_its_springs_and_the_warm_ones_a_flat_on_the_loop(
-    resolved: ResolvedModule, trial: Callable[[str], Trial]
-) -> None:
+def test_hot_blocks_leave_the_link_to_its_springs(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
     release, springs = trial("release"), resolved.quantity("spring_stiffness")
     assert value(release, "backlash@hot") == pytest.approx(0.1, rel=1e-6)
     for name in ("release_hot", "release_melting_nominal", "release_melting_high"):
@@ -157,7 +155,7 @@ def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> N
         assert np.array_equal(one.column(column).values[changes], touches)
 
 
-def test_contact_lost_is_the_time_between_leaving_and_meeting_over_the_swing(trial: Callable[[str], Trial]) -> None:
+def test_contact_lost_is_the_time_without_contact_over_the_swing(trial: Callable[[str], Trial]) -> None:
     # By the events of the sheet: left at the first, met at the second, and once more on the way back.
     events = sheet(trial("release"), "release_melting_nominal_events")
     times, swing = events.column("time").values, 1.0 / value(trial("release"), "ringing_frequency@melting")
@@ -213,9 +211,7 @@ def test_blocks_that_could_not_part_are_released_as_the_linear_link_is(resolved:
 
 
 @pytest.mark.parametrize("name", ["cold", "hot"])
-def test_blocks_squeezed_beyond_the_swing_are_the_linear_link_with_both_senses(
-    resolved: ResolvedModule, name: str
-) -> None:
+def test_blocks_squeezed_beyond_the_swing_are_a_linear_link(resolved: ResolvedModule, name: str) -> None:
     case = case_of(resolved, name)
     joint = case.joint
     # No hold: melt that is squeezed lets go of that as well.

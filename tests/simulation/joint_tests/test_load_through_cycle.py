@@ -96,7 +96,7 @@ def test_loaded_link_moves_as_radau_with_inertia_says(
     assert carried.angle[some] == pytest.approx(with_inertia(at, 2, carried.times[some]), abs=2e-4 * 0.104)
 
 
-def test_link_creeps_as_the_layer_melts_and_is_held_where_it_is_when_it_freezes(
+def test_link_creeps_as_the_layer_melts_and_stays_when_it_freezes(
     there_and_back: tuple[Carried, Callable[[float], Array]],
 ) -> None:
     carried, _ = there_and_back
@@ -180,7 +180,7 @@ def test_lossy_structure_creeps_behind_a_frozen_layer_as_radau_says() -> None:
 
 
 @pytest.mark.slow
-def test_module_heated_under_load_lets_go_before_the_switch_ends_and_freezes_where_it_is() -> None:
+def test_module_heated_under_load_lets_go_before_the_switch_ends() -> None:
     resolved = resolve_study(read_study_text("mode: shear\n", "a test"))
     history = slice_histories(resolved)
     assert history.temperatures.shape == (resolved.study.solver.cells, len(history.times))

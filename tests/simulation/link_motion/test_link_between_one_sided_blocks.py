@@ -199,9 +199,7 @@ def test_hold_behind_a_structure_relaxes_with_its_longer_time() -> None:
 @pytest.mark.slow
 @NAMED
 @pytest.mark.parametrize("precompression", [0.0, 0.02, 0.3])
-def test_gap_after_a_hold_by_a_rigid_structure_is_what_relaxed_less_the_precompression(
-    pair: str, precompression: float
-) -> None:
+def test_gap_after_a_hold_is_what_relaxed_less_the_precompression(pair: str, precompression: float) -> None:
     # By hand: the block ahead stands back (0.1 + p) loss - p, the one behind max(p - 0.1, 0) loss - p.
     modes = PAIRS[pair].first
     rigid = JOINT._replace(structure_stiffness=1e14)
@@ -303,7 +301,7 @@ def test_energy_never_rises_once_the_link_is_let_go(
 
 
 @pytest.mark.parametrize("end", [10.25, 10.255])
-def test_a_curve_that_ends_as_the_link_passes_its_rest_does_not_say_that_it_settles(end: float) -> None:
+def test_a_curve_that_ends_as_the_link_passes_its_rest_is_unsettled(end: float) -> None:
     def swinging(decay: float) -> OneSided:
         times = np.linspace(0.0, end, 4001)
         angle = 0.1 * np.exp(-decay * times) * np.cos(2.0 * np.pi * times)

@@ -12,7 +12,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.report.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.rheometer import oscillation, transient
-from tvimdesign.simulation.rheometer.specimen import specimen, specimens
+from tvimdesign.simulation.rheometer.specimen import check_rising, check_spectrum, specimen, specimens
 from tvimdesign.simulation.trial import Finding, Trial
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at, frozen_on_cooling, melting_range
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
@@ -40,13 +40,13 @@ def named(trial: Trial, name: str) -> Finding:
     return next(found for found in trial.findings if found.name == name)
 
 
-def test_standard_points_give_the_papers_temperatures_and_others_the_studys_own(resolved: ResolvedModule) -> None:
+def test_standard_points_give_the_papers_temperatures(resolved: ResolvedModule) -> None:
     assert [at.temperature - CELSIUS for at in specimens(resolved)] == pytest.approx([30.0, 60.0, 100.0])
     own = rig_of("operating_points: {hot: {temperature: 80 degC}}\n")
     assert [at.temperature - CELSIUS for at in specimens(own)] == pytest.approx([30.0, 80.0])
 
 
-def test_inside_melting_the_solid_fraction_is_an_interval_and_outside_one_number(resolved: ResolvedModule) -> None:
+def test_inside_melting_the_solid_fraction_is_an_interval(resolved: ResolvedModule) -> None:
     # The record: melting starts at 50 (45-55) and ends at 65 (62-70) degC.
     assert melting_range(resolved) == pytest.approx((CELSIUS + 45.0, CELSIUS + 70.0))
     low, nominal, high = fractions_at(resolved, CELSIUS + 60.0)
@@ -176,7 +176,7 @@ def test_maxwell_cannot_hold_a_load_that_kelvin_voigt_holds(done: Done) -> None:
 
 
 @pytest.mark.parametrize("celsius", [30, 60, 100])
-def test_after_the_load_maxwell_keeps_its_flow_and_kelvin_voigt_creeps_back(done: Done, celsius: int) -> None:
+def test_after_the_load_maxwell_flows_and_kelvin_voigt_recovers(done: Done, celsius: int) -> None:
     trial = done("creep")
     curves = next(sheet for sheet in trial.sheets if sheet.name == f"creep_{celsius}_degC")
     bodies = next(sheet for sheet in trial.sheets if sheet.name == "simple_bodies")
@@ -234,7 +234,7 @@ def test_cooling_branch_is_drawn_from_the_solid_fractions_it_is_given(resolved: 
     assert any(line.sheet == "cooling" for panel in trial.panels for line in panel.lines)
 
 
-def test_cooled_from_the_melt_it_freezes_tens_of_kelvin_below_where_it_melts_and_later_the_faster(
+def test_cooled_from_the_melt_it_freezes_below_where_it_melts(
     resolved: ResolvedModule,
 ) -> None:
     # Slow cooling freezes polycaprolactone at 35 to 45 degC, 10 K/min at about 30 degC at its fastest.
@@ -268,3 +268,26 @@ def test_a_temperature_at_which_there_is_no_spectrum_is_named(resolved: Resolved
 def test_an_unknown_test_is_refused_with_the_nearest_name() -> None:
     with pytest.raises(InputError, match="no test is named 'crep'; did you mean creep"):
         find_test("crep")
+
+
+@pytest.mark.parametrize(
+    ("modes", "said"),
+    [
+        ([], "here: the spectrum has no modes; expected at least one"),
+        ([(1.0, 5.0), (0.1, -2.5)], "here: mode 2 has the modulus -2.5 Pa; expected a number greater than zero"),
+        ([(0.0, 5.0)], "here: mode 1 has the relaxation time 0 s; expected a number greater than zero"),
+        ([(1.0, math.nan)], "here: mode 1 has the modulus nan Pa"),
+        ([(math.inf, 1.0)], "here: mode 1 has the relaxation time inf s"),
+    ],
+)
+def test_what_is_no_spectrum_is_refused_with_its_place(modes: list[tuple[float, float]], said: str) -> None:
+    with pytest.raises(InputError) as caught:
+        check_spectrum(modes, "here")
+    assert str(caught.value).startswith(said)
+
+
+def test_numbers_that_do_not_rise_are_refused_with_the_value_and_its_place() -> None:
+    check_rising([1.0, 2.0, 3.0], "there", "K")
+    for values in ([1.0, 3.0, 2.0], [1.0, 3.0, 3.0], [1.0, 3.0, math.nan]):
+        with pytest.raises(InputError, match=r"there: value 3 is \S+ K and follows 3 K; expected rising values"):
+            check_rising(values, "there", "K")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeVar
 
@@ -154,6 +154,11 @@ def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Fin
     if len(numbers) == 1:
         return Finding(name, numbers[0], unit, meaning)
     return Finding(name, numbers[0], unit, meaning, low=min(numbers), high=max(numbers))
+
+
+def findings_at(point: str, rows: Iterable[tuple[str, str, str, Sequence[float]]]) -> list[Finding]:
+    """Return findings of a point from rows of name, unit, meaning and the numbers of its histories."""
+    return [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
 
 
 def contact_columns(case: Case, found: OneSided) -> tuple[Column, ...]:

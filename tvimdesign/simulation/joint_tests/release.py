@@ -16,7 +16,7 @@ from tvimdesign.simulation.joint_tests.case import (
     cases,
     contact_columns,
     event_sheets,
-    finding,
+    findings_at,
     notes_for,
     one_sided,
     overload_notes,
@@ -261,5 +261,5 @@ def _findings(resolved: ResolvedModule, found: Sequence[Released]) -> list[Findi
                 ("kelvin_voigt_difference", "1", "Its angle against the full model's, rms over rms; near 1 and above it"
                  " says nothing", [one.difference for one in simple]),
             ]  # fmt: skip
-        numbers += [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
+        numbers += findings_at(point, rows)
     return numbers

@@ -13,7 +13,7 @@ from tvimdesign.simulation.joint_tests.case import (
     cases,
     contact_columns,
     event_sheets,
-    finding,
+    findings_at,
     notes_for,
     overload_notes,
     with_paper_points,
@@ -132,10 +132,10 @@ def _lines(found: Sequence[Swung], x: str) -> tuple[PlottedLine, ...]:
 
 
 def _findings(resolved: ResolvedModule, found: Sequence[Swung]) -> list[Finding]:
-    numbers = []
+    numbers: list[Finding] = []
     for point in resolved.points:
         here = [one for one in found if one.case.point == point]
-        for name, unit, meaning, values in (
+        numbers += findings_at(point, (
             ("stiffness", "N*m/rad", "Stiffness of the joint, from its motion", [one.stiffness for one in here]),
             ("damping", "N*m*s/rad", "Damping of the joint, from its motion", [one.damping for one in here]),
             ("contact_lost", "1", "Share of the last period in which no PCL is in contact",
@@ -143,6 +143,5 @@ def _findings(resolved: ResolvedModule, found: Sequence[Swung]) -> list[Finding]
             ("cycle_energy", "J", "Energy turned into heat in one cycle", [one.dissipated for one in here]),
             ("frequency_domain_difference", "1", "Complex stiffness as seen against that of small motions, of its size",
              [one.apart for one in here]),
-        ):  # fmt: skip
-            numbers.append(finding(f"{name}@{point}", unit, meaning, values))
+        ))  # fmt: skip
     return numbers

@@ -11,7 +11,7 @@ from tvimdesign.simulation.joint_tests.case import (
     Case,
     cases,
     contact_columns,
-    finding,
+    findings_at,
     notes_for,
     overload_notes,
     with_paper_points,
@@ -113,14 +113,13 @@ def _loaded_sheet(carried: Carried, history: SliceHistory) -> CurveTable:
 
 
 def _relaxed(resolved: ResolvedModule, found: Sequence[tuple[Case, OneSided]]) -> list[Finding]:
-    numbers = []
+    numbers: list[Finding] = []
     for point in resolved.points:
         holding = [-moved.motion.torque for case, moved in found if case.point == point]
-        rows = (
+        numbers += findings_at(point, (
             ("step_peak_torque", "N*m", "Highest torque of the step", [float(np.max(torque)) for torque in holding]),
             ("step_final_torque", "N*m", f"Torque after {WATCHED:g} s", [float(torque[-1]) for torque in holding]),
-        )
-        numbers += [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
+        ))  # fmt: skip
     return numbers
 
 

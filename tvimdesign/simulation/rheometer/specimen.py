@@ -6,14 +6,16 @@ allows; they are the columns `..._low` and `..._high` of a sheet, and `low` and 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
+from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer
-from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.simulation.rheometer.spectrum_checks import check_rising, check_spectrum
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.simulation.trial import Array, Column, Finding, PlottedLine
 from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, melting_range
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
@@ -127,3 +129,24 @@ def history_note(resolved: ResolvedModule) -> str:
 
 def _celsius(temperature: float) -> str:
     return f"{temperature - ZERO_CELSIUS:.6g}"
+
+
+def check_spectrum(modes: Modes, place: str) -> None:
+    """Raise InputError, naming the value and its place, where a spectrum is none."""
+    if not modes:
+        raise InputError(f"{place}: the spectrum has no modes; expected at least one (relaxation time, modulus)")
+    for number, mode in enumerate(modes, start=1):
+        for name, unit, value in zip(("relaxation time", "modulus"), ("s", "Pa"), mode, strict=True):
+            if not (math.isfinite(value) and value > 0.0):
+                raise InputError(
+                    f"{place}: mode {number} has the {name} {value:g} {unit}; expected a number greater than zero"
+                )
+
+
+def check_rising(values: Iterable[float], place: str, unit: str) -> None:
+    """Raise InputError, naming the value and its place, where numbers do not rise one after the other."""
+    for number, (before, after) in enumerate(pairwise(values), start=2):
+        if not after > before:
+            raise InputError(
+                f"{place}: value {number} is {after:g} {unit} and follows {before:g} {unit}; expected rising values"
+            )

@@ -13,7 +13,6 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import CATEGORIES, Catalog
-from tvimdesign.simulation.measurement.fitting.fit import Estimate
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
 from tvimdesign.simulation.measurement.measure_files import measure_of
 from tvimdesign.simulation.measurement.reading.headings import known
@@ -234,15 +233,3 @@ def test_a_kind_without_a_record_says_so(tmp_path: Path) -> None:
     path = csv(tmp_path / "r.csv", time__s=time, angle__rad=damped(time, 5.0, 4e-3, 4e-4, 0.1))
     with pytest.raises(InputError, match="release: nothing in it is a value of a record"):
         record_text(measured(path, inertia="4e-4 kg.m^2"), "mine", "")
-
-
-def test_every_value_of_a_record_is_one_the_category_knows() -> None:
-    names = {
-        "spring_materials": ["youngs_modulus"],
-        "polymers": ["zero_shear_viscosity", "plateau_modulus", "flow_activation_energy", "latent_heat"],
-        "peltiers": ["seebeck", "resistance", "conductance"],
-    }
-    for category, values in names.items():
-        assert set(values) <= set(CATEGORIES[category].units)
-    assert kind_sheet("release").category == kind_sheet("sine").category == "joints"
-    assert Estimate("a", "1", "", 1.0, None, None).low is None

@@ -33,7 +33,7 @@ def test_a_load_that_only_rises_says_nothing_of_friction(tmp_path: Path) -> None
     assert "a backlash would not be seen" in result.notes[1]
 
 
-def test_one_hold_of_a_calorimeter_tells_neither_rate_nor_its_temperature_dependence(tmp_path: Path) -> None:
+def test_one_hold_of_a_calorimeter_leaves_the_rate_open(tmp_path: Path) -> None:
     time = np.linspace(0.0, 600.0, 200)
     fraction = 1.0 - np.exp(-np.log(2.0) * (time / 100.0) ** 3)
     heat = np.gradient(fraction, time) * 60.0 + np.random.default_rng(1).normal(0.0, 1e-3, 200)
