@@ -17,7 +17,8 @@ _HEAD = (
     "writes this page. A case is a folder in `validation/cases/`. A table has the value of each case that is nearest "
     "its limit or furthest beyond; [validation.csv](validation.csv) has all values. *Of limit* is the deviation over "
     "the limit of the case. A *known difference* is beyond its limit for a stated reason. An *open* case has a source "
-    "that lacks something a comparison needs. [References](theory/references.md) has short names of books in full.",
+    "that lacks something a comparison needs. Below a table stand source and figure of each case; "
+    "[references](theory/references.md) has short names of books in full.",
 )
 
 
@@ -84,8 +85,8 @@ def _section(each: Outcome, cited: dict[str, str]) -> Iterator[str]:
     yield f"### {case.title} {{#{case.name}}}"
     yield ""
     first = cited.setdefault(case.source, case.name)
-    source = f"{case.source}." if first == case.name else f"as [{first}](#{first})."
-    yield " ".join(filter(None, (f"Source: {source}", case.note, case.open and f"**Open:** {case.open}")))
+    source = f"{case.source}." if first == case.name else f"As [{first}](#{first})."
+    yield " ".join(filter(None, (source[0].upper() + source[1:], case.note, case.open and f"**Open:** {case.open}")))
     for compared in each.quantities:
         if compared.quantity.known:
             yield ""
