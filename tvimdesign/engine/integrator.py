@@ -16,6 +16,7 @@ from numba import njit
 from tvimdesign.engine.interpreter import Array, Code, push, run
 from tvimdesign.engine.sparse_lu import Integers, Pattern, factor, pattern_of, solve, solve_many
 from tvimdesign.engine.tape import Tape
+from tvimdesign.engine.vectors import tangent_registers
 
 GAMMA = 0.4358665215084590
 STAGES = 3
@@ -70,10 +71,10 @@ class Motion:
     def registers(self, k: Array, dk: Array) -> tuple[Array, Array, Array]:
         """Return registers for the rates, their tangents, and the slopes, with the constants in place."""
         w, v = self.rates.registers.copy(), self.slopes.registers.copy()
-        d = np.zeros((w.size, dk.shape[1]))
+        d = tangent_registers(w.size, dk.shape[1])
         first = self.size + 1
         w[first : first + k.size] = v[first : first + k.size] = k
-        d[first : first + k.size] = dk
+        d[first : first + k.size, : dk.shape[1]] = dk
         return w, d, v
 
 
@@ -128,7 +129,8 @@ def stage_tangents(
     for i in range(size):
         w[i] = y[i]
     w[size] = u
-    d[size] = du
+    for j in range(lanes):
+        d[size, j] = du[j]
     push(m.rates, w, d)
     for p in range(size):
         i = m.pattern.order[p]

@@ -14,6 +14,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from tvimdesign.engine.vectors import BLOCK, add_tangents, scale_tangents
+
 Array = NDArray[np.float64]
 Indices = NDArray[np.uint32]
 
@@ -197,38 +199,26 @@ def run(code: Code, w: Array) -> None:
                 w[to[k]] = slopes_of(op, w[first[k]], w[second[k]])[0]
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@njit(cache=True, error_model="numpy")
 def push(code: Code, w: Array, d: Array) -> None:
-    """Fill the registers, and their tangents `d` along the directions, a column each."""
-    first, second, groups, lanes = code.first, code.second, code.groups, d.shape[1]
+    """Fill the registers, and their tangents `d` along the directions, in blocks of columns (`tangent_registers`)."""
+    first, second, to, groups, blocks = code.first, code.second, code.to, code.groups, d.shape[1] // BLOCK
     for g in range(groups.shape[0] - 1):
         op, start, end = groups[g, 0], groups[g, 1], groups[g + 1, 1]
-        if op == MUL:
-            for k in range(start, end):
-                x, y, a, b, to = w[first[k]], w[second[k]], d[first[k]], d[second[k]], d[code.to[k]]
-                w[code.to[k]] = x * y
-                for j in range(lanes):
-                    to[j] = y * a[j] + x * b[j]
-        elif op == ADD:
-            for k in range(start, end):
-                a, b, to = d[first[k]], d[second[k]], d[code.to[k]]
-                w[code.to[k]] = w[first[k]] + w[second[k]]
-                for j in range(lanes):
-                    to[j] = a[j] + b[j]
-        elif op == SUB:
-            for k in range(start, end):
-                a, b, to = d[first[k]], d[second[k]], d[code.to[k]]
-                w[code.to[k]] = w[first[k]] - w[second[k]]
-                for j in range(lanes):
-                    to[j] = a[j] - b[j]
-        else:
-            for k in range(start, end):
-                value, by_x, by_y = slopes_of(op, w[first[k]], w[second[k]])
-                a, b, to = d[first[k]], d[second[k]], d[code.to[k]]
-                w[code.to[k]] = value
+        for k in range(start, end):
+            one, other, at = first[k], second[k], to[k]
+            x, y = w[one], w[other]
+            if op == MUL:
+                value, by_x, by_y = x * y, y, x
+            elif op == ADD:
+                value, by_x, by_y = x + y, 1.0, 1.0
+            elif op == SUB:
+                value, by_x, by_y = x - y, 1.0, -1.0
+            else:
+                value, by_x, by_y = slopes_of(op, x, y)
+            w[at] = value
+            for j in range(blocks):
                 if by_y == 0.0:
-                    for j in range(lanes):
-                        to[j] = by_x * a[j]
+                    scale_tangents(d, at * blocks + j, one * blocks + j, by_x)
                 else:
-                    for j in range(lanes):
-                        to[j] = by_x * a[j] + by_y * b[j]
+                    add_tangents(d, at * blocks + j, one * blocks + j, by_x, other * blocks + j, by_y)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.engine import interpreter
 from tvimdesign.engine.interpreter import Array, Code, push, run
+from tvimdesign.engine.vectors import tangent_registers
 
 Integers = NDArray[np.int64]
 _NAMES = [name for name in vars(interpreter) if name.isupper() and hasattr(ca, f"OP_{name}")]
@@ -106,7 +107,7 @@ class Tape:
 
     def _room(self, lanes: int) -> Array:
         if lanes not in self._rooms:
-            self._rooms[lanes] = np.zeros((self.registers.size, lanes))
+            self._rooms[lanes] = tangent_registers(self.registers.size, lanes)
         return self._rooms[lanes]
 
     def values(self, *arguments: Array) -> list[Array]:
@@ -119,10 +120,11 @@ class Tape:
     def tangents(self, arguments: Sequence[Array], moved: Sequence[Array]) -> list[tuple[Array, Array]]:
         """Return the nonzeros of each result, and their tangents along what the arguments move by, a column each."""
         w, count = self._work, self.arguments[-1]
-        d = self._room(moved[0].shape[1])
-        w[:count], d[:count] = np.concatenate(arguments), np.concatenate(moved)
+        directions = moved[0].shape[1]
+        d = self._room(directions)
+        w[:count], d[:count, :directions] = np.concatenate(arguments), np.concatenate(moved)
         push(self.code, w, d)
-        return [(w[places], d[places]) for places in self.results]
+        return [(w[places], d[places, :directions]) for places in self.results]
 
 
 def _with_inverses(operations: list[tuple[int, int, int]]) -> tuple[list[tuple[int, int, int]], list[int]]:

@@ -15,8 +15,9 @@ from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
+from numpy.typing import NDArray
 
-from tvimdesign.engine.interpreter import Array
+Array = NDArray[np.float64]
 
 LANES = 16
 """Designs side by side: 128 bytes a register."""
@@ -25,13 +26,21 @@ _WHOLE = ir.VectorType(ir.IntType(64), LANES)
 _LN2_HIGH, _LN2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10
 """ln 2 in two parts: the first has so few digits that its multiples are exact (fdlibm, e_exp.c)."""
 _ALIGNED = 64
+BLOCK = 8
+"""Tangents in one instruction."""
+_TANGENTS = ir.VectorType(ir.DoubleType(), BLOCK)
 
 
-def registers(rows: int) -> Array:
+def registers(rows: int, columns: int = LANES) -> Array:
     """Return registers of zeros that begin where a line of the cache does: across two all takes twice as long."""
-    room = np.zeros(rows * LANES + _ALIGNED // 8)
+    room = np.zeros(rows * columns + _ALIGNED // 8)
     first = -room.ctypes.data // 8 % (_ALIGNED // 8)
-    return room[first : first + rows * LANES].reshape(rows, LANES)
+    return room[first : first + rows * columns].reshape(rows, columns)
+
+
+def tangent_registers(rows: int, directions: int) -> Array:
+    """Return registers for the tangents along some directions: whole blocks, of which the rest stay zero."""
+    return registers(rows, max(math.ceil(directions / BLOCK), 1) * BLOCK)
 
 
 def _lanewise(operands: int, write: Callable[..., Any]) -> Any:
@@ -159,3 +168,46 @@ copy = _lanewise(1, lambda _, x: x)
 add_product = _lanewise(3, lambda b, x, y, z: b.fadd(x, b.fmul(y, z)))
 """x + y z, each rounded, as in a register that holds x."""
 sub_product = _lanewise(3, lambda b, x, y, z: b.fsub(x, b.fmul(y, z)))
+
+
+def _along(operands: int) -> Any:
+    """Return a compiled function (tangents, place of the result, place and factor of each operand).
+
+    It fills a block of tangents with the sum of factors times those of the operands; places count blocks.
+    """
+
+    def typed(*kinds: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, given: Sequence[Any]) -> Any:
+            room = cgutils.create_struct_proxy(signature.args[0])(context, builder, given[0])
+
+            def at(i: int) -> Any:
+                place = context.cast(builder, given[i], signature.args[i], types.intp)
+                first = builder.gep(room.data, [builder.mul(place, ir.Constant(place.type, BLOCK))])
+                return builder.bitcast(first, _TANGENTS.as_pointer())
+
+            empty = ir.Constant(_TANGENTS, ir.Undefined)
+            every_first = ir.Constant(ir.VectorType(ir.IntType(32), BLOCK), [0] * BLOCK)
+            found: Any = None
+            for i in range(2, 2 + 2 * operands, 2):
+                factor = context.cast(builder, given[i + 1], signature.args[i + 1], types.float64)
+                first = builder.insert_element(empty, factor, ir.Constant(ir.IntType(32), 0))
+                factors = builder.shuffle_vector(first, empty, every_first)
+                value = builder.load(at(i), align=8)
+                found = builder.fmul(factors, value) if found is None else _fma(builder, factors, value, found)
+            builder.store(found, at(1), align=8)
+            return context.get_dummy_value()
+
+        return types.void(*kinds), generate
+
+    if operands == 1:
+        return intrinsic(lambda _, d, to, x, by_x: typed(d, to, x, by_x))
+    return intrinsic(lambda _, d, to, x, by_x, y, by_y: typed(d, to, x, by_x, y, by_y))
+
+
+def _fma(b: Any, x: Any, y: Any, z: Any) -> Any:
+    kind = ir.FunctionType(_TANGENTS, [_TANGENTS] * 3)
+    return b.call(cgutils.get_or_insert_function(b.module, kind, f"llvm.fmuladd.v{BLOCK}f64"), [x, y, z])
+
+
+scale_tangents, add_tangents = _along(1), _along(2)
+"""by_x x, and by_x x + by_y y."""

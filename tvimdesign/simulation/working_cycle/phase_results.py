@@ -120,7 +120,8 @@ class PhaseResults:
 
     @property
     def _of_constants(self) -> Array:
-        return self.run.registers[1][self.run.motion.size + 1 : int(self.run.motion.rates.arguments[-1])]
+        first, last = self.run.motion.size + 1, int(self.run.motion.rates.arguments[-1])
+        return self.run.registers[1][first:last, : self.run.lanes]
 
     def add_steadies(self, found: Found, wanted: Collection[str] | None) -> None:
         """Add what it takes to stay where the phase has ended."""

@@ -192,7 +192,7 @@ class PhaseRun:
         last = other
         for _ in range(MOST_TRIALS):
             guess = 0.4 * (between(length / whole) - one.state)
-            last = self._last_step(one, length, slope, guess, self._of_length)
+            last = self._last_step(one, length, slope, guess, self._of_length, 1)
             gap, slopes = self.of.slopes(name, last, self.inputs, nowhere)
             least, most = (length, most) if gap < 0.0 else (least, length)
             short = -gap / slopes[0]
@@ -202,7 +202,8 @@ class PhaseRun:
                 break
             length = length + short if least < length + short < most else 0.5 * (least + most)
         if self.lanes > 1:
-            last = self._last_step(one, length, slope, 0.4 * (last.state - one.state), self.registers)
+            guess = 0.4 * (last.state - one.state)
+            last = self._last_step(one, length, slope, guess, self.registers, self.lanes)
         gap, slopes = self.of.slopes(name, last, self.inputs, self.along)
         short, longer = -gap / slopes[-1], -slopes / slopes[-1]
         longer[-1] = 0.0
@@ -222,10 +223,10 @@ class PhaseRun:
         return self.motion.registers(self.constants, np.zeros((len(self.constants), 1)))
 
     def _last_step(
-        self, one: Instant, length: float, slope: float, guess: Array, registers: tuple[Array, Array, Array]
-    ) -> Instant:
-        """The instant after a last step; the last direction is its length."""
-        lanes = registers[1].shape[1]
+        self, one: Instant, length: float, slope: float, guess: Array, registers: tuple[Array, Array, Array],
+        lanes: int,
+    ) -> Instant:  # fmt: skip
+        """Return the instant after a last step; the last of its `lanes` directions is its length."""
         y, s = one.state.copy(), one.of_state[:, -lanes:].copy()
         longer = np.zeros(lanes)
         longer[-1] = 1.0
