@@ -41,10 +41,8 @@ def plain(design: Path, out: Path) -> None:
     from tvimdesign.cad.assembly.assembly import drawn_parts, free_spring, place
     from tvimdesign.cad.assembly.product_data import instances
     from tvimdesign.cad.geometry.dimensions import dimensions
-    from tvimdesign.cad.geometry.production import PRODUCTION
-    from tvimdesign.cad.render.exploded import write_exploded
-    from tvimdesign.cad.render.preview import write_preview
-    from tvimdesign.cad.render.section import write_section
+    from tvimdesign.cad.geometry.kinds import PRODUCTION
+    from tvimdesign.cad.render.pictures import write_exploded, write_preview, write_section
     from tvimdesign.study.design import read_design
 
     dims = dimensions(read_design(design))
@@ -87,7 +85,7 @@ def plain(design: Path, out: Path) -> None:
 
 def files_only(design: Path, out: Path) -> None:
     """Make the files as shipped, without the checks of sizes and interference that the plain row has none of."""
-    from tvimdesign.cad.jobs.load_kernel import load_kernel
+    from tvimdesign.cad.jobs.main import load_kernel
 
     load_kernel()  # as the process that makes parts does, before anything else loads it whole
     from tvimdesign.cad.jobs import build_plan

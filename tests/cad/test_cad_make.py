@@ -23,8 +23,7 @@ from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import _linear
-from tvimdesign.cad.export.part21 import in_fixed_order
-from tvimdesign.cad.export.step_file import Product, write_assembly
+from tvimdesign.cad.export.step_file import Product, in_fixed_order, write_assembly
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import KINDS
 from tvimdesign.cad.make import _messages, _report

@@ -14,7 +14,7 @@ from tvimdesign.cad.assembly.assembly_note import assembly_note, told, written_s
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
-from tvimdesign.cad.parts.cutout_parts import fits_in_window
+from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.study.design import Design
 
 ADJUSTED = {"preload_adjuster": "rotary"}

@@ -10,8 +10,7 @@ import ezdxf
 import pytest
 from ezdxf.document import Drawing
 
-from tvimdesign.cad.drawing.clipped import area_within, lines_within
-from tvimdesign.cad.drawing.details import small_steps
+from tvimdesign.cad.drawing.details import area_within, lines_within, small_steps
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements
 from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.projection import Arc, Chain, View, section

@@ -18,7 +18,7 @@ from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.iso_286 import limit_deviations, standard_tolerance
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import upright_cylinders
-from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.kinds import PRODUCTION
 from tvimdesign.study.design import Design
 
 MILLED = {"process": "machine_6061", "corner_radius": 0.5e-3, "corner_depth_ratio": 40.0}

@@ -27,9 +27,8 @@ from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv
 from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
-from tvimdesign.cad.drawing.drawing_sheet import TITLE_WIDTH, DrawingSheet, Field
+from tvimdesign.cad.drawing.drawing_sheet import TITLE_WIDTH, DrawingSheet, Field, around
 from tvimdesign.cad.drawing.drawings import part_sheet
-from tvimdesign.cad.drawing.number_text import around
 from tvimdesign.cad.drawing.placed_view import apart
 from tvimdesign.cad.drawing.projection import from_above, section
 from tvimdesign.cad.drawing.spring_sheet import SpringLine, spring_csv, spring_lines, spring_sheet

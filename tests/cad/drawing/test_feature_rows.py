@@ -21,11 +21,11 @@ from test_drawings import measured, no_text_lies_on_another, sheet_of, texts
 from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
+from tvimdesign.cad.drawing.drawing_sheet import figure
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows
-from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.drawing.projection import half_section, section
 from tvimdesign.cad.geometry.dimensions import dimensions
-from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.kinds import PRODUCTION
 from tvimdesign.cad.geometry.solids import block, cylinder, sector, turned
 
 BARE = DrawingRequirements("", "", printed=True)

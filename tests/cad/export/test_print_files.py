@@ -28,8 +28,7 @@ from tvimdesign.cad.export.print_files import (
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes, levels, upright_cylinders
-from tvimdesign.cad.geometry.kinds import KINDS
-from tvimdesign.cad.geometry.production import PRODUCTION, Production
+from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, Production
 
 UP = Production(down="bottom", why="")
 OVER = Production(down="top", why="")

@@ -8,7 +8,7 @@ from cad_designs import BLOCKS, design_of
 from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.geometry.dimensions import dimensions
-from tvimdesign.cad.geometry.production import PRODUCTION, supported_levels
+from tvimdesign.cad.geometry.kinds import PRODUCTION, supported_levels
 from tvimdesign.cad.inspection.printing import printing_checks
 
 

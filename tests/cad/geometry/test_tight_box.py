@@ -7,7 +7,7 @@ from typing import Any
 import cadquery as cq
 import pytest
 
-from tvimdesign.cad.geometry.tight_box import tight_box
+from tvimdesign.cad.geometry.features import tight_box
 
 SIDES = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
 

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from tvimdesign.cad.export.mesh import Instance, solid_mesh
-from tvimdesign.cad.inspection.apart import ROOM, PlacedBodies
-from tvimdesign.cad.inspection.size_checks import interference_checks
+from tvimdesign.cad.inspection.size_checks import ROOM, PlacedBodies, interference_checks
 
 
 def cylinder(radius: float, height: float = 10.0) -> cq.Solid:

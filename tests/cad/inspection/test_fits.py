@@ -13,7 +13,7 @@ from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.solids import turned
-from tvimdesign.cad.inspection.fits import fit_checks
+from tvimdesign.cad.inspection.inspect import fit_checks
 from tvimdesign.cad.parts import shear_parts
 from tvimdesign.study.design import Design
 
@@ -30,7 +30,7 @@ def placed(design: Design, dims: Dimensions) -> dict[str, cq.Solid]:
     kinds = [kind for kind in ("peltier_pad", "spreader", "liner") if kind in MODULES[design.mode].drawn(dims)]
     block = "pcl_arc" if design.mode == "shear" else "pcl_block"
     drawn = {kind: drawn_part(dims, kind) for kind in ("housing", "rotor", block, *kinds)}
-    standing = MODULES[design.mode].stand(dims, drawn, 0.0)
+    standing = MODULES[design.mode].stand_heaters(dims, drawn, 0.0)
     return {name: shape.Solids()[0] for name, shape in standing.items()} | {
         kind: drawn[kind] for kind in ("housing", "rotor")
     }

@@ -20,10 +20,15 @@ from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.inspection import order
-from tvimdesign.cad.inspection.coils import coil_checks
-from tvimdesign.cad.inspection.corners import corner_checks, hole_check
-from tvimdesign.cad.inspection.inspect import module_checks, part_checks, rule_checks, solid_check, thread_checks
-from tvimdesign.cad.inspection.milling import milling_checks
+from tvimdesign.cad.inspection.inspect import (
+    coil_checks,
+    module_checks,
+    part_checks,
+    rule_checks,
+    solid_check,
+    thread_checks,
+)
+from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles

@@ -8,8 +8,7 @@ import pytest
 from sample_solids import box, one_solid
 
 from tvimdesign.cad.export.mesh import Array, solid_mesh
-from tvimdesign.cad.inspection.rays import Triangles
-from tvimdesign.cad.inspection.samples import samples
+from tvimdesign.cad.inspection.rays import Triangles, samples
 
 
 def test_rays_meet_a_box_where_its_faces_are() -> None:

@@ -9,7 +9,7 @@ CODE = """
 import sys
 
 import pytest
-from tvimdesign.cad.jobs.load_kernel import load_kernel
+from tvimdesign.cad.jobs.main import load_kernel
 load_kernel()
 import cadquery
 few = sum(name.startswith("vtkmodules.") for name in sys.modules)

@@ -23,8 +23,7 @@ from tvimdesign.cad import make_cad
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.build_plan import build_plan
-from tvimdesign.cad.jobs.cache import Cache, Result
-from tvimdesign.cad.jobs.read_tracking import TrackedDesign
+from tvimdesign.cad.jobs.cache import Cache, Result, TrackedDesign
 from tvimdesign.cad.jobs.worker import Done, Job, Turn, Work, WorkerPool
 from tvimdesign.study.design import Design, write_design
 
@@ -265,7 +264,7 @@ from cad_designs import design_of
 from tvimdesign.base import child_process
 from tvimdesign.cad.jobs import worker
 from tvimdesign.cad.jobs.cache import Cache, Result
-from tvimdesign.cad.jobs.read_tracking import TrackedDesign
+from tvimdesign.cad.jobs.cache import TrackedDesign
 
 child_process.sys = worker.sys = SimpleNamespace(platform="darwin")
 

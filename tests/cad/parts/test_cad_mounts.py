@@ -14,8 +14,8 @@ from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
-from tvimdesign.cad.inspection.corners import corner_checks
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
+from tvimdesign.cad.inspection.milling import corner_checks
 from tvimdesign.cad.inspection.size_checks import _polar_moment, interference_checks
 
 

@@ -14,10 +14,10 @@ from tvimdesign.cad.assembly.assembly_note import steps_of
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import turned
-from tvimdesign.cad.inspection.corners import corner_checks, round_corners
 from tvimdesign.cad.inspection.inspect import thread_checks
+from tvimdesign.cad.inspection.milling import corner_checks, round_corners
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
-from tvimdesign.cad.parts import cover_parts, insert_parts, shear_parts
+from tvimdesign.cad.parts import fasteners, fittings, shear_parts
 from tvimdesign.study.design import Design
 
 MM = 1e-3
@@ -58,7 +58,7 @@ def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
     design: Design, dims: Dimensions, drawn: dict[str, cq.Solid]
 ) -> None:
     assert broken_rules(design) == []
-    placed = {**cover_parts.stand(dims, drawn), **insert_parts.stand(dims, drawn, 0.0)}
+    placed = {**fittings.stand(dims, drawn, 0.0), **fasteners.stand(dims, drawn, 0.0)}
     assert sum(name.startswith("cover_insert") for name in placed) == 4
     whole = {**placed, "housing": drawn["housing"], "rotor": drawn["rotor"]}
     assert shared(whole, "cover", "cover_screw", "cover_insert", "link_insert", "retainer_insert") == {}
@@ -84,7 +84,7 @@ def test_every_hole_that_the_device_lists_is_drawn_where_it_says_and_none_of_siz
 def test_a_cover_that_is_too_tight_or_too_low_is_found(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
     for row, value in (("cover_hole_radius", dims.core_radius - 0.5), ("rim_level", dims.pin_top_level - 0.5)):
         wrong = Dimensions("shear", {**dims.by_name, row: value})
-        plate = {"cover": cover_parts.cover(wrong), "rotor": drawn["rotor"]}
+        plate = {"cover": fittings.cover(wrong), "rotor": drawn["rotor"]}
         assert list(shared(plate, "cover")) == ["cover | rotor here"]
 
 

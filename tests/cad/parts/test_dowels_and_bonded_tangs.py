@@ -14,14 +14,15 @@ from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
-from tvimdesign.cad.drawing.number_text import figure
+from tvimdesign.cad.drawing.drawing_sheet import figure
 from tvimdesign.cad.export.print_files import as_printed
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.features import holes
-from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.kinds import PRODUCTION
 from tvimdesign.cad.inspection.order import sequence
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
-from tvimdesign.cad.parts import dowel_parts
+from tvimdesign.cad.parts import fasteners
+from tvimdesign.cad.parts.common_parts import link_dowels
 from tvimdesign.study.design import Design
 
 TWO = {"link_dowel_count": 2, "link_dowel": "iso_8734_2"}
@@ -71,8 +72,8 @@ def test_pins_fill_their_holes_and_cut_nothing(dims: Dimensions, placed: dict[st
 
 
 def test_pins_stand_between_the_screws_and_turn_with_the_link(dims: Dimensions) -> None:
-    parts = drawn_parts(dims)
-    still, turned = (dowel_parts.stand(dims, parts, angle) for angle in (0.0, 0.1))
+    dowels = {"link_dowel": drawn_parts(dims)["link_dowel"]}
+    still, turned = (fasteners.stand(dims, dowels, angle) for angle in (0.0, 0.1))
     for name, shape in still.items():
         a, b = shape.Center(), turned[name].Center()
         assert hypot(a.x, a.y) == pytest.approx(0.7 * dims.core_radius)
@@ -89,7 +90,7 @@ def test_pins_go_in_last_and_every_part_has_a_step(placed: dict[str, cq.Solid]) 
 
 def test_holes_to_be_reamed_are_not_widened_in_the_print(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     for kind in ("rotor", "link"):
-        reamed = dowel_parts.places(dims)
+        reamed = link_dowels(dims)
         lying = as_printed(placed[kind], PRODUCTION[kind], 0.3, reamed)
         sign = -1.0 if PRODUCTION[kind].down == "top" else 1.0
         at = {(round(x, 6), round(sign * y, 6)) for x, y in reamed}

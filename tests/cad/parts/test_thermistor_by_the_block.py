@@ -22,7 +22,7 @@ def standing(design: Design) -> dict[str, cq.Solid]:
     dims = dimensions(design)
     kinds = ["housing", "peltier_pad", "pcl_block", "thermistor", *(["spreader"] if dims.spreader_depth else [])]
     drawn = {kind: drawn_part(dims, kind) for kind in kinds}
-    placed = {name: one.Solids()[0] for name, one in MODULES["compression"].stand(dims, drawn, 0.0).items()}
+    placed = {name: one.Solids()[0] for name, one in MODULES["compression"].stand_heaters(dims, drawn, 0.0).items()}
     return {"housing": drawn["housing"], **placed}
 
 

@@ -10,8 +10,7 @@ import trimesh
 from PIL import Image
 
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
-from tvimdesign.cad.render.camera import look, renderer_on_white
-from tvimdesign.cad.render.render import actors, write_png
+from tvimdesign.cad.render.render import actors, look, renderer_on_white, write_png
 
 GREEN = (0.0, 0.8, 0.2)
 SIZE = (200, 100)

@@ -10,7 +10,7 @@ import trimesh
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from tvimdesign.cad.export.mesh import Instance, Mesh
-from tvimdesign.cad.render.section import _spring_outside, wedge_of
+from tvimdesign.cad.render.pictures import _spring_outside, wedge_of
 
 
 def _upright(azimuth: float, radius: float = 30.0) -> Instance:

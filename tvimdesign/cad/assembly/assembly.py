@@ -11,18 +11,9 @@ import cadquery as cq
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
-from tvimdesign.cad.geometry.kinds import MADE_TURNING
-from tvimdesign.cad.geometry.solids import polar, turned
+from tvimdesign.cad.geometry.solids import polar
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil, spring_solid
-from tvimdesign.cad.parts import (
-    adjuster_parts,
-    common_parts,
-    cover_parts,
-    dowel_parts,
-    insert_parts,
-    motor_parts,
-    purchased_parts,
-)
+from tvimdesign.cad.parts.common_parts import hand_of
 from tvimdesign.study.design import Design
 
 Progress = Callable[[str], None]
@@ -66,7 +57,7 @@ def spring_locations(dims: Dimensions) -> dict[str, cq.Location]:
     locations = {}
     for index, azimuth in enumerate(dims.azimuths("spring_count")):
         x, y = polar(dims.placement_radius, azimuth)
-        name = f"spring_{common_parts.hand_of(index)}_{index + 1}"
+        name = f"spring_{hand_of(index)}_{index + 1}"
         locations[name] = cq.Location(cq.Vector(x, y, 0), cq.Vector(0, 0, 1), azimuth * 180.0 / pi)
     return locations
 
@@ -87,22 +78,7 @@ def place(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0, progress: Progress | None = None
 ) -> dict[str, cq.Solid]:
     """Place the drawn parts, and the springs built for the rotor's angle, by name."""
-    return stood(dims, drawn, rotor_angle) | installed_springs(dims, rotor_angle, progress)
-
-
-def stood(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
-    """Place the drawn parts, all but the springs, by name."""
-    placed = {"housing": turned(drawn["housing"], 0.0)}
-    placed |= {name: turned(drawn[name], rotor_angle) for name in MADE_TURNING}
-    placed |= purchased_parts.stand(dims, drawn, rotor_angle)
-    if dims.adjuster_radius:
-        placed |= adjuster_parts.stand(dims, drawn)
-    if dims.cover_height:
-        placed |= cover_parts.stand(dims, drawn)
-    placed |= insert_parts.stand(dims, drawn, rotor_angle)
-    placed |= dowel_parts.stand(dims, drawn, rotor_angle)
-    placed |= motor_parts.stand(dims, drawn)
-    return placed | MODULES[dims.mode].stand(dims, drawn, rotor_angle)
+    return MODULES[dims.mode].stand(dims, drawn, rotor_angle) | installed_springs(dims, rotor_angle, progress)
 
 
 # Six pieces of work ask for the springs at rest; at either end of the stroke one hand is the other's mirror.

@@ -8,7 +8,7 @@ from math import degrees
 from typing import Any
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.parts.cutout_parts import fits_in_window
+from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
 

@@ -13,8 +13,7 @@ from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly_figures import Figures
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import is_of_structure
-from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure
 from tvimdesign.study.design import Design
 
 _LINE = 0.4

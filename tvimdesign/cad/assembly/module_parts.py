@@ -8,22 +8,12 @@ from dataclasses import dataclass
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import SPRINGS
-from tvimdesign.cad.parts import (
-    adjuster_parts,
-    compression_parts,
-    cover_parts,
-    cutout_parts,
-    dowel_parts,
-    insert_parts,
-    liner_parts,
-    motor_parts,
-    purchased_parts,
-    shear_parts,
-    thermistor_parts,
-    tile_parts,
-    vane_tile_parts,
-)
+from tvimdesign.cad.geometry.kinds import MADE_TURNING, SPRINGS
+from tvimdesign.cad.geometry.solids import turned
+from tvimdesign.cad.parts import compression_parts, fasteners, fittings, heater_parts, motor_parts, shear_parts
+
+_IN_ALL_MODES = (fittings, fasteners, motor_parts)
+"""Each says which of its parts a design has and how they are drawn (`drawn`), and places them (`stand`)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,48 +21,32 @@ class ModuleParts:
     """The parts of a mode."""
 
     made: Mapping[str, Callable[[Dimensions], cq.Shape]]
-    """How one of each kind is drawn, by kind; without springs and what is bought, which all modes have."""
-    spreaders: Mapping[str, Callable[[Dimensions], cq.Shape]]
-    """How one of what lies on rigid Peltier modules is drawn, by kind."""
-    stand: Callable[[Dimensions, Mapping[str, cq.Solid], float], dict[str, cq.Shape]]
-    """Places pads and PCL, the rotor at an angle [rad], by name."""
-    fixed: tuple[str, ...]
-    """Kinds that neither turn nor change their shape."""
+    """How one of each kind is drawn, by kind: those that every module of the mode has, without screws and springs."""
+    stand_heaters: Callable[[Dimensions, Mapping[str, cq.Solid], float], dict[str, cq.Shape]]
+    """Places pads, PCL and what belongs to them, the rotor at an angle [rad], by name."""
 
     def drawn(self, dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
-        """How one of each kind is drawn but the springs, of what a design has."""
-        adjusters = {"adjuster": adjuster_parts.adjuster, "adjuster_screw": adjuster_parts.adjuster_screw}
-        return {
-            **self.made,
-            **(self.spreaders if dims.spreader_depth else {}),
-            **thermistor_parts.drawn(dims),
-            **liner_parts.drawn(dims),
-            **cutout_parts.drawn(dims),
-            **purchased_parts.drawn(dims),
-            **(adjusters if dims.adjuster_radius else {}),
-            **(cover_parts.DRAWN if dims.cover_height else {}),
-            **insert_parts.drawn(dims),
-            **dowel_parts.drawn(dims),
-            **motor_parts.drawn(dims),
-        }
+        """Return how one of each kind is drawn but the springs, of what a design has."""
+        kinds = {**self.made, **heater_parts.drawn(dims)}
+        for parts in _IN_ALL_MODES:
+            kinds |= parts.drawn(dims)
+        return kinds
 
     def kinds(self, dims: Dimensions) -> tuple[str, ...]:
-        """All kinds of part a design has, springs and all."""
+        """Return all kinds of part a design has, springs and all."""
         return (*self.drawn(dims), *SPRINGS)
+
+    def stand(self, dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float = 0.0) -> dict[str, cq.Solid]:
+        """Place the drawn parts, all but the springs, by name."""
+        placed = {"housing": turned(drawn["housing"], 0.0)}
+        placed |= {name: turned(drawn[name], rotor_angle) for name in MADE_TURNING}
+        for parts in _IN_ALL_MODES:
+            placed |= parts.stand(dims, drawn, rotor_angle)
+        return placed | self.stand_heaters(dims, drawn, rotor_angle)
 
 
 MODULES = {
-    "shear": ModuleParts(
-        made=shear_parts.DRAWN,
-        spreaders=tile_parts.DRAWN,
-        stand=shear_parts.stand,
-        fixed=(*shear_parts.FIXED, *motor_parts.FIXED),
-    ),
-    "compression": ModuleParts(
-        made=compression_parts.DRAWN,
-        spreaders=vane_tile_parts.DRAWN,
-        stand=compression_parts.stand,
-        fixed=(*compression_parts.FIXED, *motor_parts.FIXED),
-    ),
+    "shear": ModuleParts(made=shear_parts.DRAWN, stand_heaters=shear_parts.stand),
+    "compression": ModuleParts(made=compression_parts.DRAWN, stand_heaters=compression_parts.stand),
 }
 """By mode."""

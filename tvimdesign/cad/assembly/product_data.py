@@ -13,7 +13,7 @@ from tvimdesign.cad.export.mesh import Instance, Mesh, part_meshes
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import KINDS, kind_of
-from tvimdesign.cad.geometry.placement import placement
+from tvimdesign.cad.geometry.outlines import placement
 from tvimdesign.study.design import Design
 
 _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1.0]])

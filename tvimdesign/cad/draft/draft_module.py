@@ -11,14 +11,14 @@ from manifold3d import Manifold
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import installed_coils, spring_locations, stood
+from tvimdesign.cad.assembly.assembly import installed_coils, spring_locations
 from tvimdesign.cad.assembly.exploded_lifts import lifts
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.export.mesh import Instance, Mesh, spring_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.draft_kernel import DraftKernel, DraftSolid
 from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
-from tvimdesign.cad.geometry.placement import placement
+from tvimdesign.cad.geometry.outlines import placement
 from tvimdesign.cad.geometry.solids import drawn_by
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ def draft_module(dims: Dimensions) -> Draft:
     """Draw every part. Raises GeometryError, naming the part, where one cannot be drawn."""
     with drawn_by(DraftKernel()):
         solids = {kind: _drawn(kind, draw, dims) for kind, draw in MODULES[dims.mode].drawn(dims).items()}
-        placed = stood(dims, solids)
+        placed = MODULES[dims.mode].stand(dims, solids)
     bodies = {kind_of(name): solid.body for name, solid in placed.items()}
     meshes = {kind: _mesh(body) for kind, body in bodies.items()}
     coils = installed_coils(dims)

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.cad.drawing.drawing_sheet import figure
 from tvimdesign.cad.drawing.iso_286 import Limits, limit_deviations, standard_tolerance
 from tvimdesign.cad.drawing.iso_1101 import Frame
-from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import Cylinder
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import io
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Decimal
 from functools import cache
+from hashlib import sha256
 from importlib.util import find_spec
+from itertools import pairwise
 from math import inf
 from pathlib import Path
 
@@ -21,6 +24,67 @@ from ezdxf.fonts import fonts
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.drawing.pdf_page import PdfPage
+
+_HUNDREDTH = Decimal("0.01")
+_LISTED = 4
+"""Azimuths that are listed; of more that are evenly apart the ends are told."""
+
+
+def figure(value: float) -> str:
+    """A length or an angle with at most two decimals, a half rounded up: every text of a drawing rounds here.
+
+    A micrometre is settled first: 23.155 read off two faces is 23.16 in both places.
+    """
+    settled = Decimal(f"{value:.4f}").quantize(_HUNDREDTH, ROUND_HALF_UP)
+    return f"{settled:f}".rstrip("0").rstrip(".") if settled else "0"
+
+
+def around(azimuths: Sequence[float]) -> str:
+    """Azimuths [deg] in ascending order: all around evenly, or the first few and how often they come again."""
+    if len(azimuths) == 1:
+        return f"at {figure(azimuths[0])}°"
+    steps = [later - earlier for earlier, later in pairwise([*azimuths, azimuths[0] + 360.0])]
+    if _even(steps):
+        return f"every {figure(360.0 / len(azimuths))}° from {figure(azimuths[0])}°"
+    few = next(
+        few
+        for few in range(1, len(steps) + 1)
+        if len(steps) % few == 0 and all(_even(steps[start::few]) for start in range(few))
+    )
+    # The pattern begins behind the widest step.
+    start = (max(range(few), key=lambda one: steps[one]) + 1) % few
+    first = azimuths[start : start + few] if start + few <= len(azimuths) else azimuths
+    again = f", {len(steps) // few} times around" if few < len(steps) else ""
+    if few > _LISTED and _even([later - earlier for earlier, later in pairwise(first)]):
+        apart = figure(first[1] - first[0])
+        return f"from {figure(first[0])}° every {apart}° to {figure(first[-1])}°{again}"
+    return f"at {', '.join(f'{figure(azimuth)}°' for azimuth in first)}{again}"
+
+
+def _even(steps: Sequence[float]) -> bool:
+    return max(steps) - min(steps) < 0.01
+
+
+REVISION = "A"
+"""Of every sheet: what is drawn anew in another shape has another number, and no later revision of this one."""
+_DIGITS = 8
+_RELEASED = "of approval"
+"""A sheet has no date of its own: the same design gives the same bytes on any day."""
+
+
+def sheet_number(kind: str, told: Iterable[str]) -> str:
+    """The kind of part, and a mark of all that its sheet tells."""
+    mark = sha256("\n".join(told).encode()).hexdigest()[:_DIGITS]
+    return f"{kind.replace('_', '-')}-{mark}"
+
+
+def issue_fields(signed: str, number: str) -> list[Field]:
+    """The row of the title block that tells which sheet this is; `signed` is the label of the field left for a name."""
+    return [
+        Field(signed, "", 0.24), Field("Number", number, 0.4), Field("Revision", REVISION, 0.12),
+        Field("Date", _RELEASED, 0.24),
+    ]  # fmt: skip
+
 
 Point = tuple[float, float]
 SIZE = (420.0, 297.0)

@@ -13,18 +13,25 @@ from tvimdesign.cad.drawing.balloons import draw_balloons
 from tvimdesign.cad.drawing.details import HEIGHT as DETAIL_HEIGHT
 from tvimdesign.cad.drawing.details import draw_details, small_steps
 from tvimdesign.cad.drawing.drawing_requirements import DATUM, GROUND, DrawingRequirements
-from tvimdesign.cad.drawing.drawing_sheet import MARGIN, TITLE_ROW, TITLE_WIDTH, DrawingSheet, Field, ratio
+from tvimdesign.cad.drawing.drawing_sheet import (
+    MARGIN,
+    TITLE_ROW,
+    TITLE_WIDTH,
+    DrawingSheet,
+    Field,
+    figure,
+    issue_fields,
+    ratio,
+    sheet_number,
+)
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
-from tvimdesign.cad.drawing.feature_table import draw_tables, table_height, with_datum
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
-from tvimdesign.cad.drawing.number_text import figure
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, half_section, section
-from tvimdesign.cad.drawing.sheet_layout import FIRST, NEXT, layout
-from tvimdesign.cad.drawing.sheet_number import issue_fields, sheet_number
+from tvimdesign.cad.drawing.sheet_layout import FIRST, NEXT, draw_tables, layout, table_height, with_datum
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
-from tvimdesign.cad.geometry.production import PRODUCTION
+from tvimdesign.cad.geometry.kinds import PRODUCTION
 
 _BESIDE = ("pocket", "vane", "thread", "hole", "slot")
 """Features that are looked for beside the section's plane, the first before the others.

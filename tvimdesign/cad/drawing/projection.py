@@ -17,7 +17,7 @@ from OCP.HLRAlgo import HLRAlgo_Projector
 from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape
 from OCP.TopoDS import TopoDS_Shape
 
-from tvimdesign.cad.geometry.tight_box import tight_box
+from tvimdesign.cad.geometry.features import tight_box
 
 Array = NDArray[np.float64]
 Point = tuple[float, float]

@@ -13,8 +13,7 @@ from tvimdesign import __version__
 from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.units import ZERO_CELSIUS
-from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, ratio
-from tvimdesign.cad.drawing.sheet_number import issue_fields, sheet_number
+from tvimdesign.cad.drawing.drawing_sheet import SIZE, DrawingSheet, Field, issue_fields, ratio, sheet_number
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil
 from tvimdesign.device.components.tang import BONDED

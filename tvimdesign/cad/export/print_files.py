@@ -5,12 +5,14 @@ from __future__ import annotations
 import io
 import zipfile
 from collections.abc import Sequence
+from functools import lru_cache
 from math import hypot
 from xml.sax.saxutils import escape, quoteattr
 
 import cadquery as cq
 import numpy as np
 import trimesh
+from manifold3d import Error, Manifold, Mesh64
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.GeomAPI import GeomAPI_ProjectPointOnSurf
 from OCP.gp import gp_Dir, gp_Pnt
@@ -18,9 +20,8 @@ from OCP.gp import gp_Dir, gp_Pnt
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.export.mesh import Array, Mesh, face_meshes
 from tvimdesign.cad.export.step_file import Product
-from tvimdesign.cad.geometry.features import holes
-from tvimdesign.cad.geometry.production import Production
-from tvimdesign.cad.geometry.tight_box import tight_box
+from tvimdesign.cad.geometry.features import holes, tight_box
+from tvimdesign.cad.geometry.kinds import Production
 
 _DIGITS = (6, 5, 7)
 """Decimals of a millimetre to which a mesh's vertices are merged. A coordinate can lie where one rounding splits it
@@ -164,3 +165,19 @@ def threemf_bytes(body: trimesh.Trimesh, product: Product) -> bytes:
             entry.create_system = 3
             archive.writestr(entry, text.encode())
     return stream.getvalue()
+
+
+@lru_cache(maxsize=64)
+def body_of(name: str, mesh: Mesh) -> Manifold:
+    """The body that a mesh encloses. Raises GeometryError where it encloses none."""
+    merged = closed(name, mesh)
+    body = Manifold(Mesh64(np.array(merged.vertices, dtype=np.float64), np.array(merged.faces, dtype=np.uint64)))
+    if body.status() != Error.NoError:
+        raise GeometryError(f"{name}: its triangle mesh is no body: {body.status()}")
+    return body
+
+
+def mesh_of(body: Manifold) -> Mesh:
+    """The triangles of a body."""
+    found = body.to_mesh64()
+    return Mesh(np.array(found.vert_properties[:, :3]), np.array(found.tri_verts, dtype=np.int64))

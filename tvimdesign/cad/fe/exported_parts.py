@@ -26,10 +26,10 @@ def export_parts(design: Design, folder: Path) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     dims, module = dimensions(design), MODULES[design.mode]
-    kinds = {**module.made, **(module.spreaders if dims.spreader_depth else {})}
-    drawn = {kind: draw(dims) for kind, draw in kinds.items()}
+    kinds = (*module.made, *(["spreader"] if dims.spreader_depth else []))
+    drawn = {kind: module.drawn(dims)[kind](dims) for kind in kinds}
     shapes = {kind: drawn[kind] for kind in ("housing", "rotor", "link")}
-    shapes |= module.stand(dims, drawn, 0.0)
+    shapes |= module.stand_heaters(dims, drawn, 0.0)
     shapes["spring"] = spring_solid(installed_coil(dims))
     for name, shape in shapes.items():
         cq.exporters.export(cq.Workplane(shape), str(folder / f"{name}.step"))

@@ -14,8 +14,7 @@ from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.geometry.outlines import Outline, Point, Segment
-from tvimdesign.cad.geometry.placement import placement
+from tvimdesign.cad.geometry.outlines import Outline, Point, Segment, placement
 
 CHORD = 0.2
 """Largest distance of a polygon from its circle [mm]."""

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+import cadquery as cq
+import numpy as np
+from numpy.typing import NDArray
+
 Point = tuple[float, float]
 Segment = tuple[Point, Point] | tuple[Point, Point, Point]
 """A line from point to point, or an arc through three."""
@@ -32,3 +36,10 @@ class Kernel(Protocol):
 
     def rounded(self, body: Any, radius: float) -> Any:
         """A body with every upright edge rounded. Raises GeometryError where that does not fit."""
+
+
+def placement(location: cq.Location) -> NDArray[np.float64]:
+    """4 x 4 matrix of a location."""
+    place_of = location.wrapped.Transformation()
+    rows = [[place_of.Value(row, column) for column in range(1, 5)] for row in range(1, 4)]
+    return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])

@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping
 
 import cadquery as cq
 
-from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.cad_report import SolidCheck, at_most, finding
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import cylinder, polar
-from tvimdesign.cad.inspection.finding import at_most, finding
 from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
 from tvimdesign.cad.parts import casting_jig
 

@@ -3,31 +3,105 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from math import atan2, cos, hypot, pi, sin
 
 import cadquery as cq
+import numpy as np
 
 from tvimdesign.base.units import from_si
 from tvimdesign.cad.assembly.assembly import place
 from tvimdesign.cad.assembly.product_data import instances
-from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.cad_report import SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import Mesh, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import holes
-from tvimdesign.cad.geometry.production import PRODUCTION, supported_levels
-from tvimdesign.cad.inspection.coils import coil_checks
-from tvimdesign.cad.inspection.corners import corner_checks, hole_check
-from tvimdesign.cad.inspection.finding import at_least, finding
-from tvimdesign.cad.inspection.fits import fit_checks
-from tvimdesign.cad.inspection.milling import milling_checks
+from tvimdesign.cad.geometry.kinds import PRODUCTION, supported_levels
+from tvimdesign.cad.geometry.solids import polar
+from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil
+from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.walls import wall_checks
 from tvimdesign.cad.parts.common_parts import between_springs, link_screws, mounts
-from tvimdesign.cad.parts.insert_parts import insert_length
-from tvimdesign.cad.parts.insert_parts import places as insert_places
+from tvimdesign.cad.parts.fasteners import insert_length, insert_places
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
+
+TIGHT = 0.04
+"""Of its inner diameter, what a coil should leave free around its post; handbook: Shigley, section 10-12, takes 5 %."""
+
+
+def coil_checks(dims: Dimensions) -> Iterator[SolidCheck]:
+    """Hold the springs against their posts and each other, free and at five angles of the rotor; exact."""
+    yield from _checks(dims, free_coil(dims), "as bought")
+    for share in (-1.0, -0.5, 0.0, 0.5, 1.0):
+        where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
+        yield from _checks(dims, installed_coil(dims, share * dims.stroke), where)
+
+
+def _checks(dims: Dimensions, coil: Coil, where: str) -> Iterator[SolidCheck]:
+    """The right-hand spring stands for both: the left-hand one does the same at the opposite angle."""
+    d, inside, reach = coil.wire_diameter, 0.5 * (coil.diameter - coil.wire_diameter), spring_reach(coil)
+    level = 0.5 * (coil.start_level + coil.end_level)
+    half_pitch = pi / dims.count("spring_count")
+    between = np.array([*polar(dims.placement_radius * cos(half_pitch), half_pitch), level])
+    rooms = (
+        ("post", inside - dims.post_radius, TIGHT * 2.0 * inside,
+         np.array([dims.placement_radius - inside, 0.0, level]), "between coil and post, all round"),
+        ("coils", coil.pitch * cos(coil.rise) - d, 0.0,
+         np.array([dims.placement_radius + 0.5 * coil.diameter, 0.0, level]), "between one coil and the next"),
+        ("neighbour", 2.0 * (dims.placement_radius * sin(half_pitch) - reach), 0.0, between,
+         "between neighbouring springs"),
+        ("wall", dims.housing_inner_radius - dims.placement_radius - reach, 0.0,
+         np.array([dims.placement_radius + reach, 0.0, level]), "between spring and housing"),
+        ("rotor", dims.placement_radius - reach - dims.rotor_radius, 0.0,
+         np.array([dims.placement_radius - reach, 0.0, level]), "between spring and rotor plate"),
+    )  # fmt: skip
+    for what, room, wanted, where_found, words in rooms:
+        text = f"{room:.3g} mm {words} {where}"
+        if wanted:
+            text += f"; {wanted:.3g} mm is a good fit"
+        yield finding(
+            "spring", f"{what} {where}", room, wanted, "mm", at_least(room, wanted, 0.0), text, place=where_found
+        )
+
+
+def spring_reach(coil: Coil) -> float:
+    """Radius of the circle around a spring's axis that holds its coils and its tang [mm]."""
+    return max(0.5 * coil.diameter, hypot(*coil.tang_position)) + 0.5 * coil.wire_diameter
+
+
+_IN = {"peltier_pad": "housing", "spreader": "housing", "liner": "rotor"}
+"""What lies in a pocket, and the part that has it."""
+_ROUNDING = 1e-3
+"""By which a measured gap may be short [mm]: a twentieth of the least clearance of any process."""
+
+
+def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
+    """Hold the first of each kind against its pocket's walls, lifted off what it lies on by twice the clearance."""
+    wanted = dims.slip_clearance
+    for kind, host in _IN.items():
+        name = f"{kind}_1"
+        if name not in placed:
+            continue
+        gap = placed[name].moved(cq.Location(_off(dims, kind, placed[name]) * 2.0 * wanted)).distance(placed[host])
+        level = at_least(gap, wanted - _ROUNDING)
+        text = f"has {gap:.3g} mm to the walls of its pocket in the {host}; {wanted:.3g} are wanted to put it in"
+        yield finding(kind, "goes into its pocket", gap, wanted, "mm", level, text)
+
+
+def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
+    """From what a part lies on: off the floor, off the plate, or sideways off its vane and up from the floor."""
+    if dims.mode == "shear":
+        return cq.Vector(0.0, 0.0, -1.0 if kind == "liner" else 1.0)
+    middle = solid.Center()
+    around = atan2(middle.y, middle.x)
+    pitch = 2.0 * pi / dims.count("vane_count")
+    # The middle of a housing's vane is half a pitch beyond a rotor's; a liner leaves its rotor's vane.
+    from_vane = (around / pitch) % 1.0 - (0.0 if kind == "liner" else 0.5)
+    side = 1.0 if 0.0 < from_vane < 0.5 else -1.0
+    return cq.Vector(-side * sin(around), side * cos(around), -1.0 if kind == "liner" else 1.0)
 
 
 def part_checks(

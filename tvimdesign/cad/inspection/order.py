@@ -9,13 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.cad.assembly.assembly_note import steps_of
-from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.cad_report import SolidCheck, at_least, at_most, finding
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
-from tvimdesign.cad.inspection.finding import at_least, at_most, finding
-from tvimdesign.cad.inspection.rays import Triangles
-from tvimdesign.cad.inspection.samples import samples
+from tvimdesign.cad.inspection.rays import Triangles, samples
 from tvimdesign.cad.parts.common_parts import mounts
 
 SPACING = 2.0

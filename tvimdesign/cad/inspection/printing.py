@@ -10,12 +10,9 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from tvimdesign.cad.cad_report import SolidCheck
+from tvimdesign.cad.cad_report import SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import Array, Mesh
-from tvimdesign.cad.inspection.across import across
-from tvimdesign.cad.inspection.finding import at_least, finding
-from tvimdesign.cad.inspection.rays import Index, Triangles
-from tvimdesign.cad.inspection.samples import samples
+from tvimdesign.cad.inspection.rays import Index, Triangles, across, samples
 
 SPACING = 2.0
 """Between samples of a face that overhangs [mm]; of a large one, further, so that there are about `_MANY`."""

@@ -8,24 +8,70 @@ from math import nan, sqrt
 
 import cadquery as cq
 import numpy as np
+from manifold3d import Manifold
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepGProp import BRepGProp
 from OCP.gp import gp
 from OCP.GProp import GProp_GProps
 from OCP.TopTools import TopTools_ListOfShape
 
+from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import place
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.assembly.product_data import instances
 from tvimdesign.cad.cad_report import SolidCheck
-from tvimdesign.cad.export.mesh import Mesh
+from tvimdesign.cad.export.mesh import CHORD, Instance, Mesh
+from tvimdesign.cad.export.print_files import body_of
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, TURNING, is_of_structure, kind_of
+from tvimdesign.cad.geometry.features import tight_box
+from tvimdesign.cad.geometry.kinds import CHANGING, KINDS, SPRINGS, TURNING, is_of_structure, kind_of
 from tvimdesign.cad.geometry.spring_solids import installed_coil
-from tvimdesign.cad.geometry.tight_box import tight_box
-from tvimdesign.cad.inspection.apart import PlacedBodies
 from tvimdesign.device.core.springs.leg_on_pin import pin_distance
 from tvimdesign.study.design import Design
+
+ROOM = 3.0 * CHORD
+"""Between the meshes of parts that are apart [mm]; each mesh is within CHORD of its part."""
+
+
+class PlacedBodies:
+    """The meshes of placed parts as closed bodies; copies of a part share one."""
+
+    def __init__(self, placed: Mapping[str, Instance]) -> None:
+        """A part whose mesh does not close has no body, and is never told apart."""
+        self._placed = placed
+        self._bodies: dict[str, Manifold | None] = {}
+        self._in_place: dict[str, Manifold | None] = {}
+        self._near: set[tuple[str, str]] = set()
+
+    def apart(self, first: str, second: str) -> bool:
+        """Whether two parts have surely no point in common; the gap of bodies that share any volume is zero.
+
+        Where one of a kind is near another kind its copies will be too, and are not tried.
+        """
+        kinds = (kind_of(first), kind_of(second))
+        if kinds in self._near:
+            return False
+        one, other = self._body(first), self._body(second)
+        apart = one is not None and other is not None and one.min_gap(other, ROOM) >= ROOM
+        if not apart:
+            self._near.add(kinds)
+        return apart
+
+    def _body(self, name: str) -> Manifold | None:
+        """The body of a part where it stands, found once: a placed body is sorted anew for each question."""
+        if name not in self._in_place:
+            self._in_place[name] = self._placed_body(name)
+        return self._in_place[name]
+
+    def _placed_body(self, name: str) -> Manifold | None:
+        kind = kind_of(name)
+        if kind not in self._bodies:
+            try:
+                self._bodies[kind] = body_of(kind, self._placed[name].mesh)
+            except GeometryError:
+                self._bodies[kind] = None
+        body = self._bodies[kind]
+        return body.transform(self._placed[name].matrix[:3]) if body else None
+
 
 MODEL_TOLERANCE = 1e-5
 """How far volumes, masses and inertias of the solids may be from the quantities of the table, relative: they are the
@@ -84,7 +130,7 @@ def clearance_checks(
         # Two structural parts are dense meshes close to each other: the kernel takes a quarter of the time for these.
         return not all(is_of_structure(kind_of(name)) for name in (first, second)) and bodies.apart(first, second)
 
-    return list(interference_checks(placed, where, lambda a, b: not _together(dims.mode, a, b), apart))
+    return list(interference_checks(placed, where, lambda a, b: not _together(a, b), apart))
 
 
 def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
@@ -197,10 +243,10 @@ def _between(a: cq.BoundBox, b: cq.BoundBox) -> Place:
     return x, y, z
 
 
-def _together(mode: str, first: str, second: str) -> bool:
+def _together(first: str, second: str) -> bool:
     """Whether two parts both stand, or both turn, so that they are to each other as they were at rest."""
     kinds = {kind_of(first), kind_of(second)}
-    return kinds <= set(MODULES[mode].fixed) or kinds <= set(TURNING)
+    return not kinds & {*TURNING, *CHANGING} or kinds <= set(TURNING)
 
 
 def _against(name: str, built: float, model: float, tolerance: float | None = None) -> SolidCheck:

@@ -10,11 +10,9 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
-from tvimdesign.cad.cad_report import Level, SolidCheck
+from tvimdesign.cad.cad_report import Level, SolidCheck, at_least, finding
 from tvimdesign.cad.export.mesh import CHORD, Array
-from tvimdesign.cad.inspection.finding import at_least, finding
-from tvimdesign.cad.inspection.rays import Triangles
-from tvimdesign.cad.inspection.samples import Samples, samples
+from tvimdesign.cad.inspection.rays import Samples, Triangles, samples
 
 SPACING = 2.0
 """Between samples of the whole surface [mm]."""

@@ -27,15 +27,15 @@ from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, sprin
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
 from tvimdesign.cad.export.step_file import Product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import KINDS, SPRINGS, is_of_structure, kind_of
-from tvimdesign.cad.geometry.production import PRODUCTION, Production
+from tvimdesign.cad.geometry.features import tight_box
+from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, Production, is_of_structure, kind_of
 from tvimdesign.cad.geometry.spring_solids import free_coil
-from tvimdesign.cad.geometry.tight_box import tight_box
 from tvimdesign.cad.inspection.casting import casting_checks
 from tvimdesign.cad.inspection.inspect import module_checks, part_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.jobs.worker import Job, Turn, Work
-from tvimdesign.cad.parts import casting_jig, dowel_parts
+from tvimdesign.cad.parts import casting_jig
+from tvimdesign.cad.parts.common_parts import link_dowels
 from tvimdesign.study.design import Design
 
 PICTURES = "pictures"
@@ -154,7 +154,7 @@ def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Producti
     """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
     name = file_names.print_stl(kind)
     try:
-        lying = as_printed(solid, making, job.dims.hole_compensation, dowel_parts.places(job.dims))
+        lying = as_printed(solid, making, job.dims.hole_compensation, link_dowels(job.dims))
         body, distance = printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))
@@ -234,9 +234,7 @@ def fits(design: Design, dims: Dimensions) -> dict[str, str]:
 
 def _pictures(job: Job) -> list[SolidCheck]:
     """The module whole and opened, taken apart, and cut through."""
-    from tvimdesign.cad.render.exploded import write_exploded
-    from tvimdesign.cad.render.preview import write_preview
-    from tvimdesign.cad.render.section import write_section
+    from tvimdesign.cad.render.pictures import write_exploded, write_preview, write_section
 
     drawn = _solids(job.needs)
     solids = place(job.dims, drawn)

@@ -17,6 +17,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, TextIO
 
 from tvimdesign.base.atomic_files import atomic_write
@@ -25,7 +26,6 @@ from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
-from tvimdesign.cad.jobs.load_kernel import load_kernel
 from tvimdesign.cad.make import HALF_MADE, WAITING
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design, catalog_of, read_design
@@ -36,8 +36,50 @@ if TYPE_CHECKING:
 _NEEDED = "tvimdesign.cad.jobs.build_plan"
 """What loads the CAD kernel, and all that draws with it."""
 
+_BRIDGED = "vtk"
+KERNEL = "cadquery"
+_LETTERS = "abcdefghijklmnopqrstuvwxyz 0123456789.,-() ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+
 _KEPT = "cad"
 """What the user's folder of parts is called."""
+
+
+def load_kernel() -> None:
+    """Import CadQuery without the whole of VTK, in a fifth of the time; who imports `vtk` afterwards gets it whole.
+
+    OCP's bridge to VTK imports all 150 modules of it, where it finds one called `vtk`. Nothing here crosses that
+    bridge: pictures are rendered from triangles, with the few modules of VTK that this takes.
+    """
+    if KERNEL in sys.modules or _BRIDGED in sys.modules:
+        import_module(KERNEL)
+        return
+    sys.modules[_BRIDGED] = ModuleType(_BRIDGED)
+    try:
+        import_module(KERNEL)
+    finally:
+        del sys.modules[_BRIDGED]
+
+
+def warm_up(mode: str = "") -> None:
+    """Load what many pieces of work need before the first is started: each is a fork of the process that has it.
+
+    Compile, read data files and the table of a mode that is known, find font and letters, load what renders.
+    """
+    from tvimdesign.cad.assembly import assembly_note
+    from tvimdesign.cad.drawing import drawing_requirements, iso_286
+    from tvimdesign.cad.drawing.drawing_sheet import DrawingSheet
+    from tvimdesign.cad.inspection import ray_code
+    from tvimdesign.cad.jobs.cache import code_digest
+
+    import_module(_NEEDED)
+    if mode:
+        table_for(mode)
+    for read in (drawing_requirements.told, iso_286.told, assembly_note.told, ray_code.first_hits, code_digest):
+        read()
+    sheet = DrawingSheet(1.0)
+    sheet.text(_LETTERS, (20.0, 20.0))
+    sheet.pdf()
+    import_module("tvimdesign.cad.render.pictures")
 
 
 def run(design_path: Path, out: Path, part_limit: float, lines: TextIO) -> None:
@@ -53,8 +95,7 @@ def run(design_path: Path, out: Path, part_limit: float, lines: TextIO) -> None:
     load_kernel()
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.jobs.build_plan import PICTURES, build_plan
-    from tvimdesign.cad.jobs.cache import Cache
-    from tvimdesign.cad.jobs.read_tracking import TrackedDesign
+    from tvimdesign.cad.jobs.cache import Cache, TrackedDesign
     from tvimdesign.cad.jobs.worker import WorkerPool
 
     with ExitStack() as stack:
@@ -131,9 +172,6 @@ def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] 
     try:
         if arguments[0] == WAITING:
             load_kernel()
-            from tvimdesign.cad.jobs.warm_up import warm_up
-
-            import_module(_NEEDED)
             warm_up(arguments[1])
             line = sys.stdin.readline()
             if not line:

@@ -29,8 +29,7 @@ from tvimdesign.base.process_tree import set_lower_priority
 from tvimdesign.base.processor_time import CHECK_EVERY, LIMIT, ProcessorLimit, ProcessorTimeError
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.jobs.cache import Cache, Result
-from tvimdesign.cad.jobs.read_tracking import Reads, TrackedDesign
+from tvimdesign.cad.jobs.cache import Cache, Reads, Result, TrackedDesign
 from tvimdesign.study.design import Design
 
 Progress = Callable[[str], None]

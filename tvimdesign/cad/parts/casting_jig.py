@@ -13,9 +13,9 @@ import cadquery as cq
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.production import Production
+from tvimdesign.cad.geometry.features import tight_box
+from tvimdesign.cad.geometry.kinds import Production
 from tvimdesign.cad.geometry.solids import cylinder, join
-from tvimdesign.cad.geometry.tight_box import tight_box
 
 LAND = 2.0
 """Width of the dam around the part [mm]; assumed, 1 to 4: the lid lies on it, and what runs over it breaks off."""

@@ -21,9 +21,10 @@ from tvimdesign.cad.geometry.solids import (
     turned,
 )
 from tvimdesign.cad.geometry.spring_solids import installed_coil
-from tvimdesign.cad.parts import dowel_parts
 
-LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
+_DOWEL_AZIMUTHS = (0.0, pi, 0.5 * pi, 1.5 * pi)
+"""In the order in which pins are added: on the link's long axis, then across it, all between the link screws."""
+_LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
 
 
 def hand_of(index: int) -> str:
@@ -187,7 +188,7 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
             *((0.5 * dims.pin_diameter, polar(dims.pin_radius, azimuth)) for azimuth in dims.azimuths("spring_count")),
         ]
     ]
-    holes = [*_screw_holes(dims), *dowel_parts.holes_in_core(dims)]
+    holes = [*_screw_holes(dims), *_dowel_holes_in_core(dims)]
     return join(plate, [*core, *pins, *added]).cut(*holes, *openings)
 
 
@@ -204,10 +205,9 @@ def link(dims: Dimensions) -> cq.Shape:
     """Output link: an obround from the core to the housing's edge, with its holes for screws, dowel pins and a tool."""
     bottom, top = dims.link_bottom_level, dims.link_bottom_level + dims.link_thickness
     holes = [cylinder(0.5 * dims.link_screw_clearance, bottom, top, at) for at in link_screws(dims)]
+    holes += [cylinder(0.5 * dims.link_dowel_diameter, bottom, top, at) for at in link_dowels(dims)]
     tool_hole = cylinder(0.5 * dims.link_tool_hole, bottom, top, (dims.link_length, 0.0))
-    return slot(dims.link_half_width, dims.link_length, bottom, top).cut(
-        tool_hole, *holes, *dowel_parts.holes_in_link(dims)
-    )
+    return slot(dims.link_half_width, dims.link_length, bottom, top).cut(tool_hole, *holes)
 
 
 def retainer(dims: Dimensions) -> cq.Shape:
@@ -218,4 +218,20 @@ def retainer(dims: Dimensions) -> cq.Shape:
 
 def link_screws(dims: Dimensions) -> list[tuple[float, float]]:
     """Axes of the four screws that hold the link on the core."""
-    return [polar(dims.link_bolt_circle_radius, azimuth) for azimuth in LINK_SCREW_AZIMUTHS]
+    return [polar(dims.link_bolt_circle_radius, azimuth) for azimuth in _LINK_SCREW_AZIMUTHS]
+
+
+def link_dowels(dims: Dimensions) -> list[tuple[float, float]]:
+    """Return the axes of the dowel pins between link and core; none where screws alone hold the link."""
+    count = dims.count("dowels_fitted") if dims.dowels_fitted else 0
+    return [polar(dims.link_dowel_circle_radius, azimuth) for azimuth in _DOWEL_AZIMUTHS[:count]]
+
+
+def _dowel_holes_in_core(dims: Dimensions) -> list[cq.Shape]:
+    """Draw what is cut from the core for the pins."""
+    top, point = dims.link_bottom_level, dims.drill_point_ratio
+    return [
+        hole
+        for at in link_dowels(dims)
+        for hole in blind_hole(dims.link_dowel_diameter, top, top - dims.link_dowel_depth, point, at)
+    ]

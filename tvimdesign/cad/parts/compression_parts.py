@@ -13,14 +13,9 @@ import cadquery as cq
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import block, rounded, sector, turned
-from tvimdesign.cad.parts import cutout_parts, liner_parts, thermistor_parts, vane_tile_parts
+from tvimdesign.cad.parts import heater_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
 
-FIXED = (
-    "housing", "peltier_pad", "spreader", "thermistor", "thermal_cutout", "bearing_outer", "preload_spring",
-    "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw", "cover_insert",
-)  # fmt: skip
-"""Not the blocks: they change their shape as the rotor turns, and each is held against all that stands and turns."""
 _SIDES = (1.0, -1.0)
 
 
@@ -32,7 +27,7 @@ def housing(dims: Dimensions) -> cq.Shape:
     pocketed = vane.cut(*_beside_faces(dims, end, end, (dims.running_clearance, dims.vane_height + end)))
     azimuths = _housing_vanes(dims)
     openings = [turned(slot, at) for at in azimuths for slot in _slots(dims)]
-    openings += [turned(hole, _first_face(dims)) for hole in thermistor_parts.hole_at_end(dims)]
+    openings += [turned(hole, _first_face(dims)) for hole in heater_parts.bead_hole(dims)]
     return bare_housing(dims, [turned(pocketed, at) for at in azimuths], openings)
 
 
@@ -40,7 +35,7 @@ def _slots(dims: Dimensions) -> list[cq.Shape]:
     """The slots of a housing vane, as a cutter comes by from below; beside the pads they open into their pockets."""
     bottom, top = -dims.floor_thickness, dims.slot_top_level
     if dims.spreader_depth:
-        return vane_tile_parts.slots(dims)
+        return heater_parts.tile_slots(dims)
     whole = sector(dims.slot_inner_radius, dims.slot_outer_radius, dims.housing_vane_angle, bottom, top)
     return [rounded(whole.cut(*_beside_faces(dims, dims.pad_seat, dims.pad_depth, (bottom, top))), dims.corner_radius)]
 
@@ -49,7 +44,7 @@ def rotor(dims: Dimensions) -> cq.Shape:
     """Rotor with vanes that hang from its plate to a running clearance above the floor."""
     top = dims.rotor_bottom_level
     vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.rotor_vane_angle, top - dims.vane_height, top)
-    recesses = liner_parts.recesses_in_vane(dims)
+    recesses = heater_parts.recesses_in_vane(dims)
     lined = vane.cut(*recesses) if recesses else vane
     return bare_rotor(dims, [turned(lined, azimuth) for azimuth in dims.azimuths("vane_count")])
 
@@ -69,7 +64,7 @@ def pcl_block(dims: Dimensions, squeeze: float = 0.0) -> cq.Shape:
 def peltier_pad(dims: Dimensions) -> cq.Shape:
     """One Peltier module, upright along the x axis: a flat pad, or a tile whose middle is on the axis."""
     if dims.spreader_depth:
-        return vane_tile_parts.tile(dims)
+        return heater_parts.vane_tile(dims)
     along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
     return block(along, dims.peltier_thickness, dims.running_clearance, dims.vane_height)
 
@@ -90,7 +85,7 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     Blocks stay on their pads: of the two beside a vane one is squeezed to what the vane leaves it, the other one parts
     from the vane and keeps its shape.
     """
-    placed = cutout_parts.stand(drawn, _housing_vanes(dims)[0])
+    placed = heater_parts.stand_cutout(drawn, _housing_vanes(dims)[0])
     if "thermistor" in drawn:
         placed["thermistor_1"] = turned(drawn["thermistor"], _first_face(dims))
     for index, azimuth in enumerate(_housing_vanes(dims)):
@@ -98,7 +93,7 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
             placed |= _heaters(dims, drawn, 2 * index + face, azimuth, side)
     if "liner" in drawn:
         for index, azimuth in enumerate(dims.azimuths("vane_count")):
-            for second, sheet in enumerate(liner_parts.on_vane(dims, drawn["liner"], azimuth + rotor_angle)):
+            for second, sheet in enumerate(heater_parts.liners_on_vane(dims, drawn["liner"], azimuth + rotor_angle)):
                 placed[f"liner_{2 * index + second + 1}"] = sheet
     shapes = {side: max(side * rotor_angle, 0.0) for side in _SIDES}
     pressed = {side: pcl_block(dims, squeeze) if squeeze else drawn["pcl_block"] for side, squeeze in shapes.items()}
@@ -130,7 +125,7 @@ def _heaters(
     at, beside = _behind_face(dims, side, dims.spreader_depth)
     placed = {f"spreader_{face + 1}": turned(drawn["spreader"], azimuth + at, beside)}
     at, beside = _behind_face(dims, side, dims.peltier_thickness, dims.spreader_depth)
-    places = vane_tile_parts.row(dims)
+    places = heater_parts.tile_row(dims)
     for index, along in enumerate(places):
         tile = drawn["peltier_pad"].moved(cq.Location(cq.Vector(along, 0.0, 0.0)))
         placed[f"peltier_pad_{face * len(places) + index + 1}"] = turned(tile, azimuth + at, beside)

@@ -82,20 +82,6 @@ def retainer(dims: Dimensions) -> cq.Shape:
     )
 
 
-def screw(dims: Dimensions) -> cq.Shape:
-    """The screw of that retainer, from below."""
-    under = dims.motor_retainer_level - dims.motor_retainer_floor
-    shank = cylinder(0.5 * dims.motor_screw_pilot, under, under + dims.motor_screw_length)
-    return join(shank, [cylinder(0.5 * dims.motor_screw_head, under - dims.motor_screw_head_height, under)])
-
-
-def mount_screw(dims: Dimensions) -> cq.Shape:
-    """The first of the screws from the module's floor through its feet into the hub."""
-    at = mounts(dims)[0]
-    shank = cylinder(0.5 * dims.mount_screw_pilot, -dims.mount_screw_length, 0, at)
-    return join(shank, [cylinder(0.5 * dims.mount_screw_head, 0, dims.mount_screw_head_height, at)])
-
-
 def rotor(dims: Dimensions) -> cq.Shape:
     """The motor's rotor as a ring."""
     bottom = dims.motor_rotor_bottom_level
@@ -127,11 +113,9 @@ def board(dims: Dimensions) -> cq.Shape:
 
 _MOTOR: dict[str, Draw] = {
     "motor_hub": hub, "motor_housing": housing, "motor_retainer": retainer, "motor_rotor": rotor,
-    "motor_stator": stator, "motor_bearing": bearing, "motor_screw": screw, "mount_screw": mount_screw,
+    "motor_stator": stator, "motor_bearing": bearing,
 }  # fmt: skip
 _ENCODER: dict[str, Draw] = {"encoder_magnet": magnet, "encoder_board": board}
-FIXED = (*_MOTOR, *_ENCODER)
-"""Kinds that stand while the link turns: the motor holds its place."""
 
 
 def drawn(dims: Dimensions) -> dict[str, Draw]:
@@ -141,15 +125,11 @@ def drawn(dims: Dimensions) -> dict[str, Draw]:
     return {**_MOTOR, **(_ENCODER if dims.encoder_recess_radius else {})}
 
 
-def stand(dims: Dimensions, solids: Mapping[str, cq.Solid]) -> dict[str, cq.Shape]:
-    """Place the motor's parts, by name; all but bearings and screws are drawn where they stand."""
-    several = {"motor_bearing", "mount_screw"}
-    placed: dict[str, cq.Shape] = {kind: turned(solids[kind], 0.0) for kind in drawn(dims) if kind not in several}
-    if not placed:
-        return {}
-    down = dims.motor_retainer_level + dims.motor_bearing_width - dims.stator_top_level
-    placed["motor_bearing_1"] = turned(solids["motor_bearing"], 0.0)
-    placed["motor_bearing_2"] = solids["motor_bearing"].moved(cq.Location(cq.Vector(0, 0, down)))
-    for index, azimuth in enumerate(dims.azimuths("spring_count")):
-        placed[f"mount_screw_{index + 1}"] = turned(solids["mount_screw"], azimuth)
+def stand(dims: Dimensions, solids: Mapping[str, cq.Solid], _rotor_angle: float) -> dict[str, cq.Shape]:
+    """Place the motor's parts, by name: it holds its place while the link turns. All are drawn where they stand."""
+    placed: dict[str, cq.Shape] = {kind: turned(solids[kind], 0.0) for kind in drawn(dims) if kind != "motor_bearing"}
+    if placed:
+        down = dims.motor_retainer_level + dims.motor_bearing_width - dims.stator_top_level
+        placed["motor_bearing_1"] = turned(solids["motor_bearing"], 0.0)
+        placed["motor_bearing_2"] = solids["motor_bearing"].moved(cq.Location(cq.Vector(0, 0, down)))
     return placed

@@ -9,20 +9,15 @@ import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.solids import cylinder, join, polar, ring, rounded, sector, turned
-from tvimdesign.cad.parts import cutout_parts, liner_parts, thermistor_parts, tile_parts
+from tvimdesign.cad.parts import heater_parts
 from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, retainer
-
-FIXED = (
-    "housing", "peltier_pad", "spreader", "thermistor", "thermal_cutout", "pcl_arc", "bearing_outer", "preload_spring",
-    "adjuster", "adjuster_screw", "adjuster_insert", "cover", "cover_screw", "cover_insert",
-)  # fmt: skip
 
 
 def housing(dims: Dimensions) -> cq.Shape:
     """Housing with pockets for the pads and windows below them."""
-    through = tile_parts.openings(dims) if dims.spreader_depth else [_window(dims)]
+    through = heater_parts.tile_openings(dims) if dims.spreader_depth else [_window(dims)]
     openings = [turned(shape, azimuth) for azimuth in _azimuths(dims) for shape in (_pocket(dims), *through)]
-    openings += [turned(seat, _azimuths(dims)[0]) for seat in thermistor_parts.seats(dims)]
+    openings += [turned(seat, _azimuths(dims)[0]) for seat in heater_parts.bead_seats(dims)]
     return bare_housing(dims, (), openings)
 
 
@@ -52,7 +47,7 @@ def _window(dims: Dimensions) -> cq.Solid:
 
 def rotor(dims: Dimensions) -> cq.Shape:
     """Rotor with pockets in its plate for the keys of the arcs or for liners, and lips beside them."""
-    pockets = [*_keys(dims), *liner_parts.recesses_over_arc(dims)]
+    pockets = [*_keys(dims), *heater_parts.recesses_over_arc(dims)]
     return bare_rotor(
         dims, _melt_lips(dims), [turned(pocket, azimuth) for azimuth in _azimuths(dims) for pocket in pockets]
     )
@@ -86,7 +81,7 @@ def _keys(dims: Dimensions) -> list[cq.Shape]:
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
     """One Peltier module under an arc: a pad of its outline, or a tile, on the x axis."""
-    return tile_parts.tile(dims) if dims.spreader_depth else _pad(dims)
+    return heater_parts.arc_tile(dims) if dims.spreader_depth else _pad(dims)
 
 
 DRAWN = {
@@ -106,7 +101,7 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
     """
     keyed = rotor_angle != 0.0 and dims.key_count > 0.0
     arc = pcl_arc(dims, rotor_angle) if keyed else drawn["pcl_arc"]
-    beside = tile_parts.azimuths(dims) if dims.spreader_depth else [0.0]
+    beside = heater_parts.tile_azimuths(dims) if dims.spreader_depth else [0.0]
     pads = [azimuth + of_tile for azimuth in _azimuths(dims) for of_tile in beside]
     sensed = _azimuths(dims)[: dims.count("thermistor_count")] if "thermistor" in drawn else []
     places = {"peltier_pad": pads, "pcl_arc": _azimuths(dims), "spreader": _azimuths(dims), "thermistor": sensed}
@@ -117,7 +112,7 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
         for kind, shape in shapes.items()
         for index, azimuth in enumerate(places[kind])
     }
-    return placed | cutout_parts.stand(drawn, _azimuths(dims)[0])
+    return placed | heater_parts.stand_cutout(drawn, _azimuths(dims)[0])
 
 
 def _azimuths(dims: Dimensions) -> list[float]:

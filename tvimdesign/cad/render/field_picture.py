@@ -12,8 +12,7 @@ from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
-from tvimdesign.cad.render.camera import look, renderer_on_white
-from tvimdesign.cad.render.render import poly_data, write_png
+from tvimdesign.cad.render.render import look, poly_data, renderer_on_white, write_png
 
 _SIZE = (1400, 1000)
 _FROM = (1.0, -1.35, 0.9)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache
 from importlib import import_module
 from io import BytesIO
@@ -27,8 +27,8 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 from tvimdesign.base.atomic_files import atomic_write
-from tvimdesign.cad.export.mesh import Array, Mesh
-from tvimdesign.cad.geometry.kinds import KINDS, Rgb
+from tvimdesign.cad.export.mesh import Array, Instance, Mesh
+from tvimdesign.cad.geometry.kinds import KINDS, Rgb, kind_of
 
 for _back_end in ("vtkRenderingOpenGL2", "vtkRenderingFreeType"):
     import_module(f"vtkmodules.{_back_end}")  # it registers itself as what draws, and what writes
@@ -194,3 +194,49 @@ def legend(kinds: Sequence[str], size: tuple[int, int]) -> vtkRenderer:
         renderer.AddViewProp(_text("     ", x, y, KINDS[kind].colour))
         renderer.AddViewProp(_text(kind.replace("_", " "), x + 42, y, None))
     return renderer
+
+
+Triple = tuple[float, float, float]
+_MARGIN = 1.06
+"""Picture over what is on it."""
+
+
+def renderer_on_white() -> vtkRenderer:
+    """An empty picture."""
+    renderer = vtkRenderer()
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    return renderer
+
+
+def write_view(
+    path: Path, renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, size: tuple[int, int]
+) -> None:
+    """Write what is seen of placed parts from a direction, with the legend of their kinds, whole or not at all."""
+    kinds = list(dict.fromkeys(kind_of(name) for name in placed))
+    below = legend_height(kinds, size)
+    renderer.SetViewport(0.0, below, 1.0, 1.0)
+    look(renderer, placed, from_here, size[1] * (1.0 - below) / size[0])
+    write_png(path, size, [renderer, legend(kinds, size)])
+
+
+def look(renderer: vtkRenderer, placed: Mapping[str, Instance], from_here: Triple, aspect: float) -> None:
+    """Look at placed parts from a direction; `aspect` is height over width of what they are drawn on."""
+    towards = np.array(from_here) / np.linalg.norm(from_here)
+    right = np.cross((0.0, 0.0, 1.0), towards)
+    right /= np.linalg.norm(right)
+    upward = np.cross(towards, right)
+    points = np.vstack([one.points() for one in placed.values()])
+    across, along = points @ right, points @ upward
+    middle = 0.5 * ((across.min() + across.max()) * right + (along.min() + along.max()) * upward)
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*middle)
+    camera.SetPosition(*(middle + towards))
+    camera.SetViewUp(0.0, 0.0, 1.0)
+    renderer.ResetCamera()
+    offset = middle - np.array(camera.GetFocalPoint())  # ResetCamera looks at the middle of a box around all
+    camera.SetFocalPoint(*middle)
+    camera.SetPosition(*(np.array(camera.GetPosition()) + offset))
+    camera.SetParallelScale(0.5 * _MARGIN * max(float(np.ptp(along)), float(np.ptp(across)) * aspect))
+    renderer.UseFXAAOn()
+    lit(renderer)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tvimdesign.cad.cad_report import CadReport
-from tvimdesign.cad.jobs.bodies.main import BASE, BODIES, MESHES, MOVING
+from tvimdesign.cad.jobs.bodies_main import BASE, BODIES, MESHES, MOVING
 from tvimdesign.cad.make import make_cad
 
 """Seconds after which the CAD process is given up."""
@@ -37,7 +37,7 @@ def make_bodies(
     design: Path, folder: Path, progress: Callable[[str], None] | None = None
 ) -> tuple[RigidBody, RigidBody, CadReport]:
     """Make what stands and what turns of a design.json, with their meshes in the folder. Raises GeometryError."""
-    report = make_cad(design, folder, progress, job="tvimdesign.cad.jobs.bodies.main")
+    report = make_cad(design, folder, progress, job="tvimdesign.cad.jobs.bodies_main")
     data = json.loads((folder / BODIES).read_text())
     base, moving = (
         RigidBody(

@@ -115,7 +115,7 @@ def _write(
 
 
 def _export(design: Design, folder: Path) -> None:
-    from tvimdesign.cad.jobs.load_kernel import load_kernel
+    from tvimdesign.cad.jobs.main import load_kernel
 
     load_kernel()
     from tvimdesign.cad.fe.exported_parts import export_parts

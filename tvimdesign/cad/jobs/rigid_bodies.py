@@ -1,15 +1,23 @@
-"""Mass, centre of mass and inertia of solids, of each alone and of several together."""
+"""The module as two rigid bodies, what stands and what turns: mass properties and a coarse mesh of each."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import cadquery as cq
 import numpy as np
+import trimesh
 from numpy.typing import NDArray
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
+
+from tvimdesign.cad.assembly.assembly import installed_coils
+from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh, spring_mesh
+from tvimdesign.cad.export.print_files import stl_bytes
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.geometry.outlines import placement
 
 Array = NDArray[np.float64]
 _MM, _MM3, _MM5 = 1e-3, 1e-9, 1e-15
@@ -54,3 +62,29 @@ def together(bodies: Iterable[MassProperties]) -> MassProperties:
         off = part.centre - centre
         inertia += part.inertia + part.mass * (off @ off * np.eye(3) - np.outer(off, off))
     return MassProperties(mass, centre, inertia)
+
+
+CHORD = 0.2
+"""Largest distance of a mesh from its part [mm]."""
+TURN = 0.5
+"""Largest angle between neighbouring triangles of a curved face [rad]."""
+AROUND = 6
+"""Points around a spring's wire."""
+
+
+def coarse_meshes(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> dict[str, Mesh]:
+    """A coarse mesh of each kind of part, in its own coordinates [mm]."""
+    coils = installed_coils(dims)
+    meshes = {kind: solid_mesh(solid, CHORD, TURN) for kind, solid in drawn.items()}
+    meshes["spring_right"] = spring_mesh(coils["spring_right"], AROUND)
+    meshes["spring_left"] = spring_mesh(coils["spring_left"], AROUND).mirrored()
+    return meshes
+
+
+def body_stl(meshes: Mapping[str, Mesh], placed: Mapping[str, cq.Solid], names: Sequence[str]) -> bytes:
+    """The named parts where they stand as one binary STL in metres."""
+    parts = [Instance(meshes[kind_of(name)], placement(placed[name].location())) for name in names]
+    first = np.cumsum([0] + [len(part.mesh.vertices) for part in parts])
+    faces = np.concatenate([part.mesh.faces + start for part, start in zip(parts, first, strict=False)])
+    points = np.concatenate([part.points() for part in parts]) * _MM
+    return stl_bytes(trimesh.Trimesh(points, faces, process=False))

@@ -1,4 +1,4 @@
-"""The child process that makes the rigid bodies: `python -m tvimdesign.cad.jobs.bodies.main DESIGN OUT SECONDS`."""
+"""The child process that makes the rigid bodies: `python -m tvimdesign.cad.jobs.bodies_main DESIGN OUT SECONDS`."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def run(design_path: Path, out: Path, _part_limit: float, lines: TextIO) -> None
     from tvimdesign.cad.assembly.assembly import drawn_parts, place
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.inspection.size_checks import size_checks
-    from tvimdesign.cad.jobs.bodies.body_meshes import body_stl, coarse_meshes
+    from tvimdesign.cad.jobs.rigid_bodies import body_stl, coarse_meshes
 
     dims = dimensions(design)
     drawn = drawn_parts(dims, lambda part: say(progress=part))
@@ -61,7 +61,7 @@ def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
 def _weighed(design: Design, placed: Mapping[str, Any], bodies: Mapping[str, list[str]]) -> dict[str, Any]:
     """Mass properties of each body as plain data."""
     from tvimdesign.cad.geometry.kinds import KINDS, kind_of
-    from tvimdesign.cad.jobs.bodies.mass_properties import of_solid, together
+    from tvimdesign.cad.jobs.rigid_bodies import of_solid, together
 
     return {
         body: together(of_solid(placed[name], design.value(KINDS[kind_of(name)].density)) for name in names).plain()

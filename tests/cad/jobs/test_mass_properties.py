@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from tvimdesign.cad.export.mesh import solid_mesh
-from tvimdesign.cad.jobs.bodies.mass_properties import of_solid, together
+from tvimdesign.cad.jobs.rigid_bodies import of_solid, together
 
 DENSITY = 1270.0
 

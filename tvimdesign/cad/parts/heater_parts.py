@@ -1,0 +1,218 @@
+"""What belongs to the heaters: rectangular Peltier modules with spreaders, liners, thermistor, thermal cut-out.
+
+Parts of the shear module are centred on the x axis, as an arc is; those in vanes stand along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from math import sqrt, tan
+
+import cadquery as cq
+
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.solids import block, cylinder, polar, rounded, sector, turned, wedge
+
+_SIDES = (1.0, -1.0)
+"""Of a vane's faces."""
+
+
+def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
+    """Return how one of each kind is drawn, of what this module has."""
+    in_arcs = dims.mode == "shear"
+    return {
+        **({"spreader": arc_spreader if in_arcs else vane_spreader} if dims.spreader_depth else {}),
+        **({"thermistor": bead_by_arc if in_arcs else bead_by_vane} if dims.thermistor_diameter else {}),
+        **({"liner": _liner_on_arc if in_arcs else _liner_on_vane} if dims.liner_depth else {}),
+        **({"thermal_cutout": cutout} if dims.cutout_diameter else {}),
+    }
+
+
+# --- rectangular Peltier modules ---
+
+
+def arc_tile(dims: Dimensions) -> cq.Shape:
+    """One tile on the x axis, its length across that."""
+    half = 0.5 * dims.peltier_width
+    along_x = (dims.tile_radius - half, dims.tile_radius + half)
+    return block(along_x, dims.peltier_length, -dims.pad_depth, -dims.spreader_depth)
+
+
+def arc_spreader(dims: Dimensions) -> cq.Shape:
+    """One spreader on the tiles of an arc, centred on the x axis, flush with the floor."""
+    sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.spreader_depth, 0)
+    return rounded(sharp, dims.corner_radius)
+
+
+def tile_azimuths(dims: Dimensions) -> list[float]:
+    """Azimuths [rad] of an arc's tiles from its middle."""
+    count = dims.count("tiles_per_arc")
+    return [dims.tile_pitch * (index - 0.5 * (count - 1)) for index in range(count)]
+
+
+def tile_openings(dims: Dimensions) -> list[cq.Shape]:
+    """What goes through the floor below the pocket of one arc: a window below each tile, holes for leads."""
+    top, bottom = -dims.pad_depth, -dims.floor_thickness
+    half = 0.5 * dims.peltier_width - dims.window_ledge
+    along_x = (dims.tile_radius - half, dims.tile_radius + half)
+    window = rounded(block(along_x, dims.peltier_length - 2.0 * dims.window_ledge, bottom, top), dims.corner_radius)
+    ends = 0.5 * (dims.arc_span - dims.lead_angle)
+    holes = [cylinder(0.5 * dims.lead_hole_diameter, bottom, top, polar(dims.tile_radius, at)) for at in (-ends, ends)]
+    return [*(turned(window, azimuth) for azimuth in tile_azimuths(dims)), *holes]
+
+
+def vane_tile(dims: Dimensions) -> cq.Shape:
+    """One tile, upright, its middle on the axis and its length along x."""
+    half, bottom = 0.5 * dims.peltier_length, dims.running_clearance
+    return block((-half, half), dims.peltier_thickness, bottom, bottom + dims.peltier_width)
+
+
+def vane_spreader(dims: Dimensions) -> cq.Shape:
+    """One spreader, upright along the x axis: the face of a block."""
+    along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
+    return block(along, dims.spreader_depth, dims.running_clearance, dims.vane_height)
+
+
+def tile_row(dims: Dimensions) -> list[float]:
+    """Distances of a row's tiles from the axis, along the face of their vane."""
+    count = dims.count("tiles_per_block")
+    return [dims.pcl_inner_radius + dims.tile_spacing * (index + 0.5) for index in range(count)]
+
+
+def tile_slots(dims: Dimensions) -> list[cq.Shape]:
+    """The slots of a vane on the x axis, one behind each tile: wider below the tiles, by their rounded corners."""
+    bottom, seat, top = -dims.floor_thickness, dims.running_clearance, dims.slot_top_level
+    feet = [rounded(foot, dims.corner_radius) for foot in _wedges(dims, dims.pad_seat, bottom, seat)]
+    return [foot.fuse(upper) for foot, upper in zip(feet, _wedges(dims, dims.pad_depth, seat, top), strict=True)]
+
+
+def _wedges(dims: Dimensions, inset: float, bottom: float, top: float) -> list[cq.Solid]:
+    """What a vane has not got behind its tiles between two levels, so far behind its faces."""
+    count, half = dims.count("tiles_per_block"), 0.5 * dims.slot_width
+    middles = [dims.tile_slot_radius + dims.tile_slot_pitch * (index - 0.5 * (count - 1)) for index in range(count)]
+    return [wedge((at - half, at + half), dims.housing_vane_angle, inset, bottom, top) for at in middles]
+
+
+# --- liners between PCL and rotor, in recesses of the rotor plate or of the faces of its vanes ---
+
+
+def _liner_on_arc(dims: Dimensions) -> cq.Shape:
+    """The liner above an arc that is centred on the x axis, flush with the rotor plate: it goes in between the lips."""
+    slip = dims.slip_clearance
+    radii = (dims.pcl_inner_radius + slip, dims.pcl_outer_radius - slip)
+    return _over_arc(dims, radii, dims.liner_span, dims.liner_thickness)
+
+
+def recesses_over_arc(dims: Dimensions) -> list[cq.Shape]:
+    """What the rotor plate lacks above such an arc; nothing without a liner."""
+    if not dims.liner_depth:
+        return []
+    return [_over_arc(dims, (dims.pcl_inner_radius, dims.pcl_outer_radius), dims.arc_span, dims.liner_depth)]
+
+
+def _over_arc(dims: Dimensions, radii: tuple[float, float], span: float, depth: float) -> cq.Shape:
+    """A sector between two radii with the corners of a pad, so deep into the rotor plate."""
+    levels = (dims.rotor_bottom_level, dims.rotor_bottom_level + depth)
+    return rounded(sector(*radii, span, *levels), dims.corner_radius)
+
+
+def _liner_on_vane(dims: Dimensions) -> cq.Shape:
+    """One liner, upright along the x axis: the face of a block."""
+    along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
+    return block(along, dims.liner_thickness, dims.running_clearance, dims.running_clearance + dims.block_height)
+
+
+def recesses_in_vane(dims: Dimensions) -> list[cq.Shape]:
+    """What both faces of a rotor vane on the x axis lack, open below and at both ends; nothing without liners."""
+    if not dims.liner_depth:
+        return []
+    more, top = dims.liner_depth, dims.running_clearance + dims.block_height
+    along = (dims.pcl_inner_radius - more, dims.pcl_outer_radius + more)
+    plate = block(along, dims.liner_depth, 0.0, top)
+    return [turned(plate, *_behind_rotor_face(dims, side, dims.liner_depth)) for side in _SIDES]
+
+
+def liners_on_vane(dims: Dimensions, liner: cq.Solid, azimuth: float) -> list[cq.Shape]:
+    """The two liners of a rotor vane at an azimuth [rad], flush with its faces."""
+    places = [_behind_rotor_face(dims, side, dims.liner_thickness) for side in _SIDES]
+    return [turned(liner, azimuth + at, beside) for at, beside in places]
+
+
+def _behind_rotor_face(dims: Dimensions, side: float, thickness: float) -> tuple[float, float]:
+    """Azimuth of a face of a rotor vane, and how far beside it the middle of a sheet behind it lies."""
+    return side * 0.5 * dims.rotor_vane_angle, -side * 0.5 * thickness
+
+
+# --- thermistor: at the end of a pad or below a spreader, over a hole in the floor ---
+
+
+def bead_by_arc(dims: Dimensions) -> cq.Shape:
+    """One bead of an arc that is centred on the x axis: beside the end of its pad, or below its spreader."""
+    radius, top = 0.5 * dims.thermistor_diameter, -dims.spreader_depth
+    ends = (top - dims.thermistor_length, top)
+    if dims.spreader_depth:
+        return cylinder(radius, *ends, polar(dims.tile_radius, 0.5 * (dims.arc_span - dims.lead_angle)))
+    along, across = polar(1.0, 0.5 * dims.arc_span)
+    x, y = polar(dims.thermistor_seat_radius, 0.5 * dims.arc_span)
+    return cylinder(radius, *ends, (x - radius * across, y + radius * along))
+
+
+def bead_seats(dims: Dimensions) -> list[cq.Shape]:
+    """The hole through the floor at the end of such an arc; none without a thermistor, and none below tiles."""
+    if not dims.thermistor_seat_diameter:
+        return []
+    at = polar(dims.thermistor_seat_radius, 0.5 * dims.pocket_span)
+    return [cylinder(0.5 * dims.thermistor_seat_diameter, -dims.floor_thickness, 0, at)]
+
+
+def bead_by_vane(dims: Dimensions) -> cq.Shape:
+    """The bead at the outer end of what stands behind a vane's face that is the x axis, the vane below that."""
+    bottom = dims.running_clearance
+    return cylinder(0.5 * dims.thermistor_diameter, bottom, bottom + dims.thermistor_length, _bead_place(dims))
+
+
+def bead_hole(dims: Dimensions) -> list[cq.Shape]:
+    """The hole below such a bead, through the floor and the sill of the vane; none without."""
+    if not dims.thermistor_diameter:
+        return []
+    ends = (-dims.floor_thickness, dims.running_clearance)
+    return [cylinder(0.5 * dims.thermistor_seat_diameter, *ends, _bead_place(dims))]
+
+
+def _bead_place(dims: Dimensions) -> tuple[float, float]:
+    half = 0.5 * dims.thermistor_diameter
+    return dims.pcl_outer_radius + half, -half
+
+
+# --- thermal cut-out: across a window, in there where it has room, else below the floor ---
+
+
+def cutout(dims: Dimensions) -> cq.Shape:
+    """The body, below what is centred on the x axis and across it."""
+    radius, length = 0.5 * dims.cutout_diameter, dims.cutout_length
+    under = -dims.pad_depth if fits_in_window(dims) else -dims.floor_thickness
+    lying = cq.Location(cq.Vector(dims.cutout_radius, -0.5 * length, under - radius), cq.Vector(1, 0, 0), -90)
+    return cylinder(radius, 0.0, length).moved(lying)
+
+
+def fits_in_window(dims: Dimensions) -> bool:
+    """Whether body and a running clearance around it go into the window below the first heater."""
+    if dims.mode != "shear":
+        return False
+    half, across = (
+        0.5 * dims.cutout_length + dims.running_clearance,
+        dims.cutout_diameter + 2.0 * dims.running_clearance,
+    )
+    if dims.spreader_depth:
+        is_centred = dims.count("tiles_per_arc") % 2 == 1
+        return is_centred and dims.window_width >= 2.0 * half and dims.window_depth >= across
+    inner, outer = dims.pcl_inner_radius + dims.window_ledge, dims.pcl_outer_radius - dims.window_ledge
+    near = dims.cutout_radius - 0.5 * across
+    end = 0.5 * dims.arc_span - dims.window_ledge / dims.pcl_inner_radius
+    reach = sqrt(max(outer**2 - half**2, 0.0))
+    return near >= inner and reach >= near + across and near * tan(end) >= half + dims.corner_radius
+
+
+def stand_cutout(drawn: Mapping[str, cq.Solid], azimuth: float) -> dict[str, cq.Shape]:
+    """Place it below the heater at an azimuth [rad], by name."""
+    return {"thermal_cutout": turned(drawn["thermal_cutout"], azimuth)} if "thermal_cutout" in drawn else {}

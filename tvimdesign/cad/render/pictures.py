@@ -1,0 +1,218 @@
+"""Pictures of the module: whole and opened, taken apart, and cut through."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from math import cos, pi, sin
+from pathlib import Path
+
+import cadquery as cq
+import numpy as np
+from manifold3d import CrossSection, FillRule, Manifold
+from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPlaneCollection, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData
+from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface
+from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
+
+from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.exploded_lifts import VIEWED_FROM, lifts
+from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh
+from tvimdesign.cad.export.print_files import body_of, mesh_of
+from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.kinds import KINDS, kind_of
+from tvimdesign.cad.render.render import (
+    actors,
+    legend,
+    legend_height,
+    look,
+    poly_data,
+    renderer_on_white,
+    surface_actors,
+    write_png,
+    write_view,
+)
+
+
+class Cutter:
+    """An upright prism that is taken away."""
+
+    def __init__(self, corners: Sequence[tuple[float, float]], bottom: float, top: float) -> None:
+        """`corners` of its section, between two levels [mm]."""
+        self._corners, self._bottom, self._top = corners, bottom, top
+
+    def body(self) -> Manifold:
+        """As triangles."""
+        section = CrossSection([np.array(self._corners)], FillRule.NonZero)
+        return Manifold.extrude(section, self._top - self._bottom).translate((0.0, 0.0, self._bottom))
+
+    def solid(self) -> cq.Solid:
+        """As the kernel has it."""
+        outline = cq.Workplane().workplane(offset=self._bottom).polyline(list(self._corners)).close()
+        body = outline.extrude(self._top - self._bottom).val()
+        assert isinstance(body, cq.Solid)
+        return body
+
+
+def without(name: str, instance: Instance, cutter: Cutter, solid: cq.Solid) -> Mesh:
+    """The mesh of a placed part without the cutter, in the module's coordinates; empty where nothing is left."""
+    try:
+        body = body_of(kind_of(name), instance.mesh).transform(instance.matrix[:3])
+    except GeometryError:
+        left = solid.cut(cutter.solid())
+        return solid_mesh(left) if left.Solids() else Mesh(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    return mesh_of(body - cutter.body())
+
+
+_PREVIEW_SIZE = (1800, 800)
+_FROM = (1.0, -1.35, 1.25)
+_CUT = ("housing", "rotor")
+_HIDDEN = ("link", "link_dowel", "cover", "cover_screw")
+
+
+def write_preview(path: Path, dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, Instance]) -> None:
+    """Write the picture as PNG, whole or not at all."""
+    opened = {name: instance for name, instance in placed.items() if kind_of(name) not in _HIDDEN}
+    size = 2.0 * dims.envelope_diameter + dims.envelope_height
+    quarter = Cutter([(0.0, -size), (size, -size), (size, 0.0), (0.0, 0.0)], -size, size)  # faces the camera
+    for name in _CUT:
+        opened[name] = Instance(without(name, placed[name], quarter, drawn[name]), np.eye(4))
+    kinds = MODULES[dims.mode].kinds(dims)
+    views = []
+    below = legend_height(kinds, _PREVIEW_SIZE)
+    aspect = _PREVIEW_SIZE[1] * (1.0 - below) / (0.5 * _PREVIEW_SIZE[0])
+    whole = {name: _actors(name, instance) for name, instance in placed.items()}
+    cut = {name: _actors(name, opened[name]) if name in _CUT else whole[name] for name in opened}
+    for left, right, shown, drawings in ((0.0, 0.5, placed, whole), (0.5, 1.0, opened, cut)):
+        renderer = _view(shown, drawings, aspect)
+        renderer.SetViewport(left, below, right, 1.0)
+        views.append(renderer)
+    write_png(path, _PREVIEW_SIZE, [*views, legend(kinds, _PREVIEW_SIZE)])
+
+
+def _actors(name: str, instance: Instance) -> tuple[vtkActor, vtkActor]:
+    return actors(instance.mesh, instance.matrix, KINDS[kind_of(name)].colour)
+
+
+def _view(
+    placed: Mapping[str, Instance], drawings: Mapping[str, tuple[vtkActor, vtkActor]], aspect: float
+) -> vtkRenderer:
+    """Everything that is placed, seen from the front, above and the right."""
+    renderer = renderer_on_white()
+    for name in placed:
+        for actor in drawings[name]:
+            renderer.AddActor(actor)
+    look(renderer, placed, _FROM, aspect)
+    return renderer
+
+
+_EXPLODED_SIZE = (1000, 1300)
+
+
+def write_exploded(path: Path, placed: Mapping[str, Instance]) -> None:
+    """Write the picture of the parts apart from each other."""
+    renderer, apart = renderer_on_white(), dict[str, Instance]()
+    for name, lift in lifts(placed).items():
+        moved = placed[name].matrix.copy()
+        moved[2, 3] += lift
+        apart[name] = Instance(placed[name].mesh, moved)
+        for actor in actors(placed[name].mesh, moved, KINDS[kind_of(name)].colour):
+            renderer.AddActor(actor)
+    write_view(path, renderer, apart, VIEWED_FROM, _EXPLODED_SIZE)
+
+
+_SECTION_SIZE = (1500, 750)
+_RISE = 0.3
+"""How far the camera looks down, as a slope."""
+_BEST_WEDGE = 0.75 * pi
+"""Both faces of a wedge that wide are seen nearly square on, and the parts between them are open to the camera."""
+SPRINGS = ("spring_right", "spring_left")
+POLYMER = ("pcl_arc", "pcl_block")
+
+
+def write_section(path: Path, solids: Mapping[str, cq.Solid], placed: Mapping[str, Instance]) -> None:
+    """Write the picture, whole or not at all; `solids` and `placed` are the parts in their places, by name."""
+    first, last = wedge_of(placed)
+    renderer = renderer_on_white()
+    cutter = _wedge(first, last, placed)
+    for name, instance in placed.items():
+        colour = KINDS[kind_of(name)].colour
+        if kind_of(name) in SPRINGS:
+            surface = _spring_outside(instance, first, last)
+            shown = surface_actors(surface, colour) if surface.GetNumberOfPolys() else ()
+        elif _is_uncut(instance, first, last):
+            shown = actors(instance.mesh, instance.matrix, colour)
+        else:
+            left = without(name, instance, cutter, solids[name])
+            shown = actors(left, np.eye(4), colour) if len(left.faces) else ()
+        for actor in shown:
+            renderer.AddActor(actor)
+    towards = 0.5 * (first + last)
+    write_view(path, renderer, placed, (cos(towards), sin(towards), _RISE), _SECTION_SIZE)
+
+
+def wedge_of(placed: Mapping[str, Instance]) -> tuple[float, float]:
+    """Azimuths [rad] between which the module is cut away: through the axis of a spring, and the middle of the polymer.
+
+    Of all pairs that which lies nearest to a wedge whose faces both show; the second is the larger by less than pi.
+    """
+    springs, polymer = (
+        [_azimuth(one) for name, one in placed.items() if kind_of(name) in kinds] for kinds in (SPRINGS, POLYMER)
+    )
+    pairs = [(a, b) for one, other in product(springs, polymer) for a, b in ((one, other), (other, one))]
+    wedges = [(a, a + (b - a) % (2.0 * pi)) for a, b in pairs]
+    return min(wedges, key=lambda wedge: (round(abs(wedge[1] - wedge[0] - _BEST_WEDGE), 6), wedge))
+
+
+def _azimuth(instance: Instance) -> float:
+    """Where the middle of a part stands around the module's axis."""
+    x, y, _ = instance.points().mean(axis=0)
+    return float(np.arctan2(y, x))
+
+
+def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> Cutter:
+    """A sector about the axis that reaches beyond every part."""
+    points = np.vstack([one.points() for one in placed.values()])
+    low, high, reach = points[:, 2].min() - 1.0, points[:, 2].max() + 1.0, 4.0 * float(np.abs(points).max())
+    corners = [(0.0, 0.0), *((reach * cos(a), reach * sin(a)) for a in np.linspace(first, last, 4))]
+    return Cutter(corners, low, high)
+
+
+def _outwards(first: float, last: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Normals of the wedge's faces, out of it."""
+    return (sin(first), -cos(first), 0.0), (-sin(last), cos(last), 0.0)
+
+
+def _is_uncut(instance: Instance, first: float, last: float) -> bool:
+    """Whether a face of the wedge has all of a part before it, so that nothing of it is cut away."""
+    points = instance.points()
+    return any(bool((points @ np.array(outward)).min() >= 0.0) for outward in _outwards(first, last))
+
+
+def _spring_outside(instance: Instance, first: float, last: float) -> vtkPolyData:
+    """The part of a spring outside the wedge. A plane that cuts it clips its closed mesh; no spring meets both."""
+    clean = vtkCleanPolyData()
+    clean.SetInputData(poly_data(instance.mesh, instance.matrix))
+    clean.Update()
+    whole: vtkPolyData = clean.GetOutput()
+    points = instance.points()
+    planes = vtkPlaneCollection()
+    for outward in _outwards(first, last):
+        ahead = points @ np.array(outward)
+        if ahead.min() >= 0.0:
+            return whole
+        if ahead.max() > 0.0:
+            plane = vtkPlane()
+            # A hair beside the axis: a plane through vertices and edges leaves slivers.
+            plane.SetOrigin(*(1e-3 * part for part in outward))
+            plane.SetNormal(*outward)
+            planes.AddItem(plane)
+    if not planes.GetNumberOfItems():
+        return vtkPolyData()
+    clip = vtkClipClosedSurface()
+    clip.SetInputData(whole)
+    clip.SetClippingPlanes(planes)
+    clip.Update()
+    left: vtkPolyData = clip.GetOutput()
+    return left
