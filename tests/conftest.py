@@ -36,7 +36,7 @@ LONGEST = (
     "tests/report/compare/test_compare.py",
     "tests/report/paper/",
     "tests/api/",
-    "tests/report/run/first_screen/",
+    "tests/report/run/",
     "tests/simulation/working_cycle/",
     "tests/solve/pareto/test_front.py",
     "tests/test_docs_commands.py",

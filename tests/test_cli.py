@@ -247,9 +247,9 @@ def test_a_switch_that_never_ends_is_said_so(tvimdesign: Command, tmp_path: Path
     file = tmp_path / "weak.yaml"
     file.write_text("mode: shear\nmodule: {current: 0.2 A}\n")
     done = tvimdesign("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
-    assert "EVALUATED, NEVER SOFT" in done.stdout
-    assert re.search(r"Warning +the switch never ends", done.stdout)
-    assert re.search(r"Soft after +never", done.stdout)
+    assert done.stdout.startswith("Do not build it: it never gets soft")
+    assert "Warning: the switch never ends" in done.stdout
+    assert "Times: never soft" in done.stdout
     assert json.loads((tmp_path / "out/results.json").read_text())["values"]["response_time"]["value"] is None
 
 
@@ -260,7 +260,7 @@ def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimd
     study.write_text("mode: shear\nmodule: {cooling_current: 1 A}\n")
     done = tvimdesign("run", study, "--no-cad", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
-    assert re.search(r"Stiff again +never", done.stdout)
+    assert "never stiff again" in done.stdout
     summary = (tmp_path / "out/summary.txt").read_text()
     assert re.search(r"stiffening_time\W+never", summary)
     assert re.search(r"cycle_time\W+never", summary)

@@ -31,8 +31,10 @@ def test_a_study_whose_name_looks_like_markup_runs_on_any_terminal(tmp_path: Pat
     words = ["--no-cad", "--no-plots", "--out", tmp_path / "[/bold]"]
     done = run("run", tmp_path / "nasty.yaml", *words, PYTHONIOENCODING="ascii", TVIMDESIGN_SPREAD="")
     assert done.returncode == 0, done.stderr
-    assert b"[/bold] [red] N.m ? :key: . shear" in done.stdout
-    assert "Yield  " in (tmp_path / "[/bold]/summary.txt").read_text(encoding="utf-8")  # the child read those letters
+    assert b"[/bold] [red] N.m ? :key: (shear)" in done.stdout
+    assert "Manufacturing: " in (tmp_path / "[/bold]/summary.txt").read_text(
+        encoding="utf-8"
+    )  # the child read those letters
 
 
 @pytest.mark.parametrize("unbuffered", ["", "1"])

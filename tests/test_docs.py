@@ -12,7 +12,7 @@ from answers import shipped_answer
 from support import ROOT, STUDIES, Command
 
 from tvimdesign.catalog import Catalog, check_records
-from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study, read_study_text
 

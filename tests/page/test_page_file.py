@@ -29,7 +29,7 @@ def test_the_page_of_a_run_is_valid_html(report: Path) -> None:
     html5lib.HTMLParser(strict=True).parse(report.read_text("utf-8"))
     names = re.findall(r'\bid="([^"]+)"', report.read_text("utf-8"))
     assert len(names) == len(set(names))
-    assert {"first", "requirements", "assembly", "cycle", "why", "assumptions", "front", "checks", "materials", "steps",
+    assert {"first", "module", "assembly", "cycle", "why", "assumptions", "front", "checks", "materials", "steps",
             "spring", "study", "versions"} <= set(names)  # fmt: skip
 
 

@@ -86,7 +86,7 @@ def test_nothing_reaches_beyond_a_phone(opened: Open, report: Path) -> None:
 
 def test_it_is_read_without_its_code(opened: Open, report: Path) -> None:
     page = opened(report, java_script_enabled=False).page
-    assert page.get_by_role("heading", name="Requirements").is_visible()
+    assert page.get_by_role("heading", name="Module").is_visible()
     assert page.get_by_role("table", name="At the operating points").is_visible()
     assert "Needs a browser that runs the page's code" in page.locator("#figure-cycle").inner_text()
 

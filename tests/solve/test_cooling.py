@@ -8,7 +8,7 @@ from functools import cache
 import pytest
 
 from tvimdesign.report.output.tables import results
-from tvimdesign.report.run.first_screen.verdict import module_lines
+from tvimdesign.report.run.blocks.facts import more_facts
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
@@ -22,8 +22,7 @@ def module(changes: str) -> StudyResult:
 
 
 def stiff(of: StudyResult) -> str:
-    lines = module_lines(of, read_study_text("mode: shear\n", "a test").table, {}, 400)
-    return next(line for line in lines if line.startswith("Stiff again"))
+    return next(fact.text for fact in more_facts(of, {}, None) if fact.label == "Stiff")
 
 
 def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
@@ -31,7 +30,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
     assert cooled.design.values["frozen_time"] < 0.8 * air.design.values["frozen_time"]
     for name, seconds in cooled.cooling.unpowered.items():
         assert seconds == pytest.approx(air.design.values[name], rel=2e-3)
-    assert f"with the pads unpowered {air.design.values['frozen_time']:.3g} s" in stiff(cooled)
+    assert f"{air.design.values['frozen_time']:.3g} s if the Peltiers are switched off" in stiff(cooled)
     assert "by the air alone: no current cools" in stiff(air)
 
 

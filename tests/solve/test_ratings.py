@@ -10,9 +10,9 @@ import pytest
 from support import Command
 
 from tvimdesign.device import table_for
+from tvimdesign.report.run.blocks.facts import more_facts
+from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.check_study import foreseen_ratings
-from tvimdesign.report.run.first_screen.qualifications import qualification_lines
-from tvimdesign.report.run.first_screen.verdict import status
 from tvimdesign.report.run.front_report import of_ratings, said_of_ratings
 from tvimdesign.report.run.infeasible_report import above_rating
 from tvimdesign.solve.pareto.tradeoff import Point
@@ -40,13 +40,17 @@ def answered(accept: str = "", *, searched: bool = True) -> StudyResult:
     return answer(read_study_text(text))
 
 
+def _facts(found: StudyResult) -> dict[str, str]:
+    return {fact.label: fact.text for fact in more_facts(found, {}, None)}
+
+
 def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
     found = answered()
     assert found.design.status == "above_rating"
     assert set(found.design.above_rating) == {*BOTH, PADS}
     assert found.design.accepting == ()
     assert found.found  # it is a design all the same: every limit is kept
-    assert status(found) == f"ABOVE RATING, NOT ACCEPTED: {', '.join(found.design.above_rating)}"
+    assert verdict(found, {}, []).text.startswith("Above a rating: ")
     said = above_rating(found, TABLE)
     assert f"structure_temperature_margin >= 0 K, by {-found.design.value(BOTH[0]):.3g} K" in said
     assert f"accept: [{', '.join(found.design.above_rating)}]" in said
@@ -56,7 +60,8 @@ def test_one_that_its_study_accepts_is_and_says_what_it_accepts() -> None:
     found = answered(ACCEPTED)
     assert (found.design.status, found.design.above_rating) == ("optimal", ())
     assert set(found.design.accepting) == {*BOTH, PADS}
-    assert status(found) == f"OPTIMAL, ACCEPTING: {', '.join(found.design.accepting)}"
+    assert verdict(found, {}, []).kind != "rating"
+    assert f"as the study accepts: {', '.join(found.design.accepting)}" in _facts(found)["Accepts"]
     assert above_rating(found, TABLE) == ""
     assert not {check.output for check in found.warnings} & {*BOTH, PADS}
     assert found.accepted_in_vain == ()
@@ -72,15 +77,15 @@ def test_what_is_accepted_in_vain_is_told() -> None:
     found = answered(ACCEPTED.replace("[", "[pcl_temperature_margin, "))
     assert found.design.status == "optimal"
     assert found.accepted_in_vain == ("pcl_temperature_margin",)
-    assert "pcl_temperature_margin: not needed" in " ".join(qualification_lines(found, TABLE, 100))
+    assert "pcl_temperature_margin: not needed" in _facts(found)["Accepts"]
 
 
 def test_an_evaluation_claims_nothing_and_says_it_too() -> None:
     found = answered(searched=False)
     assert found.design.status == "evaluated"
     assert set(found.design.above_rating) == {*BOTH, PADS}
-    assert status(found).startswith("EVALUATED, ABOVE RATING, NOT ACCEPTED: ")
-    assert status(answered(ACCEPTED, searched=False)).startswith("EVALUATED, ACCEPTING: ")
+    assert verdict(found, {}, []).kind == "rating"
+    assert verdict(answered(ACCEPTED, searched=False), {}, []).kind != "rating"
 
 
 def test_a_cooler_switch_is_within_every_rating() -> None:
@@ -90,7 +95,7 @@ def test_a_cooler_switch_is_within_every_rating() -> None:
     )
     points = "operating_points: {hot: {temperature: 90 degC}}\n"
     found = answer(read_study_text(f"{SEARCHED}{cool}{points}"))
-    assert (found.design.status, status(found)) == ("optimal", "OPTIMAL")
+    assert (found.design.status, found.design.accepting) == ("optimal", ())
 
 
 def test_check_says_it_beforehand_of_the_module_a_search_starts_from() -> None:

@@ -10,8 +10,8 @@ import pytest
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
-from tvimdesign.report.run.first_screen.verdict import status
-from tvimdesign.report.run.first_screen.warnings import warnings_of
+from tvimdesign.report.run.blocks.verdict import verdict
+from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.yield_words import below_yield
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -70,8 +70,7 @@ def test_starts_that_are_left_are_told_and_the_best_design_is_kept() -> None:
     assert solution.out_of_time == 300.0
     assert len(solution.starts) == 3
     assert any("objective" in text and "so far" in text for text in clock.said)
-    told = [say for say, _ in warnings_of(answered, read_study_text(SEARCHED).table, ())]
-    assert any("time limit of 5 min" in say for say in told)
+    assert any("time limit of 5 min" in warning.text for warning in warnings_of(answered, ()))
 
 
 def test_combinations_that_are_left_are_counted_as_such() -> None:
@@ -165,7 +164,7 @@ def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word:
     assert "--time-limit" in missed
     if then > LIMIT:
         assert "how many modules satisfy every limit is not known" in missed
-        assert status(answered).startswith("WITHIN ITS LIMITS, MARGINS NOT FINISHED IN TIME")
+        assert verdict(answered, {}, []).text == "Margins not reached: the time limit ended the search"
 
 
 TIMED = """

@@ -168,7 +168,7 @@ class Result:
         """
         if "uncertainty" not in self.data:
             from tvimdesign.report.run.answered_study import note_uncertainty
-            from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
+            from tvimdesign.report.run.uncertainty_data import Uncertainty
 
             note_uncertainty(self._answered, Uncertainty(self._answered.study).data(self.design))
         return self.data["uncertainty"]
@@ -205,9 +205,9 @@ class Result:
     def show(self) -> None:
         """Print the first screen of `tvimdesign run`, without what it says of spread."""
         from tvimdesign.report.output.progress import wide_console
-        from tvimdesign.report.run.first_screen.run_screen import print_screen
+        from tvimdesign.report.run.first_screen import print_first_screen
 
-        print_screen(self._answered, wide_console())
+        print_first_screen(self._answered, wide_console())
 
     # --- files ---
 
@@ -218,23 +218,20 @@ class Result:
         """
         from tvimdesign.report.command import noting
         from tvimdesign.report.figures.plot_process import PlotProcess
-        from tvimdesign.report.run.first_screen.run_screen import write_summary
-        from tvimdesign.report.run.first_screen.screen import Told
-        from tvimdesign.report.run.run_page.run_page import write_run_page
+        from tvimdesign.report.run.first_screen import write_summary
+        from tvimdesign.report.run.run_page import write_run_page
         from tvimdesign.report.run.write_answer import finish, write_answer
 
         failures: list[TvimError] = []
         with ResultsFolder(Path(folder), overwrite) as written:
             write_answer(written, self._answered)
-            uncertainty = dict(self.data.get("uncertainty", {}))
-            write_summary(self._answered, written, uncertainty)
+            write_summary(self._answered, written)
             asked = drawings(self._answered) if plots else []
             if asked:
                 with PlotProcess() as drawing, noting(failures):
                     drawing.begin(written.path / "plots", asked, self.name)
                     drawing.finish("save again with overwrite=True")
-            told = Told(None, uncertainty, self._answered.warnings, self._answered.front.front)
-            write_run_page(written, self._answered, told)
+            write_run_page(written, self._answered)
             finish(written, self._answered)
         for failure in failures:
             warnings.warn(str(failure), stacklevel=2)

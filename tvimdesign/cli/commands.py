@@ -87,7 +87,7 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
     import sys
 
     from tvimdesign.cad.fe.run_solvers import require_fe
-    from tvimdesign.report.run.run_page.verification_section import folder_of_verification
+    from tvimdesign.report.run.verification_section import folder_of_verification
     from tvimdesign.report.verify.verify_design import verify_design
 
     require_fe(fe_python or sys.executable)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tvimdesign.device import table_for
-from tvimdesign.report.output.tables import headline_rows
-from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
+from tvimdesign.report.output.thresholds import meaning, soft_in_words, stiff_in_words
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study_text
 
@@ -29,6 +28,5 @@ def test_soft_and_stiff_are_said_as_impedances(module: str, soft: str, stiff: st
     found = answer(study)
     assert soft_in_words(found.design, TABLE) == soft
     assert stiff_in_words(found.design, TABLE) == stiff
-    meanings = {name: text for _, name, _, _, text in headline_rows(found, TABLE)}
-    assert meanings["softening_time"].endswith(f"(soft: {soft})")
-    assert meanings["stiffening_time"].endswith(f"(stiff: {stiff})")
+    assert meaning("softening_time", found.design, TABLE).endswith(f"(soft: {soft})")
+    assert meaning("stiffening_time", found.design, TABLE).endswith(f"(stiff: {stiff})")

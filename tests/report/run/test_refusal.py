@@ -44,7 +44,7 @@ def test_one_start_of_thirty_is_enough_for_what_check_refuses(
     (limit,) = reported["conflict_set"]["cannot_hold_together"]
     assert limit["limit"] == "envelope_diameter <= 120 mm"
     assert "envelope_diameter" in (out / "summary.txt").read_text()
-    assert "NO DESIGN FOUND" in (out / "report.html").read_text()
+    assert "Infeasible because diameter &lt;= 120 mm cannot hold" in (out / "report.html").read_text()
     assert (out / "study.yaml").read_text() == STUDY
     said = json.loads(capsys.readouterr().out)
     jsonschema.validate(said, results_schema())

@@ -113,7 +113,7 @@ def test_a_run_does_not_load_matplotlib(tmp_path: Path) -> None:
     code = (
         "import sys; from tvimdesign.report.figures import plot_process;"
         "from tvimdesign.report.run import front_report, run_study;"
-        "from tvimdesign.report.run.first_screen import run_screen;"
+        "from tvimdesign.report.run import first_screen;"
         "from tvimdesign.solve import result, search;"
         "print([m for m in ('matplotlib',) if m in sys.modules])"
     )

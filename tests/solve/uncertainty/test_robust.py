@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tvimdesign.report.run.first_screen.verdict import status
+from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.yield_words import below_yield, cost_of_margins, yield_of
@@ -120,7 +120,7 @@ def test_a_yield_that_cannot_be_reached_says_which_limit_loses_it_and_by_which_t
     found = answer(study)
     assert found.found
     assert found.design.status == "below_yield"
-    assert status(found).startswith("YIELD ")
+    assert verdict(found, {}, []).kind == "margins_missed"
     said = below_yield(found)
     assert "no design found that 95 % of the modules keep" in said
     # d^4 with 0.05 mm at 2 mm against D with the coil's 2 to 3 %: the wire carries most of it.

@@ -27,8 +27,7 @@ from tvimdesign.explore.states.state import State
 from tvimdesign.page.page_fragment import page_fragment
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.first_screen.screen import Told
-from tvimdesign.report.run.run_page.run_page import run_page
+from tvimdesign.report.run.run_page import run_page
 from tvimdesign.study.design import Design, design_json
 
 
@@ -118,8 +117,7 @@ def _inputs(design: Design) -> set[str]:
 def report_fragment(folder: Path, answered: AnsweredStudy) -> dict[str, Any]:
     """First screen and sections as HTML, with what their figures are drawn from."""
     own = folder / PARTS / design_name(answered.result.design)
-    told = Told(warnings=answered.warnings, front=answered.front.front)
-    page = run_page(DesignFolder(own), answered, told)
+    page = run_page(DesignFolder(own), answered)
     left_out = {"study", "versions", *(() if (own / "cad").is_dir() else ("assembly",))}
     return {"folder": f"{PARTS}/{own.name}", **finite_data(page_fragment(page, left_out))}
 

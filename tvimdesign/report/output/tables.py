@@ -10,20 +10,21 @@ from dataclasses import asdict
 from typing import Any, cast
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.device import Input, Output, Table
+from tvimdesign.device import Input, Table
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
 from tvimdesign.report.output.number_entry import finite, number_entry
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.provenance import FindRecord, provenance
 from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, ValueEntry, Yield
-from tvimdesign.report.output.thresholds import meaning, notes
+from tvimdesign.report.output.thresholds import notes
 from tvimdesign.report.output.uncertainty_format import IntervalEntry
 from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
-from tvimdesign.study.design import Design, catalog_of
+from tvimdesign.study.design import catalog_of
 
 NOTHING = 5e-4
 """Margin, as a share, below which a limit is said to bind."""
+_ROUND = 1e-5
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -34,86 +35,52 @@ def number(value: float, digits: int = 4) -> str:
     return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
 
 
-def value_text(answer: StudyResult, name: str, table: Table) -> str:
-    """The value of an output for people: one number, or `low to high` where history leaves it open."""
+def value_text(answer: StudyResult, name: str, table: Table, *, rounded: bool = False) -> str:
+    """Return an output's value for people: one number, or `low to high` if history leaves it open.
+
+    With `rounded`, what a solver leaves of zero is zero, in any unit that a limit is written in.
+    """
     unit = table.unit(name)
     if name not in answer.intervals:
-        return number(from_si(answer.design.value(name), unit))
+        value = from_si(answer.design.value(name), unit)
+        return number(_rounded(value) if rounded else value)
     low, high = (number(from_si(end, unit), 2) for end in answer.intervals[name])
     return f"{low} to {high}"
 
 
-def headline_rows(answer: StudyResult, table: Table) -> list[tuple[str, str, str, str, str]]:
-    """(group, name, value, unit, description) of the rows with one value that stand in a summary."""
-    return [
-        (row.group, f"{row.name}{_mark(row.name, answer)}", value_text(answer, row.name, table), pretty(row.unit),
-         meaning(row.name, answer.design, table))
-        for row in table.outputs
-        if row.headline and not row.per_point
-    ]  # fmt: skip
+def on_limit(check: ConstraintCheck, unit: str) -> float:
+    """Return the value of a limit that binds, put exactly on the limit, in `unit`."""
+    beyond = -check.margin * check.scale if ">=" in check.text else check.margin * check.scale
+    return _rounded(from_si(check.value + beyond, unit))
 
 
-def _mark(name: str, answer: StudyResult) -> str:
-    """What stands behind the name of a value that an idealization gave."""
-    return " ~" if any(name in one.as_drawn for one in answer.idealizations) else ""
+def _rounded(value: float) -> float:
+    """Return zero for what a solver leaves of zero, in any unit that people read."""
+    return 0.0 if abs(value) < _ROUND else value
 
 
-def point_rows(answer: StudyResult, table: Table) -> tuple[list[str], list[tuple[str, ...]]]:
-    """Names of the operating points, and (name, one value a point, unit, description) of the rows that have several."""
-    points = list(answer.design.study["operating_points"])
-    shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
-    shown += [row for row in table.outputs if row.per_point and row.headline]
-    rows = [
-        (
-            f"{row.name}{_mark(f'{row.name}@{points[0]}', answer)}",
-            *(value_text(answer, f"{row.name}@{point}", table) for point in points),
-            pretty(row.unit),
-            row.description,
-        )
-        for row in shown
-    ]
-    return points, rows
+def percent(share: float, digits: int = 3) -> str:
+    """Return a share for people: `95.8 %`."""
+    return f"{100.0 * share:.{digits}g} %"
 
 
-def variable_rows(answer: StudyResult, table: Table) -> list[tuple[str, str, str, str, str]]:
-    """(name, start, optimum, unit, range) of what the study varied."""
-    if answer.solution is None:
-        return []
-    rows = []
-    first = answer.solution.starts[0].begin
-    for name, vary in answer.design.study["vary"].items():
-        if name not in first and name not in answer.design.choices:
-            continue  # a current that follows a profile: a table of its own
-        if name not in first:
-            rows.append((name, "", answer.design.choices[name], "", ", ".join(str(v) for v in vary["values"])))
-            continue
-        unit = table.unit(name)
-        shown = [number(from_si(value, unit)) for value in (first[name], answer.design.values[name])]
-        ends = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
-        low, high = (number(from_si(end, unit)) for end in ends)
-        rows.append((name, *shown, pretty(unit), f"{low} to {high}" + ("" if "lower" in vary else ", listed")))
-    return rows
+def ends_text(low: float | None, high: float | None, digits: int = 3) -> str:
+    """Return an interval for people, `38 to 104`; what never happens has no end."""
+    return " to ".join("never" if end is None else number(end, digits) for end in (low, high))
 
 
-def current_rows(design: Design, table: Table) -> list[tuple[str, str, str, str]]:
-    """(phase, moment [s], current [A], what that is of the range) of the currents that follow a profile."""
-    rows = []
-    for name, plain in design.current_profiles.items():
-        vary = design.study["vary"].get(table.phase(name).current_input)
-        currents = plain["currents"]
-        largest = vary["upper"] if vary else max(map(abs, currents))
-        for i, (seconds, exact) in enumerate(zip(plain["moments"], currents, strict=True)):
-            current = exact if abs(exact) > 1e-4 * largest else 0.0
-            end = _end_of_range(abs(exact), vary) if vary else ""
-            rows.append((name if i == 0 else "", number(seconds, 3), number(current, 3), end))
-    return rows
-
-
-def _end_of_range(size: float, vary: Mapping[str, float]) -> str:
-    """At which end of its range a current lies; empty within it."""
-    if 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]:
+def range_text(interval: Mapping[str, Any] | None) -> str:
+    """Return the range of a value, `38 to 104`; empty if its ends are the value itself in three digits."""
+    if interval is None:
         return ""
-    return "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
+    text = ends_text(interval["low"], interval["high"])
+    value = ends_text(interval["value"], interval["value"])
+    return "" if text == value else text
+
+
+def mark(name: str, answer: StudyResult) -> str:
+    """Return what marks a value that an idealization gave."""
+    return " ~" if any(name in one.as_drawn for one in answer.idealizations) else ""
 
 
 def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[float, str]:
@@ -134,6 +101,18 @@ def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
     if unit == "1" and not check.absolute:
         return f"{margin:+.1%}" if abs(margin) < 100 else "ample" if margin > 0.0 else "far off"
     return f"{margin:+.3g} {pretty(unit)}".rstrip()
+
+
+def margin_words(check: ConstraintCheck, table: Table) -> str:
+    """Return the margin as the screen has it: `19 %`, `0.016 rad`, `ample`; never for what never happens."""
+    if not math.isfinite(check.margin):
+        return "never"
+    margin, unit = margin_of(check, table)
+    if check.absolute:
+        return f"{number(margin, 3)} {pretty(unit)}".rstrip()
+    if abs(margin) >= 10.0:
+        return "ample" if margin > 0.0 else "far"
+    return percent(margin, 2 if abs(margin) < 1.0 else 3)
 
 
 def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | None = None) -> CheckEntry:

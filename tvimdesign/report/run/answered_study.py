@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any, cast
@@ -18,7 +18,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RunResults
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
-from tvimdesign.report.run.first_screen.warnings import Warned, warnings_of
+from tvimdesign.report.run.blocks.warnings import RunWarning, warnings_of
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported
 from tvimdesign.report.run.why import why
@@ -44,21 +44,30 @@ class AnsweredStudy:
     """The table of sensitivities as CSV, where it was asked for."""
     heat_map: dict[str, Any] = field(default_factory=dict)
     """What its figure is drawn from."""
+    uncertainty: Mapping[str, Any] = field(default_factory=dict)
+    """What `Uncertainty.data` returns; empty if it was not computed."""
+    no_uncertainty: str = ""
+    """Why it could not be computed."""
     deadline: Deadline = field(default_factory=Deadline)
     """Until when it is answered, with what is left out for it."""
 
     @property
-    def left_out(self) -> str:
-        """Name the steps that the time limit left out, and how to get them; empty if there are none."""
-        if not self.deadline.left_out:
-            return ""
-        limit, steps = duration(self.deadline.seconds), "; ".join(self.deadline.left_out)
-        return f"the time limit of {limit} ended before these were done: {steps}. Raise --time-limit to get them"
+    def warnings(self) -> list[RunWarning]:
+        """The warnings on the design, first what was not done; terminal, summary.txt and page ask for the same."""
+        return [*self._not_done(), *self._of_design]
 
     @cached_property
-    def warnings(self) -> list[Warned]:
-        """What to tell of the design: the terminal, summary.txt and the page ask for the same."""
-        return warnings_of(self.result, self.study.table, self.reported["doubts"])
+    def _of_design(self) -> list[RunWarning]:
+        return warnings_of(self.result, self.reported["doubts"])
+
+    def _not_done(self) -> Iterator[RunWarning]:
+        """Report a missing uncertainty, and the steps that the time limit left out."""
+        if self.no_uncertainty:
+            yield RunWarning(self.no_uncertainty, level="serious")
+        if self.deadline.left_out:
+            limit, steps = duration(self.deadline.seconds), "; ".join(self.deadline.left_out)
+            left_out = f"the time limit of {limit} ended before these were done: {steps}"
+            yield RunWarning(f"{left_out}. Raise --time-limit to get them", level="serious")
 
 
 def answer_study(
@@ -128,7 +137,8 @@ def _differentiate(answered: AnsweredStudy) -> None:
 
 
 def note_uncertainty(answered: AnsweredStudy, data: Mapping[str, Any]) -> None:
-    """Add to what is reported how sure the design is, without what only the screen needs."""
+    """Add to what is reported how sure the design is; results.json has it without what only the screen needs."""
+    answered.uncertainty = data
     if data:
         answered.reported["uncertainty"] = cast("UncertaintyEntry", {name: data[name] for name in _OF_RESULTS})
 
@@ -142,7 +152,7 @@ def note_left_out(answered: AnsweredStudy) -> None:
 def note_no_uncertainty(answered: AnsweredStudy, error: TvimError) -> None:
     """Report that the uncertainty is missing, as a failure and as the first warning of the screen."""
     answered.failures.append(error)
-    answered.warnings.insert(0, (str(error), ""))
+    answered.no_uncertainty = str(error)
 
 
 _OF_RESULTS = tuple(UncertaintyEntry.__annotations__)

@@ -10,8 +10,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table as Grid
 
 from tvimdesign import __version__
 from tvimdesign.base.deadline import NEVER, Deadline
@@ -35,9 +33,6 @@ from tvimdesign.solve.pareto.tradeoff import OUT_OF_TIME, Point, Tradeoff
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design, design_json
-
-ROWS_SHOWN = 12
-"""Rows of the table in the terminal; the whole front is in its file."""
 
 
 class FrontOfRun:
@@ -107,11 +102,6 @@ class FrontOfRun:
         if self.front is None or self.optimum is None or not self.front.points:
             return []
         return [Drawing("front", "front_figure.front", figure_data(self.front, self.optimum, self.table))]
-
-    def show(self, console: Console) -> None:
-        """Print it."""
-        if self.front:
-            print_front(self.front, self.table, console, self.kept)
 
 
 def of_ratings(point: Point, study: Mapping[str, Any], table: Table) -> dict[str, Any]:
@@ -288,45 +278,3 @@ def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
         "optimum": shown(optimum),
         "knee": front.knee,
     }
-
-
-def print_front(front: Front, table: Table, console: Console, kept: Sequence[float] = ()) -> None:
-    """A short table, and the front in words."""
-    title = f"Front of {' against '.join(front.outputs)}"
-    if not front.points:
-        console.print(f"[bold]{title}[/bold]: no points")
-        for sentence in in_words(front, table):
-            console.print(sentence, soft_wrap=True)
-        return
-    grid = Grid(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    grid.add_column("point", justify="right", header_style="dim")
-    for name in front.outputs:
-        grid.add_column(f"{name} ({pretty(table.unit(name))})", justify="right", header_style="dim")
-    if kept:
-        grid.add_column("yield", justify="right", header_style="dim")
-    grid.add_column("", header_style="dim")
-    shown = _rows_shown(len(front.points), front.knee)
-    for place in shown:
-        values = (f"{from_si(front.points[place].values[name], table.unit(name)):.4g}" for name in front.outputs)
-        what = status(front, place)
-        grid.add_row(
-            str(place + 1),
-            *values,
-            *(f"{one:.1%}" for one in kept[place : place + 1]),
-            "" if what == "between" else what,
-        )
-    console.print(grid)
-    for sentence in in_words(front, table):
-        console.print(sentence, soft_wrap=True)
-    here = "" if len(shown) == len(front.points) else f", {len(shown)} of them here"
-    beaten = f"; {front.dominated} more are no better in anything" if front.dominated else ""
-    console.print(
-        f"[dim]{len(front.points)} points{here}, from {front.sought} designs sought{beaten}; the largest gap is "
-        f"{front.spread:.2g} times the mean one. Each is a whole design in front/.[/dim]"
-    )
-
-
-def _rows_shown(count: int, knee: int | None) -> list[int]:
-    few = min(count, ROWS_SHOWN)
-    even = {round(i * (count - 1) / max(few - 1, 1)) for i in range(few)}
-    return sorted(even | ({knee} if knee is not None else set()))

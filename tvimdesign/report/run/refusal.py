@@ -34,7 +34,7 @@ def write_failure(
         yield
     except InfeasibleError as error:
         from tvimdesign.report.output.page_sections import write_page
-        from tvimdesign.report.run.run_page.run_page import refused_page
+        from tvimdesign.report.run.run_page import refused_page
 
         progress("")  # raises KeyboardInterrupt where a solver swallowed one, and its failure looks like a conflict
         refused: RefusedRun = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Sequence
 from contextlib import ExitStack
 from functools import partial
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
     from tvimdesign.report.figures.plot_process import PlotProcess
     from tvimdesign.report.output.results_format import Parts
     from tvimdesign.report.run.answered_study import AnsweredStudy
-    from tvimdesign.report.run.first_screen.run_screen import RunScreen
     from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
+    from tvimdesign.report.run.uncertainty_process import UncertaintyProcess
     from tvimdesign.solve.result import Designed
     from tvimdesign.study.design import Design
 
@@ -42,6 +43,7 @@ def run_study(
     resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
     """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
+    began = time.perf_counter()
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
     without = how_to_install("cad") if cad and study.write.cad else ""
@@ -52,16 +54,17 @@ def run_study(
         making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
         from tvimdesign.report.run.answered_study import answer_study, drawings
-        from tvimdesign.report.run.first_screen.run_screen import RunScreen
+        from tvimdesign.report.run.first_screen import print_result, write_summary
         from tvimdesign.report.run.keep_best import keeping_best
         from tvimdesign.report.run.refusal import write_failure
-        from tvimdesign.report.run.run_page.run_page import write_run_page
+        from tvimdesign.report.run.run_page import write_run_page
+        from tvimdesign.report.run.uncertainty_process import uncertainty_process
         from tvimdesign.report.run.write_answer import finish, write_answer, write_results
         from tvimdesign.solve.search import optimize
 
         best = stack.enter_context(keeping_best(folder))
         progress = stack.enter_context(progress_output())
-        screen = stack.enter_context(RunScreen(study))
+        uncertainty = stack.enter_context(uncertainty_process(study))
         with write_failure(folder, tree, study, progress, as_json=as_json):
             answered = answer_study(
                 tree,
@@ -71,7 +74,7 @@ def run_study(
                 folder=folder,
                 search=partial(optimize, deadline=deadline),
                 early=best.note,
-                designed=_asked_of_design(making, folder, screen),
+                designed=_asked_of_design(making, folder, uncertainty),
                 deadline=deadline,
             )
         found, failures = answered.result, answered.failures
@@ -79,10 +82,13 @@ def run_study(
             vector = bool(making) or study.write.vector
             drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
         write_answer(folder, answered)  # before this run waits for other processes
-        _wait_for_uncertainty(answered, screen, progress)
+        _wait_for_uncertainty(answered, uncertainty, progress)
         write_results(folder, answered)
         progress("")
-        screen.tell(answered, folder, None if as_json else wide_console(), full=full)
+        write_summary(answered, folder)
+        if not as_json:
+            after = 2 if making and found.found else 1
+            print_result(answered, wide_console(), time.perf_counter() - began, after, full=full)
         if making and found.found:
             with noting(failures):
                 answered.reported["cad"] = _parts(making, progress, as_json, in_full=full)
@@ -93,7 +99,7 @@ def run_study(
             folder.look_up_versions()
             with noting(failures):
                 drawing.finish()
-        write_run_page(folder, answered, screen.told(answered, timed=False))
+        write_run_page(folder, answered)
         finish(folder, answered)
     _say_last(answered, folder.out, failures, without if found.found else "", as_json=as_json)
     _end_as(answered)
@@ -111,24 +117,31 @@ def _plots_ahead() -> PlotProcess:
     return PlotProcess(gives_way=True)
 
 
-def _asked_of_design(making: BackgroundPartsJob | None, folder: ResultsFolder, screen: RunScreen) -> Designed:
+def _asked_of_design(
+    making: BackgroundPartsJob | None, folder: ResultsFolder, uncertainty: UncertaintyProcess | None
+) -> Designed:  # fmt: skip
     """What is asked of a design as soon as it is there: its parts, where they are made, and how sure it is."""
 
     def asked(design: Design) -> None:
         if making:
             making.begin(design, folder.path / "cad")
-        screen.ask(design)
+        if uncertainty:
+            uncertainty.begin(design)
 
     return asked
 
 
-def _wait_for_uncertainty(answered: AnsweredStudy, screen: RunScreen, progress: Progress) -> None:
+def _wait_for_uncertainty(
+    answered: AnsweredStudy, process: UncertaintyProcess | None, progress: Progress
+) -> None:  # fmt: skip
     from tvimdesign.report.run.answered_study import note_left_out, note_no_uncertainty, note_uncertainty
-    from tvimdesign.report.run.first_screen.uncertainty_process import STEP
+    from tvimdesign.report.run.uncertainty_process import STEP
 
+    if process is None or not process.begun:
+        return
     progress(f"computing {STEP}")
     try:
-        note_uncertainty(answered, screen.uncertainty(answered.deadline))
+        note_uncertainty(answered, process.finish(answered.deadline))
     except TimeOverError:
         answered.deadline.leave_out(STEP)
         note_left_out(answered)
@@ -156,7 +169,8 @@ def _say_last(
     answered: AnsweredStudy, folder: Path, failures: Sequence[TvimError], without: str, *, as_json: bool
 ) -> None:  # fmt: skip
     """What was told as JSON, or where to look first; `without` says what is not installed, if anything is not."""
-    from tvimdesign.report.run.first_screen.run_screen import look_first, show
+    from tvimdesign.report.output.terminal import print_lines
+    from tvimdesign.report.run.first_screen import look_first
 
     if as_json:
         not_done = [*([f"parts: {without}"] if without else []), *(str(failure) for failure in failures)]
@@ -166,7 +180,7 @@ def _say_last(
     console = wide_console()
     if without:
         console.print(f"No parts: {without}", markup=False, soft_wrap=True)
-    show(look_first(str(folder), console.width), console)
+    print_lines(look_first(str(folder), console.width), console)
 
 
 def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> None:
@@ -195,8 +209,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
 
 def _parts(making: BackgroundPartsJob, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
     """Wait for the parts and print what was found. Raises GeometryError where a check fails."""
-    from tvimdesign.report.run.first_screen.layout import block
-    from tvimdesign.report.run.first_screen.run_screen import show
+    from tvimdesign.report.output.terminal import block, print_lines
     from tvimdesign.report.run.parts_of_design import plain_report, refuse_failed
     from tvimdesign.report.run.solid_checks import in_short, print_solid_checks
 
@@ -205,6 +218,6 @@ def _parts(making: BackgroundPartsJob, progress: Progress, as_json: bool, *, in_
     if not as_json and in_full:
         print_solid_checks(report.checks, console)
     elif not as_json:
-        show(block("Parts", in_short(report.checks), console.width), console)
+        print_lines(block("Parts", in_short(report.checks), console.width), console)
     refuse_failed(report)
     return plain_report(report)

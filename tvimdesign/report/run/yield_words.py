@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.remaining_time import duration
-from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.tables import number, percent
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
 from tvimdesign.solve.result import StudyResult
@@ -79,11 +79,6 @@ def lost_in_words(lost: LostTo) -> str:
     """A limit that too many modules break, and the tolerances that carry its spread."""
     named = [f"{name} {percent(share, 2)}" for name, share in lost.carriers.items() if share >= _CARRIED]
     return f"{lost.text}, which {percent(lost.share)} keep{'; its spread is of ' if named else ''}{', '.join(named)}"
-
-
-def percent(share: float, digits: int = _DIGITS) -> str:
-    """A share for people."""
-    return f"{100.0 * share:.{digits}g} %"
 
 
 def _change(name: str, before: float, after: float, table: Table) -> str:

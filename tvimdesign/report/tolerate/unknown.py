@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tvimdesign.device import Table
-from tvimdesign.report.run.first_screen.uncertainty_data import interval_entry
+from tvimdesign.report.run.uncertainty_data import interval_entry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.tolerance import Spread

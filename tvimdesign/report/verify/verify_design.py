@@ -17,7 +17,7 @@ from tvimdesign.page.page_file import FILE
 from tvimdesign.report.command import Command, design_file
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.run_page.verification_section import put_on_page
+from tvimdesign.report.run.verification_section import put_on_page
 from tvimdesign.report.verify.comparison import HEAT, SOLVERS, TIMES, Compared, compared
 from tvimdesign.report.verify.verify_page import verify_page
 from tvimdesign.report.verify.verify_tables import page, print_rows, table_csv, verified

@@ -38,7 +38,8 @@ class DesignUncertainty:
     left_out: tuple[str, ...]
     """Limits on outputs that never happen, or depend on a current that follows a profile."""
     intervals: dict[str, Interval]
-    """By asked output: what it may be, parts as drawn and what nobody has measured anywhere in its range."""
+    """Of each asked output, and of the limit most in doubt: its range, parts as drawn and unmeasured inputs anywhere in
+    their ranges."""
     holds: spread.Yield | None = None
     """Share of those ranges in which every limit is kept, parts as drawn; None where no limit depends on them."""
     held: dict[str, float] = field(default_factory=dict)
@@ -152,6 +153,8 @@ class UncertaintyModel:
         kept = _kept(hanging, self.outputs, values)
         shares = {limit.name: float(np.mean(row)) for limit, row in zip(hanging, kept, strict=True)}
         broken = sorted((item for item in shares.items() if item[1] < 1.0), key=lambda item: item[1])
+        in_doubt = {limit.output for limit in hanging for name, _ in broken[:1] if limit.name == name}
+        told |= {name: by_name[name] for name in in_doubt}
         return told, spread.share_kept(np.all(kept, axis=0)), dict(broken), moved
 
 

@@ -11,7 +11,7 @@ from tvimdesign.page.blocks import Page, Picture, Points, Section, Words
 from tvimdesign.report.output.manifest import MANIFEST
 from tvimdesign.report.output.page_sections import write_page
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.run_page.verification_section import (
+from tvimdesign.report.run.verification_section import (
     folder_of_verification,
     put_on_page,
     verification_section,

@@ -1,6 +1,6 @@
 """How sure a run's design is, computed in a process that loads the compiler and scipy while the solver works.
 
-Run as `python -m tvimdesign.report.run.first_screen.uncertainty_process`: reads two lines of JSON on
+Run as `python -m tvimdesign.report.run.uncertainty_process`: reads two lines of JSON on
 standard input, a study, for which it compiles, and its design, and prints what `Uncertainty` says of that.
 `UncertaintyProcess` is the other end. An error of the package is printed as `{"error": ...}`.
 """
@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import gc
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -31,6 +32,13 @@ STEP = "yield and intervals"
 """Name of what the process computes."""
 PROCESSOR_LIMIT = 600.0
 """Seconds of processor time; it takes about two."""
+SPREAD = "TVIMDESIGN_SPREAD"
+"""Variable of the environment: `off` leaves yield and ranges out, where many runs share few processors."""
+
+
+def uncertainty_process(study: Study) -> contextlib.AbstractContextManager[UncertaintyProcess | None]:
+    """Return the process for a study; None in its place if the environment leaves it out."""
+    return contextlib.nullcontext() if os.environ.get(SPREAD) == "off" else UncertaintyProcess(study)
 
 
 class UncertaintyProcess:
@@ -38,8 +46,10 @@ class UncertaintyProcess:
 
     def __init__(self, study: Study) -> None:
         """Start it, and let it compile the study's module."""
+        self.begun = False
+        """True once a design was asked for."""
         self._child = start_child(
-            "tvimdesign.report.run.first_screen.uncertainty_process",
+            "tvimdesign.report.run.uncertainty_process",
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, encoding="utf-8",
         )  # fmt: skip
         set_low_priority(self._child.pid, Niceness.LOW)  # to the solver
@@ -62,6 +72,7 @@ class UncertaintyProcess:
 
     def begin(self, design: Design) -> None:
         """Ask for a design's, and come back at once."""
+        self.begun = True
         self._lines.put(design.model_dump_json() + "\n")
         self._lines.put("")
 
@@ -113,7 +124,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a third of the time; the process is short
     import_module("scipy.special")  # loaded while the solver works, used when modules are drawn
-    from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
+    from tvimdesign.report.run.uncertainty_data import Uncertainty
 
     study = Study.model_validate_json(sys.stdin.readline())
     try:

@@ -9,7 +9,7 @@ import pytest
 from comparable import COARSE
 
 from tvimdesign.device import table_for
-from tvimdesign.report.run.first_screen.uncertainty_data import Uncertainty
+from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design

@@ -14,8 +14,8 @@ from support import Command
 from tvimdesign.base.child_process import start_child
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
-from tvimdesign.report.run.first_screen import uncertainty_process
-from tvimdesign.report.run.first_screen.uncertainty_process import UncertaintyProcess
+from tvimdesign.report.run import uncertainty_process
+from tvimdesign.report.run.uncertainty_process import UncertaintyProcess
 
 STUDY = """
 mode: shear
@@ -46,7 +46,7 @@ def test_an_uncertainty_that_is_not_computed_is_a_warning(
                       PYTHONPATH=str(tmp_path))  # fmt: skip
     assert done.returncode == 4, done.stderr
     said = " ".join(done.stdout.split())
-    assert f"Warning the uncertainty of the design could not be computed: {reason}" in said
+    assert f"Warning: the uncertainty of the design could not be computed: {reason}" in said
     assert "run `tvimdesign tolerate` with the results folder" in said
     assert "the uncertainty of the design could not be computed" in done.stderr
     assert "could not be computed" in (tmp_path / "out/summary.txt").read_text()
@@ -80,7 +80,7 @@ def test_what_the_time_limit_leaves_out_is_on_the_first_screen_and_in_the_result
                       spread="on")  # fmt: skip
     assert done.returncode == 0, done.stderr
     said = " ".join(done.stdout.split())
-    assert "Left out the time limit of 0 s ended before these were done: yield and intervals" in said
-    assert "Yield" not in done.stdout
-    assert "Left out" in (tmp_path / "out/summary.txt").read_text()
+    assert "Warning: the time limit of 0 s ended before these were done: yield and intervals" in said
+    assert "Manufacturing" not in done.stdout
+    assert "ended before these were done" in (tmp_path / "out/summary.txt").read_text()
     assert json.loads((tmp_path / "out/results.json").read_text())["left_out"] == ["yield and intervals"]

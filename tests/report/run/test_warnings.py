@@ -11,8 +11,8 @@ import yaml
 from support import ROOT
 
 from tvimdesign.device import table_for
-from tvimdesign.report.run.first_screen.mending import filled, hints, mending
-from tvimdesign.report.run.first_screen.warnings import warning_lines, warnings_of
+from tvimdesign.report.run.blocks.warnings import RunWarning, filled, hints, mending, warnings_of
+from tvimdesign.report.run.first_screen import warning_lines
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study, read_study_text
 
@@ -95,15 +95,21 @@ def test_what_is_proposed_is_the_part_that_fits_or_what_a_study_can_ask() -> Non
 
 def test_a_module_that_never_stiffens_is_warned_of_first() -> None:
     found = _published("  cooling_current: 1 A\n")
-    said = warnings_of(found, table_for("shear"), ["a sheet contradicts itself."])
+    said = warnings_of(found, ["a sheet contradicts itself."])
     assert "never gets stiff again" in said[0][0]
     assert said[0][1] == "module: {cooling_current: 0.2 A, cold_side: sink}"
-    assert said[-1] == ("a sheet contradicts itself", "catalog: my_records")
+    assert said[-1][:2] == ("a sheet contradicts itself", "catalog: my_records")
 
 
-def test_warnings_that_do_not_fit_are_counted() -> None:
-    said = [(f"warning {i} of something", "module: {cover: plate}") for i in range(5)]
-    lines = warning_lines(said, 80, 3)
-    assert len(lines) == 3
-    assert lines[-1].strip() == "3 more: --full, summary.txt"
-    assert warning_lines(said, 80, 5)[-1] == "Warning      warning 4 of something; write module: {cover: plate}"
+def test_the_gravest_warning_comes_first() -> None:
+    found = warnings_of(_published(), ["a sheet contradicts itself."])
+    ranks = [("grave", "serious", "").index(warning.level) for warning in found]
+    assert ranks == sorted(ranks)
+
+
+def test_warnings_that_have_no_place_are_counted() -> None:
+    warnings = [RunWarning(f"warning {i} of something", "module: {cover: plate}") for i in range(5)]
+    lines = warning_lines(warnings, 80, 2)
+    assert lines[0] == "Warning: warning 0 of something; write module: {cover: plate}"
+    assert lines[1].endswith("write module: {cover: plate} · 3 more: --full")
+    assert warning_lines(warnings, 80, 5)[-1] == "Warning: warning 4 of something; write module: {cover: plate}"

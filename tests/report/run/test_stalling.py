@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tvimdesign.report.run.first_screen.stalling import stalling_in_words, time_over_rise
+from tvimdesign.report.run.blocks.facts import stalling_in_words, time_over_rise
 
 
 def warmed(share: np.ndarray) -> dict[str, list[float]]:

@@ -14,9 +14,9 @@ from tvimdesign.cad.assembly import file_names
 from tvimdesign.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import number
-from tvimdesign.report.run.run_page.cycle_section import FIGURE as CYCLE
 
-FOLDER = "cad"
+FOLDER, CYCLE = "cad", "cycle"
+"""Folder of the parts, and name of the figure of the cycle beside them."""
 _CARRIED = (".step", ".3mf", ".pdf")
 """Files of parts that the page carries, by their ending; in this order, as there may not be room for all."""
 _LEVELS = ("failure", "warning", "pass")

@@ -1,0 +1,84 @@
+"""Facts of a result: what measurements buy, and what was chosen of what is listed."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from tvimdesign.report.run.blocks.facts import chosen_fact, measured_fact, shrunk
+from tvimdesign.solve.nlp.solution import Choosing, SolverEffort, Standard
+from tvimdesign.solve.result import StudyResult
+
+
+def entry(value: float, now: tuple[float, float], before: tuple[float, float | None] | None) -> dict[str, Any]:
+    earlier = None if before is None else {"low": before[0], "high": before[1]}
+    return {"value": value, "low": now[0], "high": now[1], "unit": "s", "before": earlier}
+
+
+INTERVALS = {
+    "softening_time": entry(100.0, (90.0, 120.0), (40.0, 240.0)),
+    "frozen_time": entry(300.0, (280.0, 330.0), (200.0, None)),
+    "peak_power": entry(9.0, (8.0, 10.0), (8.0, 10.02)),
+    "peak_current": entry(1.5, (1.5, 1.5), (1.5, 1.5)),
+    "module_mass": entry(230.0, (229.0, 231.0), None),
+}
+
+
+def test_the_values_that_shrink_are_told_with_both_intervals_the_most_first() -> None:
+    assert [(name, before, now) for name, before, now, _ in shrunk(INTERVALS)] == [
+        ("frozen_time", "200 to never", "280 to 330 s"),
+        ("softening_time", "40 to 240", "90 to 120 s"),
+    ]
+
+
+def test_what_was_measured_is_named() -> None:
+    unmeasured = [{"name": "peltier_seebeck", "status": "measured"}, {"name": "rotor_contact", "status": "handbook"}]
+    (fact,) = measured_fact({"intervals": INTERVALS, "unmeasured": unmeasured})
+    assert fact.text.startswith("peltier_seebeck: frozen_time 280 to 330 s, before 200 to never; softening")
+    assert "rotor_contact" not in fact.text
+    assert measured_fact({"intervals": INTERVALS, "unmeasured": unmeasured[1:]}) == []
+
+
+RANKED = ((1.0e-3, 0.6339), (1.1e-3, 0.6426), (1.2e-3, 0.6541))
+"""Wires and objectives of the printed elbow's search."""
+
+
+def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> str:
+    """What is said of a design with this wire [m], whose study asks for margins or not."""
+    best = tuple(Standard({"wire_diameter": wire, "stock_spring": "none"}, objective, {}) for wire, objective in RANKED)
+    none = SolverEffort()
+    choosing = Choosing(
+        20, 20, 0, 0, best=best, between=None, proven=False, improved=0.0, work=none, proof=none, inside=0.0
+    )
+    design = SimpleNamespace(
+        mode="shear", values={"wire_diameter": own}, choices={"stock_spring": spring}, study={"robust": robust}
+    )
+    answer = SimpleNamespace(solution=SimpleNamespace(choosing=choosing), design=design)
+    return chosen_fact(cast(StudyResult, answer))[0].text
+
+
+def test_without_margins_the_best_of_the_ranking_is_the_design() -> None:
+    text = chosen(1.0e-3, None)
+    assert text.startswith("wire diameter 1 mm · stock spring none · best of 20 combinations · the next is 1.4 %")
+    assert "1.4 % worse: wire diameter 1.1 mm" in text
+    assert "margins" not in text
+
+
+@pytest.mark.parametrize("robust", [{"share": 0.95, "sigma": None}, {"share": None, "sigma": 2.0}])
+def test_with_margins_the_ranking_is_said_to_be_without(robust: dict[str, Any]) -> None:
+    text = chosen(1.1e-3 * (1 + 1e-12), robust)
+    assert text.startswith("wire diameter 1.1 mm · stock spring none · with margins, of 20 combinations")
+    assert "ranked without margins, the best is wire diameter 1 mm" in text
+    assert "the next is 1.4 % worse: the one chosen" in text
+    assert "the third is 3.2 % worse: wire diameter 1.2 mm" in text
+    same = chosen(1.0e-3, robust)
+    assert "best of 20 combinations, ranked without margins" in same
+    assert "the best is" not in same
+
+
+def test_a_record_that_the_margins_changed_is_the_design_s_own_too() -> None:
+    text = chosen(1.0e-3, {"share": 0.95, "sigma": None}, "central_t10160")
+    assert text.startswith("wire diameter 1 mm · stock spring central_t10160")
+    assert "the best is stock spring none" in text

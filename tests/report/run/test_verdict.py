@@ -1,0 +1,94 @@
+"""The verdict: each rule on a result that it decides, and the first of several."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from tvimdesign.report.run.blocks.verdict import TARGET, verdict
+from tvimdesign.report.run.blocks.warnings import RunWarning
+from tvimdesign.solve.nlp.solution import ConflictSet, Side
+from tvimdesign.solve.result import ConstraintCheck, StudyResult
+
+SURE = {
+    "parts_yield": {"share": 0.97, "low": 0.96, "high": 0.98}, "held": {"retainer_thread_margin >=": 0.4},
+    "intervals": {"retainer_thread_margin": {"shares": {"structure_layer_strength": 0.8}}},
+}  # fmt: skip
+GRAVE = RunWarning("pin fillet safety is 0.93: pins may crack at their fillet", "", "grave")
+HOT = {"output": "joint_stiffness@hot", "sense": "<=", "limit": 1.5}
+COOL = {
+    "hot_point_margin": -33.0, "softened_temperature": 340.15, "temperature@hot": 373.15, "softened_stiffness": 2.5,
+}  # fmt: skip
+
+
+def check(text: str, margin: float) -> ConstraintCheck:
+    """A limit that is met by a margin, or violated."""
+    return ConstraintCheck(text, text.split(maxsplit=1)[0], 1.0, margin, 1.0, False, margin >= 0.0, margin, "require")
+
+
+def answer(
+    values: dict[str, float] | None = None, require: tuple[dict[str, Any], ...] = (), *, found: bool = True,
+    checks: tuple[ConstraintCheck, ...] = (), status: str = "optimal", above: tuple[str, ...] = (),
+    robust: dict[str, float] | None = None, **solution: Any,
+) -> StudyResult:  # fmt: skip
+    """An optimised study as far as a verdict looks at it."""
+    every = {"response_time": 60.0, "stiffening_time": 120.0, **(values or {})}
+    design = SimpleNamespace(
+        mode="shear", status=status, values=every, value=every.__getitem__, above_rating=above,
+        study={"require": require, "robust": robust, "minimize": {"module_mass": 1.0}},
+    )  # fmt: skip
+    of = {"conflict_set": None, "out_of_time": None, "yield_reached": None, **solution}
+    return cast(StudyResult, SimpleNamespace(design=design, found=found, checks=checks, solution=SimpleNamespace(**of)))
+
+
+def sides(*texts: str) -> ConflictSet:
+    return ConflictSet((), tuple(Side(text, "require", 0.1) for text in texts), ())
+
+
+@pytest.mark.parametrize(
+    ("result", "uncertainty", "warnings", "text"),
+    [
+        (answer(found=False, conflict_set=sides("holding_torque >= 9 N·m", "envelope_diameter <= 30 mm")), {}, [],
+         "Infeasible because torque held when frozen >= 9 N·m and diameter <= 30 mm cannot hold together"),
+        (answer(found=False, out_of_time=5.0), {}, [], "No design found in time: raise solver.time_limit"),
+        (answer(found=False, checks=(check("peak_power <= 15 W", -0.031),)), {}, [],
+         "No design found: the nearest violates peak power <= 15 W, by 3.1 %"),
+        (answer({"response_time": math.inf}), SURE, [], "Do not build it: it never gets soft within `horizon`"),
+        (answer(checks=(check("peak_power <= 15 W", -0.031), check("spring_index >= 4", 0.2))), SURE, [],
+         "Do not build it: 1 of 2 limits are violated, most peak power <= 15 W, by 3.1 %"),
+        (answer(above=("structure_temperature_margin",)), SURE, [], "Above a rating: structure heat margin below 0"),
+        (answer(status="below_yield"), SURE, [], "Margins not reached: the time limit ended the search"),
+        (answer(COOL, (HOT,)), SURE, [], "Not at the temperature you asked for: 67 of 100 °C"),
+        (answer(), SURE | {"parts_yield": {"share": 0.005}}, [GRAVE], "Nominal optimum: add margins (yield 0.5 %)"),
+        (answer(), SURE, [GRAVE], "Not yet: pin fillet safety is 0.93"),
+        (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.2}}, [],
+         "Measure the structure layer strength first: it decides on the thread of the retainer screw"),
+        (answer(), SURE, [RunWarning("a spring may rattle")], "Build it"),
+        (answer(), {}, [], "Optimum found"),
+    ],
+)  # fmt: skip
+def test_each_rule_decides(
+    result: StudyResult, uncertainty: dict[str, Any], warnings: list[RunWarning], text: str
+) -> None:
+    assert verdict(result, uncertainty, warnings).text == text
+
+
+@pytest.mark.parametrize(
+    ("values", "require"),
+    [
+        (COOL, ()),  # nothing is required at the hot point
+        (COOL | {"softened_stiffness": 1.4}, (HOT,)),  # the joint is as soft as required before
+        (COOL | {"hot_point_margin": -0.1}, (HOT,)),  # rounding
+    ],
+)
+def test_a_hot_point_that_is_not_needed_is_no_matter(values: dict[str, float], require: tuple[Any, ...]) -> None:
+    assert verdict(answer(values, require), SURE, []).kind == "build"
+
+
+def test_a_study_with_margins_is_no_nominal_optimum() -> None:
+    low = SURE | {"parts_yield": {"share": TARGET - 0.05}}
+    assert verdict(answer(robust={"share": 0.9}), low, []).kind == "build"
+    assert verdict(answer(), low, []).kind == "add_margins"

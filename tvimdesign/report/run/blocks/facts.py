@@ -1,0 +1,346 @@
+"""The facts of a result, each a label with its parts: size, times and energy first, then what a reader may ask next."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.device import Table, table_for
+from tvimdesign.report.output.axis_labels import in_labels, label
+from tvimdesign.report.output.tables import ends_text, number, percent, range_text
+from tvimdesign.report.output.terminal import DOT
+from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
+from tvimdesign.report.run.blocks.verdict import measure_first, most_in_doubt
+from tvimdesign.report.run.why import binding
+from tvimdesign.report.run.yield_words import cost_of_margins, gain_without_margins, reached_in_words, yield_of
+from tvimdesign.simulation.working_cycle.curves import Curves
+from tvimdesign.solve.result import StudyResult
+
+_DIGITS = 3
+_GOOD = 0.9973
+"""Yield from which a module is no concern: three standard deviations to either side."""
+STALLS = 3.5
+"""Per cent of time for one per cent of the temperature's rise: 1 if a layer warms evenly, 2 as the root of time."""
+_LEAST_GAIN = 0.05
+"""Share of an interval that a measurement must remove to be reported."""
+_NOTHING = 1e-3
+"""Width of an interval, as a share of its value, that is none."""
+_SHOWN = 3
+
+
+class Fact(NamedTuple):
+    """A label, short texts that a renderer puts beside one another, and a note for which there may be no place.
+
+    The last parts of a `listing` may be counted instead.
+    """
+
+    label: str
+    parts: Sequence[str]
+    note: str = ""
+    listing: bool = False
+
+    @property
+    def text(self) -> str:
+        """Everything in one text."""
+        return DOT.join([*self.parts, *([self.note] if self.note else [])])
+
+
+class _Values:
+    """Values of a design for people, in three digits, with their ranges."""
+
+    def __init__(self, answer: StudyResult, uncertainty: Mapping[str, Any]) -> None:
+        self.values, self.table = answer.design.values, table_for(answer.design.mode)
+        self.intervals = uncertainty.get("intervals", {})
+
+    def __call__(self, name: str) -> str:
+        """Return one value with its unit, and its range in brackets."""
+        value, unit = self.values[name], self.table.unit(name)
+        text = "never" if math.isinf(value) else f"{number(from_si(value, unit), _DIGITS)} {pretty(unit)}".rstrip()
+        ends = range_text(self.intervals.get(name))
+        return f"{text} ({ends})" if ends else text
+
+    def most(self, *names: str) -> str:
+        """Return the largest of some that happen."""
+        return self(max(names, key=lambda name: self.values[name] if math.isfinite(self.values[name]) else -1.0))
+
+
+def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return what the first screen has a line each for: size and mass, times, energy, constraints, yield, doubts.
+
+    Ranges over unmeasured inputs stand in brackets.
+    """
+    value = _Values(answer, uncertainty)
+    size = f"{value('envelope_diameter')} diameter x {value('envelope_height')} high"
+    voltage = value.most("peak_voltage", "stiffening_peak_voltage")
+    current = value.most("peak_current", "stiffening_peak_current")
+    peaks = f"at most {value('peak_power')}, {voltage}, {current}"
+    facts = [
+        Fact("Size and mass", [size, value("module_mass")]),
+        Fact("Times", list(_times(value))),
+        Fact("Energy", [f"{value('switch_energy')} to soften", peaks]),
+    ]
+    return [*facts, *_active_constraints(answer), *_manufacturing(uncertainty), *_model(uncertainty)]
+
+
+def _times(value: _Values) -> Iterator[str]:
+    soft, stiff = (value.values[name] for name in ("softening_time", "stiffening_time"))
+    yield "never soft" if math.isinf(soft) else f"soft after {value('softening_time')}"
+    if math.isfinite(stiff):
+        yield f"stiff {value('stiffening_time')} after heating stops"
+    elif math.isfinite(soft):
+        yield "never stiff again"
+
+
+def _active_constraints(answer: StudyResult) -> list[Fact]:
+    """Return the active constraints in words, the costliest first, with what a step of the first is worth."""
+    held = binding(answer)
+    if not held:
+        return []
+    outputs = list(answer.design.study["minimize"])
+    of = label(outputs[0]) if len(outputs) == 1 else "objective"
+    note = f"{held[0].step} of the first is worth {held[0].shadow_price:.2g} % of the {of}"
+    return [Fact("Active constraints", [in_labels(constraint.text) for constraint in held], note, listing=True)]
+
+
+def _manufacturing(uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return the yield; none if it was not computed."""
+    if not uncertainty:
+        return []
+    share = uncertainty["parts_yield"]
+    tolerances = "the study's tolerances" if uncertainty["tolerances"] == "study" else "the usual tolerances"
+    if share is None:
+        return [Fact("Manufacturing", [f"no limit depends on {tolerances}"])]
+    whole = math.floor(100.0 * share["share"] + 1e-9)
+    count = "fewer than 1" if whole == 0 and share["share"] > 0.0 else f"{whole}"
+    return [Fact("Manufacturing", [f"{count} of 100 modules meet every limit"], f"by {tolerances}")]
+
+
+def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return the limit most in doubt; none if the ranges of unmeasured inputs were not looked at."""
+    if not uncertainty or uncertainty["ranges_hold"] is None:
+        return []
+    name, share = most_in_doubt(uncertainty)
+    if not name:
+        return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
+    first = measure_first(name, uncertainty)
+    parts = [f"the limit most in doubt is {label(name)}", f"met in {100.0 * share:.0f} of 100 cases"]
+    return [Fact("Model", parts, f"measure the {label(first)} first" if first else "")]
+
+
+def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
+    """Return what `--full` and the page add: thresholds, cooling, idealizations, choices, margins, the ranges."""
+    table = table_for(answer.design.mode)
+    facts = [
+        Fact("Soft", list(_soft(answer, uncertainty))),
+        Fact("Stiff", list(_stiff(answer, uncertainty))),
+        Fact("Accepts", list(_accepts(answer))),
+        *(Fact("Idealized ~", [_idealized(one, answer, table)]) for one in answer.idealizations),
+        *chosen_fact(answer), *_current(answer, table), *front_fact(front, table), *measured_fact(uncertainty),
+        *_margins(answer, table), *_yield(answer, uncertainty), *_ranges(uncertainty),
+    ]  # fmt: skip
+    return [fact for fact in facts if fact.parts]
+
+
+def _soft(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]:
+    """Say what soft means, whether the layer stalls on the way, and what to measure first."""
+    time = answer.design.values["softening_time"]
+    yield soft_in_words(answer.design, table_for(answer.design.mode))
+    yield from filter(None, [stalling_in_words(answer.histories.get("softening"), time)])
+    shares = uncertainty.get("intervals", {}).get("softening_time", {}).get("shares", {})
+    yield from (f"measure first: {name}, {100.0 * share:.0f} %" for name, share in list(shares.items())[:1])
+
+
+def _stiff(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Iterator[str]:
+    """Say what stiff means, when the layer is frozen, and what cooling by current buys."""
+    yield stiff_in_words(answer.design, table_for(answer.design.mode))
+    yield f"frozen {_Values(answer, uncertainty)('frozen_time')} after heating stops"
+    if not answer.cooling.able:
+        yield "cooled by the air alone: this heater cannot cool"
+    elif not answer.cooling.used:
+        yield "cooled by the air alone: no current cools"
+    else:
+        time = answer.cooling.unpowered.get("frozen_time", math.inf)
+        yield f"{'never' if math.isinf(time) else f'{number(time, _DIGITS)} s'} if the Peltiers are switched off"
+
+
+def time_over_rise(softening: Curves, time: float) -> float:
+    """Return the per cent of the softening time [s] that 1 % of the layer's rise takes; infinite without rise."""
+    times = np.asarray(softening["time"])
+    cells = [column for name, column in softening.items() if name.startswith("cell_")]
+    mean = np.mean(np.asarray(cells), axis=0)
+    slope = float(np.interp(time, times, np.gradient(mean, times)))
+    rise = float(np.interp(time, times, mean)) - mean[0]
+    return rise / (time * slope) if slope > 0.0 else math.inf
+
+
+def stalling_in_words(softening: Curves | None, time: float) -> str:
+    """Say that a layer hardly warms any more when it is soft; empty if it does, or always or never is."""
+    if not softening or not 0.0 < time < math.inf:
+        return ""
+    steep = time_over_rise(softening, time)
+    if steep < STALLS:
+        return ""
+    if math.isinf(steep):
+        return "it stalls: a little less heat and it is never soft"
+    return f"it stalls: 1 % less heat takes {steep:.0f} % longer"
+
+
+def _accepts(answer: StudyResult) -> Iterator[str]:
+    """Name the ratings that the study accepts, those that are exceeded and those that need not be accepted."""
+    if answer.design.accepting:
+        yield f"beyond the rating, as the study accepts: {', '.join(answer.design.accepting)}"
+    if answer.accepted_in_vain:
+        yield f"{', '.join(answer.accepted_in_vain)}: not needed, the design is within the rating"
+
+
+def _idealized(one: Any, answer: StudyResult, table: Table) -> str:
+    asked = [limit["output"] for limit in answer.design.study["require"]]
+    headlines = ["spring_stiffness", "least_spring_stiffness", *(row.name for row in table.outputs if row.headline)]
+    first = dict.fromkeys(name for name in (*asked, *headlines) if name in one.as_drawn)
+    values = "; ".join(_as_drawn(name, one.as_drawn[name], answer, table) for name in list(first)[:2])
+    count = len(one.as_drawn)
+    rows = f"{count} values, marked in results.csv" if count else "no value here is another for it"
+    return f"{one.text}: {one.leaves_out} ({rows})" + (f"; {values}" if values else "")
+
+
+def _as_drawn(name: str, drawn: float, answer: StudyResult, table: Table) -> str:
+    unit = table.unit(name)
+    there = "no module" if math.isnan(drawn) else f"{number(from_si(drawn, unit))} {pretty(unit)}".rstrip()
+    return f"{name} {number(from_si(answer.design.value(name), unit))}, as drawn {there}"
+
+
+def front_fact(front: Any, table: Table) -> list[Fact]:
+    """Return the spans of the front, if the study asks for one."""
+    if front is None or not front.points:
+        return []
+    spans = []
+    for name in front.outputs:
+        values, unit = [from_si(point.values[name], table.unit(name)) for point in front.points], table.unit(name)
+        spans.append(f"{label(name)} {ends_text(min(values), max(values))} {pretty(unit)}".rstrip())
+    knee = [] if front.knee is None else [f"knee: point {front.knee + 1}"]
+    return [Fact("Front", [f"{len(front.points)} designs", *spans, *knee], listing=True)]
+
+
+def chosen_fact(answer: StudyResult) -> list[Fact]:
+    """Return what was chosen of what is listed, and by how much the next two are worse, with what they have instead.
+
+    Combinations are ranked without margins. With margins, the design's own choice can differ from the best of the
+    ranking: the fact names the design's, and says how the ranking was made.
+    """
+    choosing = answer.solution.choosing if answer.solution else None
+    if choosing is None or not choosing.best:
+        return []
+    table, best = table_for(answer.design.mode), choosing.best[0]
+    own = {name: choice_text(name, _of_design(answer, name, word), table) for name, word in best.choices.items()}
+
+    def instead(choices: Mapping[str, str | float]) -> list[str]:
+        shown = {name: choice_text(name, word, table) for name, word in choices.items()}
+        return [f"{label(name)} {word}" for name, word in shown.items() if word != own[name]]
+
+    count, first = f"of {choosing.combinations} combinations", instead(best.choices)
+    if not answer.design.study.get("robust"):
+        others = [f"best {count}"]
+    elif first:
+        others = [f"with margins, {count}", f"ranked without margins, the best is {', '.join(first)}"]
+    else:
+        others = [f"best {count}, ranked without margins"]
+    for place, one in zip(("next", "third"), choosing.best[1:], strict=False):
+        worse = 100.0 * (one.objective / best.objective - 1.0)
+        others.append(f"the {place} is {worse:.2g} % worse: {', '.join(instead(one.choices)) or 'the one chosen'}")
+    return [Fact("Chosen", [*(f"{label(name)} {word}" for name, word in own.items()), *others], listing=True)]
+
+
+def _of_design(answer: StudyResult, name: str, listed: str | float) -> str | float:
+    """Return the design's own choice of a record or a size, which is `listed` in the ranking."""
+    own = answer.design.choices.get(name) if isinstance(listed, str) else answer.design.values.get(name)
+    return listed if own is None else own
+
+
+def choice_text(name: str, word: str | float, table: Table) -> str:
+    """Return a record's name as it is, a listed size in its unit."""
+    return word if isinstance(word, str) else format_quantity(word, table.unit(name))
+
+
+def _current(answer: StudyResult, table: Table) -> list[Fact]:
+    """Return what currents that follow a profile buy against the best constant ones, which have no margins."""
+    best = answer.solution.constant if answer.solution else None
+    if best is None or not answer.found or answer.solution is None:
+        return []
+    text = f"follows a profile while {' and '.join(answer.design.current_profiles)}"
+    reached = yield_of(answer)
+    if reached is None:
+        worse = 100.0 * (best.objective / answer.solution.objective - 1.0)
+        return [Fact("Current", [f"{text}; the best constant current is {worse:.2g} % worse"])]
+    gain = ", ".join(gain_without_margins(answer, best.values, reached, table))
+    return [Fact("Current", [f"{text}; without margins, from the best constant current to it: {gain}"])]
+
+
+def measured_fact(uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return what was measured, and the intervals that shrink most by it, before and after."""
+    names = [one["name"] for one in uncertainty.get("unmeasured", ()) if one["status"] == "measured"]
+    gains = shrunk(uncertainty.get("intervals", {}))
+    if not names or not gains:
+        return []
+    parts = [f"{name} {now}, before {before}" for name, before, now, _ in gains[:_SHOWN]]
+    return [Fact("Measured", [f"{', '.join(names)}: {'; '.join(parts)}"])]
+
+
+def shrunk(intervals: Mapping[str, Any]) -> Sequence[tuple[str, str, str, float]]:
+    """Return (output, interval before, now, share of its width that is gone) of those that shrink, the most first."""
+    gains = []
+    for name, entry in intervals.items():
+        before = entry.get("before")
+        if before is None or None in (entry["low"], entry["high"]):
+            continue
+        wide = math.inf if before["high"] is None else float(before["high"] - before["low"])
+        gone = 1.0 - float(entry["high"] - entry["low"]) / wide if wide > _NOTHING * abs(entry["value"]) else 0.0
+        if gone >= _LEAST_GAIN:
+            now = f"{ends_text(entry['low'], entry['high'])} {entry['unit']}".rstrip()
+            gains.append((name, ends_text(before["low"], before["high"]), now, gone))
+    return sorted(gains, key=lambda gain: -gain[3])
+
+
+def _margins(answer: StudyResult, table: Table) -> list[Fact]:
+    """Return whether a yield that is asked for is reached, and what the margins cost in what is minimised."""
+    reached = yield_of(answer)
+    if reached is None:
+        return []
+    cost = ", ".join(cost_of_margins(answer, reached, table))
+    return [Fact("Margins", [f"{reached_in_words(reached)}; the margins cost {cost}"])]
+
+
+def _yield(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return the yield with its confidence interval, what it covers, and what raises it."""
+    share = uncertainty.get("parts_yield")
+    if share is None:
+        return []
+    tolerances = "the study's tolerances" if uncertainty["tolerances"] == "study" else "the usual tolerances"
+    low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
+    text = f"{percent(share['share'])} ({low} to {high}) of {uncertainty['modules']} modules meet the"
+    parts = [f"{text} {uncertainty['limits']} limits that {tolerances} can move"]
+    if uncertainty["left_out"]:
+        parts.append(f"{len(uncertainty['left_out'])} that never happen or follow a profile are not counted")
+    robust = answer.design.study.get("robust") or {}
+    if share["share"] < _GOOD and robust.get("share") is None:
+        standard = "" if uncertainty["tolerances"] == "study" else "`tolerances: standard` and "
+        raise_it = f"to raise it: {standard}`robust: {{yield: 95 %}}`"
+        parts.append(raise_it if answer.solution else "which limit loses most: `tvimdesign tolerate`")
+    return [Fact("Yield", parts)]
+
+
+def _ranges(uncertainty: Mapping[str, Any]) -> list[Fact]:
+    """Return in how many of the plausible cases all limits are met, and which limit in the fewest."""
+    holds = uncertainty.get("ranges_hold")
+    if holds is None:
+        return []
+    count = len(uncertainty["unmeasured"])
+    text = f"if the {count} unmeasured inputs take any value in their ranges, all limits are met in"
+    parts = [f"{text} {percent(holds['share'])} of cases"]
+    name, share = most_in_doubt(uncertainty)
+    if name:
+        parts.append(f"the most often violated is {name}, met in {percent(share)}")
+    return [Fact("Assumed values", parts)]

@@ -1,0 +1,138 @@
+"""Every requirement, asked against got: its range, its margin, and the assumed input it depends on most."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.device import Table, table_for
+from tvimdesign.page.blocks import Cell, Grid, Head, Tone
+from tvimdesign.report.output.axis_labels import label
+from tvimdesign.report.output.tables import (
+    NOTHING,
+    ends_text,
+    margin_words,
+    mark,
+    number,
+    on_limit,
+    range_text,
+    value_text,
+)
+from tvimdesign.solve.result import ConstraintCheck, StudyResult
+
+HEADS = ("", "asked", "got", "range", "margin")
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """One output that the study or the machine limits."""
+
+    name: str
+    asked: str
+    got: str
+    range: str
+    """`38 to 104`, over the ranges of unmeasured inputs; empty if that says no more than the value."""
+    stands: str
+    """`violated by 3 %`, `open`, `at the limit`, or the margin."""
+    tone: Tone
+    least: float
+    """The least margin over what history leaves open, as a share of the limit's scale."""
+    depends_on: str = ""
+    """`pcl_bond_strength 2 MPa (1 to 5)`, the assumed input that matters most; empty if none does."""
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """The row under `HEADS`."""
+        return label(self.name), self.asked, self.got, self.range, self.stands
+
+
+def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Requirement]:
+    """Return an entry for each output the study requires something of, then the machine's violated rules."""
+    table, intervals = table_for(answer.design.mode), uncertainty.get("intervals", {})
+    asked: dict[str, list[Mapping[str, Any]]] = {}
+    for limit in answer.design.study["require"]:
+        asked.setdefault(limit["output"], []).append(limit)
+    rows = []
+    for name, limits in asked.items():
+        behind = {name, *table.output(name).least_of, *table.output(name).also_limited}
+        checks = [check for check in answer.checks if check.origin == "require" and check.output in behind]
+        assumed = next(iter(uncertainty.get("assumptions", {}).get(name, ())), None)
+        row = _requirement(answer, table, name, _asked(limits, table.unit(name)), checks)
+        depends_on = assumption(assumed) if assumed else ""
+        rows.append(replace(row, range=range_text(_interval(name, table, intervals)), depends_on=depends_on))
+    violated = [check for check in answer.checks if check.origin != "require" and not check.kept]
+    for check in sorted(violated, key=lambda check: check.worst):
+        rows.append(_requirement(answer, table, check.output, check.text.removeprefix(check.output).strip(), [check]))
+    return rows
+
+
+def requirements_grid(rows: Sequence[Requirement]) -> Grid:
+    """Return the table that a page shows."""
+    heads = [Head(text, i == 2) for i, text in enumerate((*HEADS, "depends on (assumed)"))]
+    cells = [
+        [
+            *(Cell(text, tone=row.tone if i == len(HEADS) - 1 else "") for i, text in enumerate(row.cells)),
+            Cell(row.depends_on),
+        ]
+        for row in rows
+    ]
+    return Grid("Requirements, asked against got", heads, cells)
+
+
+def _asked(limits: Sequence[Mapping[str, Any]], unit: str) -> str:
+    """Return `5.2 to 5.8 N·m/rad` for two ends, else each end with its sense."""
+    ends = {limit["sense"]: number(from_si(limit["limit"], unit), 6) for limit in limits}
+    if len(limits) == 2 and len(ends) == 2:
+        text = f"{ends['>=']} to {ends['<=']}"
+    else:
+        text = ", ".join(f"{limit['sense']} {number(from_si(limit['limit'], unit), 6)}" for limit in limits)
+    return f"{text} {pretty(unit)}".rstrip()
+
+
+def _interval(name: str, table: Table, intervals: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Any] | None:
+    """Return the range of an output, and with it of all that a limit on it limits: the stiffness over the stroke."""
+    every = [intervals[output] for output in (name, *table.output(name).also_limited) if output in intervals]
+    if name not in intervals or len(every) == 1:
+        return intervals.get(name)
+    lows, highs = ([interval[end] for interval in every] for end in ("low", "high"))
+    return {"value": None, "low": min(lows), "high": max(highs)} if None not in lows + highs else intervals[name]
+
+
+def _requirement(
+    answer: StudyResult, table: Table, name: str, asked: str, checks: Sequence[ConstraintCheck]
+) -> Requirement:
+    check = min(checks, key=lambda check: check.worst)
+    stands, tone = _stands(answer, check, table)
+    return Requirement(name, asked, _got(answer, table, name, check), "", stands, tone, check.worst)
+
+
+def _got(answer: StudyResult, table: Table, name: str, check: ConstraintCheck) -> str:
+    """Return the value; over the stroke `5.2 to 5.8`, if the limit holds there too."""
+    unit, also = table.unit(name), table.output(name).also_limited
+    if name in answer.intervals:
+        text = value_text(answer, name, table, rounded=True)
+    elif check.absolute and abs(check.margin) <= NOTHING and check.output == name:
+        text = number(on_limit(check, unit))
+    elif also:
+        values = [from_si(answer.design.value(output), unit) for output in (name, *also)]
+        text = " to ".join(dict.fromkeys(number(end) for end in (min(values), max(values))))
+    else:
+        text = value_text(answer, name, table, rounded=True)
+    return text + mark(name, answer)
+
+
+def _stands(answer: StudyResult, check: ConstraintCheck, table: Table) -> tuple[str, Tone]:
+    if not check.kept:
+        return f"violated by {margin_words(check, table).lstrip('-')}", "bad"
+    if check in answer.undecided:
+        return "open: history decides", "warn"
+    if abs(check.margin) <= NOTHING:
+        return "at the limit", "warn"
+    return margin_words(replace(check, margin=check.worst), table), ""
+
+
+def assumption(row: Mapping[str, Any]) -> str:
+    """Return an assumed input with its value and its range."""
+    return f"{row['input']} {number(row['value'])} {row['unit']}".rstrip() + f" ({ends_text(row['low'], row['high'])})"

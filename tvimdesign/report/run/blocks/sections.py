@@ -1,0 +1,181 @@
+"""The sections of text and tables that the page, `--full` and summary.txt have alike."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from tvimdesign.base.units import format_quantity
+from tvimdesign.device import Input, table_for
+from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
+from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
+from tvimdesign.report.output.results_format import FrontEntry, FrontPoint
+from tvimdesign.report.output.tables import number, percent
+from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.blocks import tables
+from tvimdesign.report.run.blocks.verdict import objective_in_words
+from tvimdesign.report.run.why import sentences, slack_in_words
+from tvimdesign.report.run.yield_words import lost_in_words, yield_of
+from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.result import StudyResult
+
+
+def text_sections(answered: AnsweredStudy) -> list[Section]:
+    """Return the sections that the terminal prints; the page has figures between them."""
+    if not answered.result.found:
+        return [module_section(answered)]
+    front = answered.reported.get("front")
+    return [
+        module_section(answered),
+        *search_section(answered),
+        reasons_section(answered),
+        assumptions_section(answered),
+        *([front_section(front, front["of"])] if front else []),
+    ]
+
+
+def module_section(answered: AnsweredStudy) -> Section:
+    """Return what was varied, the operating points, the headline quantities and the limits."""
+    answer = answered.result
+    blocks: list[Block] = [varied] if (varied := tables.variables_grid(answer)).rows else []
+    if answer.found:
+        blocks += [
+            tables.points_grid(answer),
+            Folded("What the module is", [tables.module_grid(answer)]),
+            Folded("Every limit that binds or is required", [tables.checks_grid(answer)]),
+        ]
+    return Section("module", "Module", blocks)
+
+
+def search_section(answered: AnsweredStudy) -> list[Section]:
+    """Return how the design was found: optima, margins, listed choices and currents; none of an evaluation."""
+    answer = answered.result
+    blocks: list[Block] = []
+    if lines := [*objective_in_words(answer), *_robustness(answer), *_not_differentiated(answered)]:
+        blocks.append(Points(lines))
+    choosing, table = answer.solution.choosing if answer.solution else None, table_for(answer.design.mode)
+    if choosing is not None and choosing.best:
+        price = price_in_words(choosing, table, choices_with_margins(answer))
+        blocks += [tables.choices_grid(choosing, table), Words([*filter(None, [price]), tally_in_words(choosing)])]
+    if answer.design.current_profiles:
+        blocks += [tables.currents_grid(answer), tables.profile_grid(answer), Words(_constant_currents(answer))]
+    return [Section("search", "How it was found", [Folded("How it was found", blocks)])] if blocks else []
+
+
+def _robustness(answer: StudyResult) -> list[str]:
+    """Say what `sigma` means, or to which limits most modules are lost."""
+    robust, reached = answer.design.study.get("robust"), yield_of(answer)
+    if robust and reached is None and robust["sigma"] is not None:
+        return [
+            f"Limits are met by {robust['sigma']:.3g} standard deviations of the study's tolerances, which is the "
+            "margin they show; `tvimdesign tolerate` checks that on many modules."
+        ]
+    worst = "; ".join(lost_in_words(lost) for lost in reached.lost_to) if reached else ""
+    return [f"Most is lost to {worst}."] if worst else []
+
+
+def _not_differentiated(answered: AnsweredStudy) -> list[str]:
+    names = answered.reported.get("sensitivities_left_out")
+    return [f"Not in sensitivities.csv, as they never happen or follow a profile: {', '.join(names)}."] if names else []
+
+
+def _constant_currents(answer: StudyResult) -> list[str]:
+    """Say which currents the best constant design and the default have."""
+    table = table_for(answer.design.mode)
+    driven = [table.phase(phase).current_input for phase in answer.design.current_profiles]
+
+    def currents(values: Mapping[str, float]) -> str:
+        return ", ".join(f"{name} {format_quantity(values[name], table.unit(name))}" for name in driven)
+
+    lines, best = [], answer.solution.constant if answer.solution else None
+    if best and answer.solution:
+        beside = constant_against(best.objective, answer.solution)
+        lines.append(f"Best constant: a design of its own, {currents(best.values)}; {beside}.")
+    rows = [table.quantity(name) for name in driven]
+    defaults = {row.name: row.default or 0.0 for row in rows if isinstance(row, Input)}
+    return [*lines, f"Default: this module at {currents(defaults)}; the paper heats with 1.5 A."]
+
+
+def constant_against(objective: float, found: Solution) -> str:
+    """Compare the objective of the best constant current with that of the profile's module.
+
+    They are unlike if that has margins for a yield; the fact "Current" compares both without.
+    """
+    if found.yield_reached is not None:
+        return "it has no margins for the yield, the profile's module has"
+    worse = objective / found.objective - 1.0
+    return f"its objective is {abs(worse):.1%} {'higher' if worse > 0.0 else 'lower'}"
+
+
+def reasons_section(answered: AnsweredStudy) -> Section:
+    """Return the active constraints in words, with what easing each would buy."""
+    answer = answered.result
+    costs, slack = sentences(answer), slack_in_words(answer, answered.study.table)
+    if answer.solution is None:
+        blocks: list[Block] = [Words(["The study varies nothing, so nothing is traded: its one module was evaluated."])]
+    elif not costs:
+        blocks = [Words(["No constraint is active: easing any of them changes nothing."])]
+    else:
+        blocks = [Points(costs), tables.prices_grid(answer)]
+    return Section("why", "Active constraints", [*blocks, *([Words([slack])] if slack else [])])
+
+
+def assumptions_section(answered: AnsweredStudy) -> Section:
+    """Return every unmeasured input with its range and what it moves; then the range of each output."""
+    uncertainty = answered.uncertainty
+    if not uncertainty:
+        words = "How sure the design is was not computed in this run; `tvimdesign tolerate` computes it."
+        return Section("assumptions", "Assumptions", [Words([words])])
+    grids = [
+        tables.intervals_grid(uncertainty["intervals"]),
+        tables.unmeasured_grid(uncertainty, answered.reported["values"]),
+        tables.assumptions_grid(uncertainty.get("assumptions", {})),
+        tables.held_grid(uncertainty),
+    ]
+    return Section("assumptions", "Assumptions", [grid for grid in grids if grid.rows])
+
+
+def front_section(front: FrontEntry, names: list[str], drawn: Block | None = None) -> Section:
+    """Return the front in words and a table of its points with the columns `names`; `drawn` stands between them."""
+    blocks: list[Block] = [Points(front["in_words"])] if front["in_words"] else []
+    if front["points"]:
+        blocks += [*([drawn] if drawn else []), _points(front, names)]
+    return Section("front", "Front", blocks)
+
+
+def _points(front: FrontEntry, names: list[str]) -> Grid:
+    """Return a row for each point, with the file of its design."""
+    units, yields = front["units_of_values"], any("yield_share" in point for point in front["points"])
+    heads = [Head("point", right=True), *(Head(f"{name} [{units[name]}]" if units[name] else name, right=True)
+                                          for name in names)]  # fmt: skip
+    heads += [*([Head("yield", right=True)] if yields else []), Head(""), Head("design")]
+    beaten = f"; {front['dominated']} more are no better in anything" if front["dominated"] else ""
+    note = f"{len(front['points'])} points from {front['sought']} designs sought{beaten}."
+    return Grid("Points of the front", heads, [_point(point, names, yields) for point in front["points"]], note)
+
+
+def _point(point: FrontPoint, names: list[str], yields: bool) -> list[Cell]:
+    values = [point["values"][name] for name in names]
+    cells = [Cell(str(point["number"]), point["number"])]
+    cells += [Cell("never", 1e300) if value is None else Cell(number(value), value) for value in values]
+    if yields:
+        share = point.get("yield_share", 0.0)
+        cells.append(Cell(percent(share), share))
+    status, above = "" if point["status"] == "between" else point["status"], point.get("above_rating", [])
+    if above:
+        status = f"{status} above rating: {', '.join(above)}".strip()
+    file = point["design"]
+    name = file.rpartition("/")[2]
+    return [*cells, Cell(status, tone="bad" if above else ""), Cell(name, links=((name, file),))]
+
+
+def values_grid(values: Mapping[str, Any]) -> Grid:
+    """Return every input and output as results.csv has it."""
+    heads = [Head(text, text == "value") for text in ("name", "group", "value", "unit", "status", "meaning", "source")]
+    cells = [
+        [Cell(name, code=True), Cell(one["group"]),
+         Cell("never", 1e300) if one["value"] is None else Cell(number(one["value"], 6), one["value"]),
+         *(Cell(one[key]) for key in ("unit", "status", "description", "source"))]
+        for name, one in values.items()
+    ]  # fmt: skip
+    return Grid("Inputs and outputs", heads, cells)

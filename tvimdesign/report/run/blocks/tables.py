@@ -1,0 +1,210 @@
+"""The tables of a result, one function each; a renderer prints or shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.device import Input, Output, Table, table_for
+from tvimdesign.page.blocks import Grid
+from tvimdesign.report.output.choices_tables import best_rows
+from tvimdesign.report.output.page_sections import grid
+from tvimdesign.report.output.tables import NOTHING, ends_text, margin_text, mark, number, range_text, value_text
+from tvimdesign.report.output.thresholds import meaning
+from tvimdesign.report.run.why import binding
+from tvimdesign.solve.nlp.solution import Choosing
+from tvimdesign.solve.result import ConstraintCheck, StudyResult
+
+_MOVES = 0.02
+"""Share of an output's variance from which an input is said to move it."""
+_NAMED = 4
+
+
+def variables_grid(answer: StudyResult) -> Grid:
+    """Return the start and the end of each variable, with its range."""
+    table, rows = table_for(answer.design.mode), []
+    first = answer.solution.starts[0].begin if answer.solution else {}
+    for name, vary in answer.design.study["vary"].items() if answer.solution else ():
+        if name not in first and name not in answer.design.choices:
+            continue  # a current that follows a profile: a table of its own
+        if name not in first:
+            rows.append((name, "", answer.design.choices[name], "", ", ".join(str(v) for v in vary["values"])))
+            continue
+        unit = table.unit(name)
+        start, end = (number(from_si(value, unit)) for value in (first[name], answer.design.values[name]))
+        ends = (vary["lower"], vary["upper"]) if "lower" in vary else (min(vary["values"]), max(vary["values"]))
+        allowed = ends_text(from_si(ends[0], unit), from_si(ends[1], unit), 4)
+        rows.append((name, start, end, pretty(unit), allowed + ("" if "lower" in vary else ", listed")))
+    title = "What was varied" if answer.found else "Where the solver ended; this is not a design"
+    heads = ("variable", "start", "design" if answer.found else "end", "unit", "allowed")
+    return grid(title, heads, rows, right=(1, 2))
+
+
+def choices_grid(choosing: Choosing, table: Table) -> Grid:
+    """Return the best combinations of what is listed, against the first."""
+    heads, rows = best_rows(choosing, table)
+    return grid("The best of what is listed, against the first", heads, rows, right=range(len(heads)), code=())
+
+
+def points_grid(answer: StudyResult) -> Grid:
+    """Return the quantities that have a value at each operating point."""
+    table, points = table_for(answer.design.mode), list(answer.design.study["operating_points"])
+    shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
+    shown += [row for row in table.outputs if row.per_point and row.headline]
+    rows = [
+        (f"{row.name}{mark(f'{row.name}@{points[0]}', answer)}",
+         *(value_text(answer, f"{row.name}@{point}", table) for point in points), pretty(row.unit), row.description)
+        for row in shown
+    ]  # fmt: skip
+    heads = ("", *points, "unit", "meaning")
+    return grid("At the operating points", heads, rows, right=range(1, len(points) + 1))
+
+
+def module_grid(answer: StudyResult) -> Grid:
+    """Return the headline quantities that have one value."""
+    table = table_for(answer.design.mode)
+    rows = [
+        (row.group, f"{row.name}{mark(row.name, answer)}", value_text(answer, row.name, table), pretty(row.unit),
+         meaning(row.name, answer.design, table))
+        for row in table.outputs if row.headline and not row.per_point
+    ]  # fmt: skip
+    return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
+
+
+def currents_grid(answer: StudyResult) -> Grid:
+    """Return the currents that follow a profile, moment by moment; the current is linear between these moments."""
+    table, rows = table_for(answer.design.mode), []
+    for name, profile in answer.design.current_profiles.items():
+        vary = answer.design.study["vary"].get(table.phase(name).current_input)
+        largest = vary["upper"] if vary else max(map(abs, profile["currents"]))
+        for i, (seconds, exact) in enumerate(zip(profile["moments"], profile["currents"], strict=True)):
+            current = exact if abs(exact) > 1e-4 * largest else 0.0
+            end = _end_of_range(abs(exact), vary) if vary else ""
+            rows.append((name if i == 0 else "", number(seconds, 3), number(current, 3), end))
+    return grid("Currents, linear between these moments", ("phase", "s", "A", "of its range"), rows, right=(1, 2))
+
+
+def _end_of_range(size: float, vary: Mapping[str, float]) -> str:
+    if 1.001 * vary["lower"] + 1e-3 * vary["upper"] < size < 0.999 * vary["upper"]:
+        return ""
+    return "at its upper end" if size > 0.999 * vary["upper"] else "at its lower end"
+
+
+def profile_grid(answer: StudyResult) -> Grid:
+    """Return what a current profile buys: the module at its default current, and the best constant current's."""
+    table, best = table_for(answer.design.mode), answer.solution.constant if answer.solution else None
+    rows = []
+    for name, default in answer.constant_current.items():
+        unit = table.unit(name)
+        values = (answer.design.value(name), *([best.values[name]] if best else []), default)
+        texts = (number(from_si(value, unit)) for value in values)
+        rows.append((name, *texts, pretty(unit), meaning(name, answer.design, table)))
+    heads = ("", "profile", *(["best constant"] if best else []), "default", "unit", "meaning")
+    return grid("What letting the current change buys", heads, rows, right=(1, 2, 3) if best else (1, 2))
+
+
+def checks_grid(answer: StudyResult) -> Grid:
+    """Return every requirement, and the machine's own rules that bind or are violated; a note counts the others."""
+    table = table_for(answer.design.mode)
+    shown = [check for check in answer.checks if check.origin == "require" or not check.kept or check.worst <= NOTHING]
+    hidden = len(answer.checks) - len(shown)
+    note = f"{hidden} rules of the machine are satisfied with a margin." if hidden else ""
+    rows = [_check_row(check, answer, table) for check in shown]
+    heads = ("", "limit", "value", "unit", "margin", "because")
+    return grid("Limits", heads, rows, right=(2, 4), code=(), toned=(0,), note=note)
+
+
+def _check_row(check: ConstraintCheck, answer: StudyResult, table: Table) -> tuple[str, ...]:
+    stands = "violated" if not check.kept else "binds" if abs(check.margin) <= NOTHING else "ok"
+    stands = "open" if check in answer.undecided else stands
+    because = "the study" if check.origin == "require" else check.origin
+    margin = margin_text(replace(check, margin=check.worst), table)  # with the history that leaves the least
+    value = value_text(answer, check.output, table, rounded=True)
+    return stands, check.text, value, pretty(table.unit(check.output)), margin, because
+
+
+def prices_grid(answer: StudyResult) -> Grid:
+    """Return the active constraints, with what relaxing each saves of the objective and of each output."""
+    outputs = list(answer.design.study["minimize"])
+    rows = [
+        (row.text, row.step, _saved(row.shadow_price),
+         *(_saved(row.sensitivity[name]) if name in row.sensitivity else "" for name in outputs))
+        for row in binding(answer)
+    ]  # fmt: skip
+    heads = ("limit", "relaxed by", "lowers the objective by", *outputs)
+    return grid("Active constraints", heads, rows, right=range(1, len(heads)))
+
+
+def _saved(percent: float) -> str:
+    """Return a saving for people: less than a millionth is none."""
+    return f"{percent:.2g} %" if abs(percent) >= 1e-4 else "0 %"
+
+
+def intervals_grid(intervals: Mapping[str, Mapping[str, Any]]) -> Grid:
+    """Return the range of each headline and requirement over unmeasured inputs, and what to measure first.
+
+    `for half` counts the fewest inputs to measure for half the width; results.json names them.
+    """
+    measured = any(interval.get("before") for interval in intervals.values())
+    heads = ("", "value", "low", "high", "one at a time", "unit", "measure first", "share", "for half")
+    rows = []
+    for output, interval in intervals.items():
+        if interval["low"] == interval["high"]:
+            continue
+        texts = (ends_text(end, end, 4).partition(" to ")[0] for end in map(interval.get, ("value", "low", "high")))
+        alone, first = interval["one_at_a_time"], next(iter(interval["shares"]), "")
+        share = f"{100.0 * interval['shares'][first]:.0f} %" if first else ""
+        half = f"{len(interval['to_halve'])}" if interval["to_halve"] else "many"
+        before = interval.get("before") or {}
+        earlier = [ends_text(before["low"], before["high"]) if before else ""] if measured else []
+        rows.append((output, *texts, ends_text(alone["low"], alone["high"], 4), interval["unit"], first, share, half,
+                     *earlier))  # fmt: skip
+    title = "Ranges of outputs over unmeasured inputs (95 %, all together)"
+    return grid(title, (*heads, *(["before measuring"] if measured else [])), rows, right=(1, 2, 3, 7), code=(0, 6))
+
+
+def assumptions_grid(assumptions: Mapping[str, Sequence[Mapping[str, Any]]]) -> Grid:
+    """Return what each output is with an assumed input at the ends of its range."""
+    heads = ("", "at low", "at high", "unit", "assumed", "value", "from", "to", "unit")
+    rows = []
+    for output, inputs in assumptions.items():
+        for i, row in enumerate(inputs):
+            ends = ("never" if row[end] is None else number(row[end]) for end in ("output_at_low", "output_at_high"))
+            values = (number(row["value"]), number(row["low"]), number(row["high"]), row["unit"])
+            rows.append((output if i == 0 else "", *ends, row["output_unit"], row["input"], *values))
+    return grid("What depends on assumed values", heads, rows, right=(1, 2, 5, 6, 7))
+
+
+def unmeasured_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid:
+    """Return every unmeasured input with its range, its source and the outputs that it moves, the weightiest first."""
+    intervals = uncertainty["intervals"]
+    moved = {one["name"]: moves(one["name"], intervals) for one in uncertainty["unmeasured"]}
+    order = sorted(
+        uncertainty["unmeasured"], key=lambda one: -max((share for _, share in moved[one["name"]]), default=0)
+    )
+    rows = [
+        (one["name"], number(one["value"]), range_text(one), one["unit"], one["status"],
+         ", ".join(f"{output} {100.0 * share:.0f} %" for output, share in moved[one["name"]][:_NAMED]),
+         values[one["name"]]["source"])
+        for one in order
+    ]  # fmt: skip
+    heads = ("input", "value", "range", "unit", "status", "share of what it moves", "source")
+    note = (
+        "A share is the part of an output's variance that knowing the input would take away, all inputs anywhere in "
+        "their ranges."
+    )
+    return grid("Unmeasured inputs", heads, rows, right=(1,), note=note)
+
+
+def moves(name: str, intervals: Mapping[str, Any]) -> list[tuple[str, float]]:
+    """Return the outputs an input moves, with its share of each one's variance, the largest first."""
+    shares = [(output, interval["shares"].get(name, 0.0)) for output, interval in intervals.items()]
+    return sorted([(output, share) for output, share in shares if share >= _MOVES], key=lambda pair: -pair[1])
+
+
+def held_grid(uncertainty: Mapping[str, Any]) -> Grid:
+    """Return the limits that are not met over all ranges."""
+    rows = [(limit, f"{100.0 * share:.3g} %") for limit, share in uncertainty["held"].items()]
+    return grid("Limits met in a part of the ranges only", ("limit", "met in"), rows, right=(1,))

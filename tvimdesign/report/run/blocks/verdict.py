@@ -1,0 +1,239 @@
+"""The verdict on a result: the first line, which an engineer acts on. The first rule that applies decides.
+
+1. There is no design: *Infeasible*, with the limits that conflict or that the nearest design violates most.
+2. The joint never softens or never stiffens, or an evaluated module violates a limit: *Do not build it*.
+3. A material or bought part is beyond its rating, and the study does not accept it: *Above a rating*.
+4. The study asks for a yield, and the search did not reach it: *Margins not reached*.
+5. The study requires something at the hot point, heating stops more than `TEMPERATURE` below it, and the joint does
+   not meet that requirement when heating stops: *Not at the temperature you asked for*.
+6. Fewer than `TARGET` of the built modules meet every limit: *Nominal optimum: add margins*.
+7. A warning is grave, such as a part that may break: *Not yet*.
+8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
+   ranges: *Measure X first*.
+9. *Build it*. Without the yield and the ranges of unmeasured inputs: *Optimum found* or *Every limit is met*.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.device import Table, table_for
+from tvimdesign.page.blocks import Tone
+from tvimdesign.report.output.axis_labels import in_labels, label
+from tvimdesign.report.output.tables import margin_words, number, percent
+from tvimdesign.report.run.blocks.warnings import RunWarning
+from tvimdesign.report.run.yield_words import yield_of
+from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
+from tvimdesign.solve.result import ConstraintCheck, StudyResult
+
+TARGET = 0.95
+"""Yield below which a design without margins is only a nominal one."""
+TEMPERATURE = 0.5
+"""Kelvin by which heating may stop below the hot point."""
+DOUBT = 0.25
+"""Share of the plausible cases in which the limit most in doubt must be met."""
+_AT_THE_END = {"joint_stiffness@hot": "softened_stiffness", "joint_impedance@hot": "softened_impedance"}
+"""What the joint is when heating stops, by the quantity that is required at the hot point."""
+
+Kind = Literal[
+    "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build",
+    "unassessed",
+]  # fmt: skip
+_TONES: dict[Kind, Tone] = {
+    "infeasible": "bad", "unfit": "bad", "rating": "bad", "margins_missed": "bad", "temperature": "warn",
+    "add_margins": "warn", "not_yet": "warn", "measure": "warn", "build": "good", "unassessed": "good",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What to do with a result, and why."""
+
+    kind: Kind
+    text: str
+
+    @property
+    def tone(self) -> Tone:
+        """How a page shows it."""
+        return _TONES[self.kind]
+
+
+def verdict(answer: StudyResult, uncertainty: Mapping[str, Any], warnings: Sequence[RunWarning]) -> Verdict:
+    """Return the verdict by the first rule that applies.
+
+    Parameters
+    ----------
+    answer : StudyResult
+        The evaluated or optimised study.
+    uncertainty : Mapping
+        What `Uncertainty.data` returns; empty if it was not computed.
+    warnings : Sequence of RunWarning
+        The warnings of the run, the gravest first.
+    """
+    if not answer.found:
+        return Verdict("infeasible", _infeasible(answer))
+    return (
+        _unfit(answer)
+        or _above_rating(answer)
+        or _margins_missed(answer)
+        or _temperature(answer)
+        or _add_margins(answer, uncertainty)
+        or _not_yet(warnings)
+        or _measure(uncertainty)
+        or _fit(answer, uncertainty)
+    )
+
+
+def refused(reason: str) -> Verdict:
+    """Return the verdict on a study that was refused before the search."""
+    return Verdict("infeasible", f"Infeasible: {reason.splitlines()[0].rstrip(':')}")
+
+
+def _infeasible(answer: StudyResult) -> str:
+    """Name the limits that conflict; else the one that the nearest point violates most."""
+    solution = answer.solution
+    if solution is not None and solution.conflict_set:
+        sides = [in_labels(side.text) for side in solution.conflict_set.sides]
+        both = " and ".join(sides[:2]) + (f" and {len(sides) - 2} more limits" if len(sides) > 2 else "")
+        return f"Infeasible because {both} cannot {'hold' if len(sides) == 1 else 'hold together'}"
+    if solution is not None and solution.out_of_time is not None:
+        return "No design found in time: raise solver.time_limit"
+    violated = [check for check in answer.checks if not check.kept]
+    if violated:
+        table = table_for(answer.design.mode)
+        return f"No design found: the nearest violates {_violation(_worst(violated), table)}"
+    return "No design found"
+
+
+def _unfit(answer: StudyResult) -> Verdict | None:
+    if math.isinf(answer.design.value("response_time")):
+        return Verdict("unfit", "Do not build it: it never gets soft within `horizon`")
+    if math.isinf(answer.design.value("stiffening_time")):
+        return Verdict("unfit", "Do not build it: it never gets stiff again within `horizon`")
+    violated = [check for check in answer.checks if not check.kept]
+    if not violated:
+        return None
+    table = table_for(answer.design.mode)
+    count = f"{len(violated)} of {len(answer.checks)} limits are violated, most "
+    return Verdict("unfit", f"Do not build it: {count}{_violation(_worst(violated), table)}")
+
+
+def _worst(checks: Sequence[ConstraintCheck]) -> ConstraintCheck:
+    return min(checks, key=lambda check: check.worst)
+
+
+def _violation(check: ConstraintCheck, table: Table) -> str:
+    return f"{in_labels(check.text)}, by {margin_words(check, table).lstrip('-')}"
+
+
+def _above_rating(answer: StudyResult) -> Verdict | None:
+    names = answer.design.above_rating
+    return Verdict("rating", f"Above a rating: {', '.join(map(label, names))} below 0") if names else None
+
+
+def _margins_missed(answer: StudyResult) -> Verdict | None:
+    if answer.design.status != BELOW_YIELD:
+        return None
+    reached = yield_of(answer)
+    if reached is None:
+        return Verdict("margins_missed", "Margins not reached: the time limit ended the search")
+    return Verdict(
+        "margins_missed",
+        f"Margins not reached: yield {percent(reached.together)} of {percent(reached.asked)} asked",
+    )
+
+
+def _temperature(answer: StudyResult) -> Verdict | None:
+    """Compare the hot point with where heating stops, if a requirement at the hot point depends on it."""
+    values, table = answer.design.values, table_for(answer.design.mode)
+    if values.get("hot_point_margin", 0.0) >= -TEMPERATURE:
+        return None
+    asked = [limit for limit in answer.design.study["require"] if limit["output"].endswith("@hot")]
+    if all(_is_met_at_the_end(limit, values) for limit in asked):
+        return None
+    reached, wanted = (values[name] for name in ("softened_temperature", "temperature@hot"))
+    unit = table.unit("temperature@hot")
+    return Verdict(
+        "temperature",
+        f"Not at the temperature you asked for: {from_si(reached, unit):.0f} of {from_si(wanted, unit):.0f} "
+        f"{pretty(unit)}",
+    )
+
+
+def _is_met_at_the_end(limit: Mapping[str, Any], values: Mapping[str, float]) -> bool:
+    """Return whether the joint meets a requirement when heating stops; False if that is not known."""
+    name = _AT_THE_END.get(limit["output"])
+    if name is None:
+        return False
+    return bool(values[name] >= limit["limit"] if limit["sense"] == ">=" else values[name] <= limit["limit"])
+
+
+def _add_margins(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict | None:
+    share = uncertainty.get("parts_yield")
+    if share is None or share["share"] >= TARGET or answer.design.study.get("robust"):
+        return None
+    what = "optimum: add margins" if answer.solution is not None else "design without margins"
+    return Verdict("add_margins", f"Nominal {what} (yield {percent(share['share'], 2)})")
+
+
+def _not_yet(warnings: Sequence[RunWarning]) -> Verdict | None:
+    grave = next((warning for warning in warnings if warning.grave), None)
+    return Verdict("not_yet", f"Not yet: {grave.text.partition(': ')[0]}") if grave else None
+
+
+def _measure(uncertainty: Mapping[str, Any]) -> Verdict | None:
+    name, share = most_in_doubt(uncertainty)
+    if not name or share >= DOUBT:
+        return None
+    first = measure_first(name, uncertainty)
+    if first:
+        return Verdict("measure", f"Measure the {label(first)} first: it decides on the {label(name)}")
+    return Verdict("measure", f"Measure first what decides on the {label(name)}")
+
+
+def most_in_doubt(uncertainty: Mapping[str, Any]) -> tuple[str, float]:
+    """Return the output whose limit is met in the fewest cases, and their share; an empty name if there is none."""
+    limit, share = next(iter(uncertainty.get("held", {}).items()), ("", 1.0))
+    return limit.partition(" ")[0], share
+
+
+def measure_first(output: str, uncertainty: Mapping[str, Any]) -> str:
+    """Return the unmeasured input that carries most of an output's range; empty if none stands out."""
+    return next(iter(uncertainty.get("intervals", {}).get(output, {}).get("shares", {})), "")
+
+
+def _fit(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict:
+    if uncertainty:
+        return Verdict("build", "Build it")
+    return Verdict("unassessed", "Every limit is met" if answer.solution is None else "Optimum found")
+
+
+def starts_in_words(answer: StudyResult) -> list[str]:
+    """Say how many of the solver's starts ended at the optimum; empty for an evaluation."""
+    if answer.solution is None:
+        return []
+    free, optima = answer.solution.free_starts, answer.solution.distinct_optima()
+    if not answer.found or not optima:
+        return [f"{sum(start.converged for start in free)} of {len(free)} starts converged"]
+    if len(free) == 1:
+        return ["one start: others may be better"]
+    agree = answer.solution.reached(optima[0])
+    return [f"found by 1 of {len(free)} starts" if agree == 1 else f"{agree} of {len(free)} starts agree"]
+
+
+def objective_in_words(answer: StudyResult) -> list[str]:
+    """Compare the objective with that of the study's own start, and name other optima that starts ended at."""
+    solution, table = answer.solution, table_for(answer.design.mode)
+    if solution is None or not answer.found:
+        return []
+    at_start = sum(answer.design.study["minimize"].values())
+    lines = [f"Objective {solution.objective:.5g}, at the study's own start {at_start:.5g}."]
+    for start in solution.distinct_optima()[1:]:
+        where = ", ".join(f"{name} {format_quantity(value, table.unit(name))}" for name, value in start.end.items())
+        count = f"{solution.reached(start)} of {len(solution.free_starts)} starts"
+        lines.append(f"Another optimum, objective {number(start.objective, 5)}, reached by {count}: {where}.")
+    return lines

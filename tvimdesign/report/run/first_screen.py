@@ -1,0 +1,192 @@
+"""The first screen of a run: verdict, requirements, facts and warnings in 16 lines; and summary.txt with all tables."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+from rich.console import Console
+
+from tvimdesign.page.blocks import Facts, Warned
+from tvimdesign.page.page_file import FILE as PAGE
+from tvimdesign.report.output.console import OwnMarkupConsole
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.terminal import (
+    DOT,
+    columns,
+    joined,
+    print_block,
+    print_lines,
+    print_section,
+    wrapped,
+)
+from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.blocks.facts import (
+    Fact,
+    chosen_fact,
+    front_fact,
+    main_facts,
+    more_facts,
+)
+from tvimdesign.report.run.blocks.requirements import HEADS, Requirement, requirements
+from tvimdesign.report.run.blocks.sections import text_sections
+from tvimdesign.report.run.blocks.verdict import Verdict, starts_in_words, verdict
+from tvimdesign.report.run.blocks.warnings import VARY, RunWarning
+
+FILE = "summary.txt"
+LINES, NARROW_LINES = 16, 24
+"""Lines of the screen from 100 columns on, and below."""
+_WIDE = 100
+_FILE_WIDTH = 120
+_WARNINGS = 3
+_COLOURS = {"red": r"\bviolated by\b.*", "yellow": r"at the limit|^Warning:", "bold": r"^[A-Z][a-z ]+:"}
+_OF_TONE = {"good": "bold green", "warn": "bold yellow", "bad": "bold red", "": "bold"}
+
+
+def verdict_of(answered: AnsweredStudy) -> Verdict:
+    """Return the verdict on an answered study."""
+    return verdict(answered.result, answered.uncertainty, answered.warnings)
+
+
+def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = None, after: int = 1) -> list[str]:
+    """Return the screen's lines, none wider than `width` unless a name is.
+
+    Parameters
+    ----------
+    answered : AnsweredStudy
+        The result.
+    width : int
+        Columns.
+    seconds : float, optional
+        How long the run took; a file is the same every time without it.
+    after : int, optional
+        Lines left for what the run prints next, such as where the files are.
+    """
+    answer = answered.result
+    parts = [verdict_of(answered).text, f"{answer.design.name} ({answer.design.mode})"]
+    more = [*starts_in_words(answer), *([] if seconds is None else [f"{seconds:.{1 if seconds < 10.0 else 0}f} s"])]
+    head, facts = _as_fit(joined(parts, width), more, width), []
+    if answer.found:
+        shown = [*main_facts(answer, answered.uncertainty), *chosen_fact(answer)]
+        shown += front_fact(answered.front.front, answered.study.table)
+        facts = [line for fact in shown for line in _fact_lines(fact, width)]
+    left = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - len(facts) - after
+    first = warning_lines(answered.warnings, width, 1)
+    asked = _requirement_lines(requirements(answer, answered.uncertainty), width, left - len(first))
+    counts = [count for count in range(_WARNINGS, 0, -1)
+              if len(asked) + len(warning_lines(answered.warnings, width, count)) <= left]  # fmt: skip
+    return [*head, *asked, *facts, *warning_lines(answered.warnings, width, counts[0] if counts else 1)]
+
+
+def _as_fit(lines: Sequence[str], more: Sequence[str], width: int) -> list[str]:
+    """Return lines, the last one with as many of `more` behind it as have a place."""
+    last = lines[-1]
+    for part in more:
+        last = f"{last}{DOT}{part}" if len(last) + len(DOT) + len(part) <= width else last
+    return [*lines[:-1], last]
+
+
+def _fact_lines(fact: Fact, width: int) -> list[str]:
+    """Return a fact in as few lines as hold it; a listing in one, with the number of parts that do not fit."""
+    first = f"{fact.label}: {fact.parts[0]}"
+    lines = joined([first, *fact.parts[1:]], width, "  ")
+    if len(lines) == 1 or not fact.listing:
+        return _as_fit(lines, [fact.note] if fact.note else [], width)
+    for count in range(len(fact.parts) - 1, 0, -1):
+        line = DOT.join([first, *fact.parts[1:count], f"{len(fact.parts) - count} more"])
+        if len(line) <= width:
+            return [line]
+    return wrapped(first, width, indent="  ")
+
+
+def _requirement_lines(rows: Sequence[Requirement], width: int, most: int) -> list[str]:
+    """Return the requirements; of more than `most` lines hold, those with the least margin."""
+    by_margin = sorted(rows, key=lambda row: row.least)
+    for count in range(len(rows), 0, -1):
+        least = by_margin[:count]
+        title = "" if count == len(rows) else f"closest {count} of {len(rows)}"
+        cells = [(title, *HEADS[1:]), *(row.cells for row in rows if row in least)]
+        lines = _fitting(cells, width)
+        if len(lines) <= max(most, 2):
+            return lines
+    return []
+
+
+def _fitting(cells: Sequence[Sequence[str]], width: int) -> list[str]:
+    """Return a table that is no wider than the screen: without ranges, or names on their own lines, if need be."""
+    lines = columns(cells, right=(2,))
+    if max(map(len, lines)) > width:
+        lines = columns([(*row[:3], *row[4:]) for row in cells], right=(2,))
+    if max(map(len, lines)) <= width:
+        return lines
+    figures = columns([row[1:] for row in cells], right=(1,))
+    return [line for row, own in zip(cells, figures, strict=True) for line in (row[0], f"  {own}") if line]
+
+
+def warning_lines(warnings: Sequence[RunWarning], width: int, count: int) -> list[str]:
+    """Return the first `count` warnings, each with the line to write, and how many more there are."""
+    lines = [line for warning in warnings[:count] for line in _warning(warning, width)]
+    more = f"{len(warnings) - count} more: --full"
+    if len(warnings) <= count:
+        return lines
+    if len(lines[-1]) + len(DOT) + len(more) <= width:
+        return [*lines[:-1], f"{lines[-1]}{DOT}{more}"]
+    return [*lines, f"{'':9}{more}"]
+
+
+def _warning(warning: RunWarning, width: int) -> list[str]:
+    """Return what is wrong, and on the same line what cures it if it fits: what is to be copied stays in one piece."""
+    indent = " " * 9
+    lines = wrapped(f"Warning: {warning.text}{';' if warning.cure else ''}", width, indent=indent)
+    if not warning.cure:
+        return lines
+    cure = warning.cure if warning.cure.startswith(VARY) else f"write {warning.cure}"
+    if len(lines[-1]) + len(cure) + 1 <= width:
+        return [*lines[:-1], f"{lines[-1]} {cure}"]
+    return [
+        *lines,
+        *([f"{indent}{cure}"] if len(indent) + len(cure) <= width else wrapped(cure, width, indent, indent)),
+    ]
+
+
+def print_first_screen(
+    answered: AnsweredStudy, console: Console, seconds: float | None = None, after: int = 1
+) -> None:  # fmt: skip
+    """Print the first screen."""
+    lines = first_screen(answered, console.width, seconds, after)
+    first = {_OF_TONE[verdict_of(answered).tone]: r"^.*?(?= · |$)"}
+    print_lines(lines[:1], console, first)
+    print_lines(lines[1:], console, _COLOURS)
+
+
+def print_everything(answered: AnsweredStudy, console: Console, seconds: float | None = None) -> None:
+    """Print the first screen and every table."""
+    print_first_screen(answered, console, seconds)
+    answer = answered.result
+    if answer.found:
+        console.print()
+        facts = more_facts(answer, answered.uncertainty, answered.front.front)
+        print_block(Facts([(fact.label, fact.text) for fact in facts]), console)
+        print_block(Warned([warning[:2] for warning in answered.warnings]), console)
+    for section in text_sections(answered):
+        print_section(section, console)
+
+
+def print_result(answered: AnsweredStudy, console: Console, seconds: float, after: int, *, full: bool) -> None:
+    """Print the first screen, or everything."""
+    if full:
+        print_everything(answered, console, seconds)
+    else:
+        print_first_screen(answered, console, seconds, after)
+
+
+def write_summary(answered: AnsweredStudy, folder: ResultsFolder) -> None:
+    """Write summary.txt: the first screen and every table; without seconds, so that it is the same every time."""
+    stream = io.StringIO()
+    print_everything(answered, OwnMarkupConsole(file=stream, width=_FILE_WIDTH, color_system=None, highlight=False))
+    folder.write(FILE, "\n".join(line.rstrip() for line in stream.getvalue().splitlines()) + "\n")
+
+
+def look_first(folder: str, width: int) -> list[str]:
+    """Return where to look first: the page of the folder, and the tables."""
+    return joined([f"Look first: {folder}/{PAGE}", f"every table: {FILE}, --full"], width)

@@ -1,0 +1,172 @@
+"""A run's page: the verdict and the requirements first, then facts, warnings and the sections that the run has."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.device import Table
+from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
+from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
+from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import FrontEntry
+from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.report.run.blocks.facts import main_facts, more_facts
+from tvimdesign.report.run.blocks.requirements import requirements, requirements_grid
+from tvimdesign.report.run.blocks.sections import (
+    assumptions_section,
+    front_section,
+    module_section,
+    reasons_section,
+    search_section,
+    values_grid,
+)
+from tvimdesign.report.run.blocks.verdict import refused, starts_in_words
+from tvimdesign.report.run.first_screen import verdict_of
+from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.parts_sections import (
+    CYCLE,
+    FOLDER,
+    carried_files,
+    checks_section,
+    materials_section,
+    preview,
+    solids_section,
+    spring_section,
+    steps_section,
+)
+from tvimdesign.report.run.run_plot_data import PLACES, plot_data, through_the_layer
+from tvimdesign.report.run.verification_section import verification_sections
+from tvimdesign.simulation.working_cycle.curves import Curves
+from tvimdesign.solve.result import StudyResult
+from tvimdesign.study import Study
+from tvimdesign.study.tree import StudyTree, study_file
+
+_FILES = {
+    "summary.txt": "all tables as text", "results.csv": "every value", "why.csv": "shadow prices",
+    "front.csv": "the front", "cad/assembly.step": "the assembly as STEP", "cad/bom.csv": "bill of materials",
+    "cad/springs/spring.pdf": "spring sheet", "cad/checks.json": "checks on the solids",
+    "design.json": "the design as data",
+}  # fmt: skip
+_PHASES = ("softening", "stiffening")
+_COLUMNS = ("current", "electrical_power", "joint_impedance", "joint_stiffness", "joint_damping")
+
+
+def write_run_page(folder: ResultsFolder, answered: AnsweredStudy) -> None:
+    """Write the page of an answered study beside the files that the folder has by then."""
+    write_page(folder, run_page(folder, answered))
+
+
+def run_page(folder: ResultsFolder, answered: AnsweredStudy) -> Page:
+    """Return the page of an answered study."""
+    answer, cad, says = answered.result, folder.path / FOLDER, verdict_of(answered)
+    module = module_section(answered)
+    values = answered.reported["values"]
+    every = Folded(f"All {len(values)} inputs and outputs, with their sources", [values_grid(values)])
+    sections = [Section(module.name, module.title, [*module.blocks, *([every] if answer.found else [])])]
+    if answer.found:
+        sections += _of_a_design(cad, answered)
+    return Page(
+        answer.design.name, f"{answer.design.mode} module", says.text, says.tone, glance(answered), preview(cad),
+        [*sections, *_last(folder, answered.tree)], made_by_words(folder), there(folder, _FILES), carried_files(cad),
+    )  # fmt: skip
+
+
+def glance(answered: AnsweredStudy) -> list[Block]:
+    """Return the first screen: requirements, facts and warnings, and behind a line what a reader may ask next."""
+    answer, uncertainty = answered.result, answered.uncertainty
+    rows = requirements(answer, uncertainty)
+    first: list[Block] = [requirements_grid(rows)] if rows else []
+    if not answer.found:
+        return [*first, Points([*(warning.text for warning in answered.warnings),
+                                *complaint(answer, answered.study.table).splitlines()[1:]])]  # fmt: skip
+    facts = [(fact.label, fact.text) for fact in main_facts(answer, uncertainty)]
+    more = [(fact.label, fact.text) for fact in more_facts(answer, uncertainty, answered.front.front)]
+    more += [("Starts", text) for text in starts_in_words(answer)]
+    warned = [Warned([warning[:2] for warning in answered.warnings])] if answered.warnings else []
+    return [*first, Facts(facts), *warned, Folded("Thresholds, cooling, margins and assumed values", [Facts(more)])]
+
+
+def _of_a_design(cad: Path, answered: AnsweredStudy) -> list[Section]:
+    """Return what there is to show of a design, and of its parts if they were made."""
+    path, front = answered.tree.path, answered.reported.get("front")
+    return [
+        solids_section(cad, path.name if path else "STUDY"),
+        cycle_section(answered.result, answered.study.table),
+        reasons_section(answered),
+        assumptions_section(answered),
+        *search_section(answered),
+        *([drawn_front(answered.study.table, front)] if front else []),
+        *checks_section(cad),
+        *materials_section(cad),
+        *steps_section(cad),
+        *spring_section(cad),
+        *verification_sections(cad.parent),
+    ]
+
+
+def cycle_section(answer: StudyResult, table: Table) -> Section:
+    """Return the working cycle: softening, then stiffening, on one axis of time."""
+    says = (
+        "The working cycle, simulated: temperatures, current and power, impedance, and the temperatures through the "
+        "layer at the cursor. Softening first, then stiffening."
+    )
+    return Section("cycle", "Cycle", [Drawn(CYCLE, "cycle.js", says, cycle_data(answer, table), libraries=["echarts"])])
+
+
+def cycle_data(answer: StudyResult, table: Table) -> dict[str, Any]:
+    """Return each phase's columns over its own time, with what stands beside them."""
+    beside = plot_data(answer, table)["cycle"]
+    return {
+        "phases": [_phase(name, answer.histories[name]) for name in _PHASES if name in answer.histories],
+        "labels": beside["labels"],
+        "depths": _rounded(beside["depths"]),
+        **{name: beside[name] for name in ("places", "melting", "soft", "stiff")},
+    }
+
+
+def _phase(name: str, curves: Curves) -> dict[str, Any]:
+    """Return a phase: `through` has the temperatures through the layer, a row for each moment."""
+    through = zip(*(curves[column] for column in through_the_layer(curves)), strict=True)
+    columns = {column: _rounded(curves[column]) for column in (*PLACES, *_COLUMNS)}
+    return {"name": name, "time": _rounded(curves["time"]), **columns, "through": [_rounded(row) for row in through]}
+
+
+def _rounded(values: Any) -> list[float]:
+    """Return numbers in as many digits as a screen shows."""
+    return [float(f"{value:.5g}") for value in values]
+
+
+def drawn_front(table: Table, front: FrontEntry) -> Section:
+    """Return the front: its points as curves to brush, and as a table with the file of each design."""
+    names = list(front["units_of_values"])
+    says = (
+        "The front: each point, and each line, is a whole design. Drag along an axis of the lower figure, or set "
+        "its ends below, to keep only the designs within."
+    )
+    data = {
+        "of": list(front["of"]),
+        "names": names,
+        "labels": [axis_label(name, table.unit(name)) for name in names],
+        "points": [
+            {"number": point["number"], "status": point["status"], "values": [point["values"][name] for name in names]}
+            for point in front["points"]
+        ],
+    }
+    return front_section(front, names, Drawn("front", "front.js", says, data, libraries=["echarts"]))
+
+
+def refused_page(folder: ResultsFolder, tree: StudyTree, study: Study, reason: str) -> Page:
+    """Return the page of a study that was refused before there was any design."""
+    says = refused(reason)
+    return Page(
+        study.name, f"{study.mode} module", says.text, says.tone, [Points(reason.splitlines())], None,
+        _last(folder, tree), made_by_words(folder), there(folder, _FILES),
+    )  # fmt: skip
+
+
+def _last(folder: ResultsFolder, tree: StudyTree) -> list[Section]:
+    """Return the study and what made the page."""
+    text = study_file(tree)
+    return [study_section(text if isinstance(text, str) else text.decode()), versions_section(folder)]
