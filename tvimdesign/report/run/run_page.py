@@ -16,6 +16,7 @@ from tvimdesign.report.run.blocks.facts import main_facts, more_facts
 from tvimdesign.report.run.blocks.requirements import requirements, requirements_grid
 from tvimdesign.report.run.blocks.sections import (
     assumptions_section,
+    conflict_points,
     front_section,
     module_section,
     reasons_section,
@@ -24,7 +25,6 @@ from tvimdesign.report.run.blocks.sections import (
 )
 from tvimdesign.report.run.blocks.verdict import refused, starts_in_words
 from tvimdesign.report.run.first_screen import verdict_of
-from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.parts_sections import (
     CYCLE,
     FOLDER,
@@ -79,8 +79,7 @@ def glance(answered: AnsweredStudy) -> list[Block]:
     rows = requirements(answer, uncertainty)
     first: list[Block] = [requirements_grid(rows)] if rows else []
     if not answer.found:
-        return [*first, Points([*(warning.text for warning in answered.warnings),
-                                *complaint(answer, answered.study.table).splitlines()[1:]])]  # fmt: skip
+        return [*first, Points([warning.text for warning in answered.warnings]), conflict_points(answered)]
     facts = [(fact.label, fact.text) for fact in main_facts(answer, uncertainty)]
     more = [(fact.label, fact.text) for fact in more_facts(answer, uncertainty, answered.front.front)]
     more += [("Starts", text) for text in starts_in_words(answer)]

@@ -14,6 +14,7 @@ from tvimdesign.report.output.tables import number, percent
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.blocks.verdict import objective_in_words
+from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.why import sentences, slack_in_words
 from tvimdesign.report.run.yield_words import lost_in_words, yield_of
 from tvimdesign.solve.nlp.solution import Solution
@@ -23,7 +24,7 @@ from tvimdesign.solve.result import StudyResult
 def text_sections(answered: AnsweredStudy) -> list[Section]:
     """Return the sections that the terminal prints; the page has figures between them."""
     if not answered.result.found:
-        return [module_section(answered)]
+        return [Section("conflict", "No design", [conflict_points(answered)]), module_section(answered)]
     front = answered.reported.get("front")
     return [
         module_section(answered),
@@ -32,6 +33,11 @@ def text_sections(answered: AnsweredStudy) -> list[Section]:
         assumptions_section(answered),
         *([front_section(front, front["of"])] if front else []),
     ]
+
+
+def conflict_points(answered: AnsweredStudy) -> Points:
+    """Return what cannot hold together, what is violated least, and what to do."""
+    return Points(complaint(answered.result, answered.study.table).splitlines()[1:])
 
 
 def module_section(answered: AnsweredStudy) -> Section:
