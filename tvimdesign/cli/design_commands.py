@@ -97,20 +97,22 @@ def compare(
     studies: Annotated[
         list[Path],
         typer.Argument(
-            metavar="STUDY STUDY...", help="Study files, of any modes.", autocompletion=completions.study_files
+            metavar="STUDY|RESULT...",
+            help="Study files of any modes, or folders (or design.json) of finished runs.",
+            autocompletion=completions.designs_and_studies,
         ),
     ],
     out: Annotated[
         Path | None,
         typer.Option("--out", help="Folder for the results; results/<first>-vs-<second> unless given."),
     ] = None,
-    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; 0 draws none.")] = 6,
+    points: Annotated[int, typer.Option("--points", min=0, help="Points of each front; no fronts unless given.")] = 0,
     overwrite: Overwrite = False,
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
-    """Hold studies with the same requirements against each other: as drawn, and each optimised for itself."""
+    """Compare studies with the same requirements, optimised and as drawn, or the results of finished runs."""
     from tvimdesign.report.compare.compare_studies import compare_studies
 
     compare_studies(

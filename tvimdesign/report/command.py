@@ -37,6 +37,7 @@ class Command:
         self.failures: list[TvimError] = []
         self._claim, self._plots = (overwrite, resume, keep), plots
         self._plotter: PlotProcess | None = None
+        self._drawn = False
         self._stack = ExitStack()
 
     def __enter__(self) -> Command:
@@ -44,22 +45,28 @@ class Command:
         with ExitStack() as stack:
             self.folder = stack.enter_context(ResultsFolder(self.out, *self._claim))
             self.progress = stack.enter_context(progress_output())
-            self._plotter = stack.enter_context(PlotProcess()) if self._plots else None
             self._stack = stack.pop_all()
+        if self._plots:
+            self.start_plotter()
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, at: TracebackType | None) -> None:
         """Stop what draws and release the folder."""
         self._stack.__exit__(kind, value, at)
 
+    def start_plotter(self) -> None:
+        """Start the process that draws, so that it is ready when there is something to draw."""
+        self._plotter = self._stack.enter_context(PlotProcess())
+
     def begin_plots(self, drawings: Sequence[Drawing], study: str) -> None:
         """Start to draw plots, signed with the study's name, unless no plots are asked for."""
+        self._drawn = bool(drawings)
         if self._plotter and drawings:
             self._plotter.begin(self.folder.path, drawings, study)
 
     def finish_plots(self, what: str = "drawing the figure") -> None:
         """Wait for the plots; a failure is noted."""
-        if self._plotter:
+        if self._plotter and self._drawn:
             self.progress(what)
             with noting(self.failures):
                 self._plotter.finish()
@@ -76,8 +83,14 @@ class Command:
             write_page(self.folder, page)
         self.folder.finish(PARTLY_DONE if self.failures else status, inputs, study, timing)
 
-    def report(self, data: Mapping[str, Any], show: Callable[[Console], None], where: str) -> None:
-        """Print the results as JSON, or for people; `where` says what is in the folder. Raises noted failures."""
+    def report(
+        self, data: Mapping[str, Any], show: Callable[[Console], None], where: str,
+        error: Callable[[list[TvimError]], TvimError] | None = None,
+    ) -> None:  # fmt: skip
+        """Print the results as JSON, or for people; `where` says what is in the folder.
+
+        Raises noted failures as one `error`, with exit code 4 unless another is given.
+        """
         if self.as_json:
             print(json.dumps({**data, "folder": str(self.out), **not_done(self.failures)}, indent=2, allow_nan=False))
         else:
@@ -85,7 +98,7 @@ class Command:
             show(console)
             console.print(f"\n{where} in [bold]{escape(str(self.out))}[/bold]", soft_wrap=True)
         if self.failures:
-            raise done_in_part(self.failures)
+            raise (error or done_in_part)(self.failures)
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""Answers the studies of a comparison in child processes, two at once: where one crashes, the others are kept."""
+"""Child processes that answer the studies of a comparison, two at once; if one crashes, the others continue."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import TvimError
+from tvimdesign.report.compare.compared_design import nothing_found
 from tvimdesign.report.output.progress import Progress
 
 AT_ONCE = 2
@@ -44,29 +45,41 @@ def answers(
     progress: Progress,
     when_idle: Callable[[], object] = lambda: None,
     settings: Sequence[str] = (),
+    keep: Callable[[str, dict[str, Any]], object] = lambda _label, _found: None,
 ) -> dict[str, dict[str, Any]]:
-    """What each study's job found, by label; a job that died has its reason under `troubles`.
+    """Return what each study's job found, by label; a job that died has its reason under `troubles`.
 
-    They answer in a folder within `out`, which is gone then.
-    `when_idle` is called as soon as there is nothing more to start: from then on a core is free. Every study is read
-    with the `settings`, each `name=value`.
+    Parameters
+    ----------
+    out
+        Folder in which the jobs write into a folder of their own, which is removed at the end.
+    when_idle
+        Called as soon as nothing more is to be started: from then on a core is free.
+    settings
+        Changes to every study, each `name=value`.
+    keep
+        Called with a label and what is found so far, after each step of a job.
     """
     waiting, running = list(asked), list[_Child]()
     found: dict[str, dict[str, Any]] = {}
-    said: queue.Queue[tuple[str, str | None]] = queue.Queue()
+    lines: queue.Queue[tuple[str, str | None]] = queue.Queue()
     with tempfile.TemporaryDirectory(dir=out, prefix=HALF_DONE) as folder:
         try:
             while waiting or running:
                 while waiting and len(running) < AT_ONCE:
                     number = len(asked) - len(waiting)
-                    one = waiting.pop(0)
-                    others = [other.path for other in asked if other is not one]
-                    running.append(_start(one, others, (points, settings), Path(folder) / str(number), said))
-                label, line = said.get()
-                if line is not None:
-                    progress(f"{label}: {json.loads(line)['progress']}")
-                    continue
+                    study = waiting.pop(0)
+                    others = [other.path for other in asked if other is not study]
+                    running.append(_start(study, others, (points, settings), Path(folder) / str(number), lines))
+                label, line = lines.get()
                 child = next(child for child in running if child.label == label)
+                if line is not None:
+                    message = json.loads(line)
+                    if "progress" in message:
+                        progress(f"{label}: {message['progress']}")
+                    else:
+                        keep(label, json.loads(child.out.read_text()))
+                    continue
                 running.remove(child)
                 found[label] = _finish(child)
                 if not waiting and len(running) == AT_ONCE - 1:
@@ -75,41 +88,31 @@ def answers(
             for child in running:
                 child.process.kill()
                 child.process.wait()
-    return {one.label: found[one.label] for one in asked}
-
-
-def crashed(error: str) -> dict[str, Any]:
-    """What is told of a study whose process has died."""
-    troubles = [{"step": "all", "error": error, "exit_code": _CRASHED}]
-    return {"fronts": [], "seconds": {}, "release": {}, "heat": {}, "troubles": troubles}
+    return {study.label: found[study.label] for study in asked}
 
 
 def _start(
-    one: Asked,
-    others: Sequence[Path],
-    how: tuple[int, Sequence[str]],
-    stem: Path,
-    said: queue.Queue[tuple[str, str | None]],
-) -> _Child:
+    study: Asked, others: Sequence[Path], how: tuple[int, Sequence[str]], stem: Path,
+    lines: queue.Queue[tuple[str, str | None]],
+) -> _Child:  # fmt: skip
     """Start a child process; `how` is the count of points of a front, and the settings."""
     out, errors = stem.with_suffix(".json"), stem.with_suffix(".txt")
-    paths = [str(path.resolve()) for path in (one.path, out, *others)]
+    paths = [str(path.resolve()) for path in (study.path, out, *others)]
     with errors.open("wb") as stream:
         process = start_child(
             "tvimdesign.report.compare.comparison_job", [*paths[:2], str(how[0]), json.dumps(list(how[1])), *paths[2:]],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stream, text=True, encoding="utf-8",
         )  # fmt: skip
-    read_lines(process, lambda line: said.put((one.label, line)))
-    return _Child(one.label, process, out, errors, time.perf_counter())
+    read_lines(process, lambda line: lines.put((study.label, line)))
+    return _Child(study.label, process, out, errors, time.perf_counter())
 
 
 def _finish(child: _Child) -> dict[str, Any]:
     code = child.process.wait()
-    if child.out.exists():
-        found: dict[str, Any] = json.loads(child.out.read_text())
-    else:
+    found: dict[str, Any] = json.loads(child.out.read_text()) if child.out.exists() else nothing_found()
+    if code:
         last = " ".join(child.errors.read_text(errors="replace").strip().splitlines()[-1:])
-        error = f"its process ended with code {code}: {last or 'nothing was said'}"
-        found = crashed(error)
+        error = f"its process ended with code {code}: {last or 'without a message'}"
+        found["troubles"].append({"step": "all", "error": error, "exit_code": _CRASHED})
     found["seconds"]["whole process"] = time.perf_counter() - child.began
     return found

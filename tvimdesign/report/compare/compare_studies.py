@@ -1,32 +1,26 @@
-"""One comparison, from study files to a finished folder: the order of things, and what is written."""
+"""The command `compare`, from studies or finished runs to a folder: optima first, and each result written at once."""
 
 from __future__ import annotations
 
 import json
 import time
 from collections.abc import Sequence
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from rich.markup import escape
-
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
-from tvimdesign.report.command import PARTLY_DONE
+from tvimdesign.report.command import Command, design_file, done_in_part
 from tvimdesign.report.compare.children import Asked, answers
-from tvimdesign.report.compare.comparison import Outcome
+from tvimdesign.report.compare.compared_design import finished_run, nothing_found
+from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_page import comparison_page
 from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import print_comparison, summary_text
 from tvimdesign.report.compare.comparison_table import compare_csv
-from tvimdesign.report.figures.plot_process import PlotProcess
-from tvimdesign.report.output.page_sections import write_page
-from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.check_study import refuse_what_cannot_be
-from tvimdesign.study import read_tree
+from tvimdesign.study import Study, read_tree
 from tvimdesign.study.conditions import Case, refuse_unequal
-from tvimdesign.study.design import Design, design_json
+from tvimdesign.study.design import Design, design_json, read_design
 from tvimdesign.study.text.mistakes import Mistake, StudyError
 from tvimdesign.study.text.source import printable
 from tvimdesign.study.tree import study_file, tree_of_file
@@ -36,74 +30,74 @@ def compare_studies(
     paths: Sequence[Path], out: Path, *, points: int, overwrite: bool, plots: bool, as_json: bool,
     settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
-    """Compare studies and write the folder. Raises InputError for what cannot be compared, TvimError for failures."""
+    """Compare studies, or the results of finished runs, and write the folder.
+
+    Raises InputError for what cannot be compared, TvimError for what could not be done.
+    """
     began = time.perf_counter()
-    entrants = labelled(_read(paths, settings))
-    with ExitStack() as stack:
-        progress = stack.enter_context(progress_output())
-        drawing: PlotProcess | None = None
+    if len(paths) < 2:
+        raise InputError("compare takes two studies or more, or two results; `tvimdesign run` answers one study")
+    finished = [is_result(path) for path in paths]
+    if any(finished) and (points or settings or not all(finished)):
+        raise InputError("compare takes results of finished runs alone, without studies, --points and --set")
+    cases = labelled(_results(paths) if all(finished) else _studies(paths, settings), paths)
+    texts = {label: _study_text(case, settings) for label, case in cases.items()}
+    with Command(out, overwrite=overwrite, as_json=as_json) as command:
+        found = {label: nothing_found() for label in cases}
 
-        def begin_drawing() -> None:
-            nonlocal drawing
-            drawing = stack.enter_context(PlotProcess()) if plots else None
+        def keep(label: str, answer: dict[str, Any]) -> None:
+            found[label] = answer
+            _write(command.folder, Outcome(cases, found), texts)
 
-        folder = stack.enter_context(ResultsFolder(out, overwrite))
-        asked = [Asked(label, entrant.path) for label, entrant in entrants.items()]
-        found = answers(asked, folder.path, points, progress, begin_drawing, settings)
-        outcome = Outcome(entrants, found)
+        if all(finished):
+            for (label, case), path in zip(cases.items(), paths, strict=True):
+                found[label] = finished_run(design_file(path), case.study.table)
+        else:
+            asked = [Asked(label, case.path) for label, case in cases.items()]
+            start_plotter = command.start_plotter if plots else lambda: None
+            found |= answers(asked, command.folder.path, points, command.progress, start_plotter, settings, keep)
+        outcome = Outcome(cases, found)
         outcome.seconds["all answers"] = time.perf_counter() - began
-        asked_for = drawings(outcome)
-        if drawing:
-            drawing.begin(folder.path, asked_for, " against ".join(one.study.name for one in entrants.values()))
-        _write(folder, outcome, settings)
-        progress("")
+        command.begin_plots(drawings(outcome), " against ".join(case.study.name for case in cases.values()))
         outcome.seconds["whole"] = time.perf_counter() - began
-        reported = outcome.plain()
-        folder.write_json("compare.json", reported)
-        if not as_json:
-            print_comparison(outcome, wide_console())
-        troubles = [f"{label}, {trouble['step']}: {trouble['error']}" for label, trouble in outcome.troubles]
-        if drawing and asked_for:
-            progress("drawing the plots")
-            try:
-                drawing.finish()
-            except TvimError as error:
-                troubles.append(str(error))
-        progress("")
-        write_page(folder, comparison_page(folder, outcome, tuple(settings)))
-        studies = {label: entrant.study.model_dump(mode="json") for label, entrant in entrants.items()}
-        inputs = {label: entrant.path for label, entrant in entrants.items()}
-        folder.finish(PARTLY_DONE if troubles else "compared", inputs, studies, outcome.seconds)
-    _say(reported, folder.out, troubles, as_json=as_json)
-    if troubles:
-        raise _trouble(outcome, troubles)
+        _write(command.folder, outcome, texts)
+        command.failures += [TvimError(text) for text in outcome.failures]
+        command.finish_plots("drawing the plots")
+        studies = {label: case.study.model_dump(mode="json") for label, case in cases.items()}
+        inputs = {label: design_file(path) for label, path in zip(cases, paths, strict=True)}
+        page = comparison_page(command.folder, outcome, texts)
+        command.finish("compared", inputs, studies, outcome.seconds, page)
+    codes = {trouble["exit_code"] for _, trouble in outcome.troubles}
+    infeasible = codes == {InfeasibleError.exit_code} and len(command.failures) == len(outcome.troubles)
+    command.report(
+        outcome.plain(), lambda console: print_comparison(outcome, console), "Results are",
+        _no_design if infeasible else done_in_part,
+    )  # fmt: skip
 
 
-def _say(reported: dict[str, Any], out: Path, troubles: Sequence[str], *, as_json: bool) -> None:
-    if as_json:
-        print(json.dumps({**reported, "folder": str(out), "not_done": list(troubles)}, indent=2, allow_nan=False))
-    else:
-        wide_console().print(f"\nResults are in [bold]{escape(str(out))}[/bold]", soft_wrap=True)
+def is_result(path: Path) -> bool:
+    """Return whether a path is the folder or the design of a finished run, not a study."""
+    return path.suffix == ".json" or path.is_dir()
 
 
-def labelled(entrants: Sequence[Case]) -> dict[str, Case]:
-    """Studies by what they are called: their modes where these differ, else their files' names, else their paths."""
+def labelled(cases: Sequence[Case], paths: Sequence[Path]) -> dict[str, Case]:
+    """Name cases by their modes if these differ, else by their files or folders, else by their paths."""
     for names in (
-        [entrant.study.mode for entrant in entrants],
-        [entrant.path.stem for entrant in entrants],
-        [printable(entrant.path) for entrant in entrants],
+        [case.study.mode for case in cases],
+        [path.resolve().name if path.is_dir() else path.stem for path in paths],
+        [printable(path) for path in paths],
     ):
         if len(set(names)) == len(names):
             break
-    return dict(zip(names, entrants, strict=True))
+    return dict(zip(names, cases, strict=True))
 
 
-def _read(paths: Sequence[Path], settings: Sequence[str]) -> list[Case]:
-    """All studies, read and found comparable. Raises StudyError with everything that is wrong with any of them."""
-    if len(paths) < 2:
-        raise InputError("compare takes two studies or more; `tvimdesign run` answers one")
+def _studies(paths: Sequence[Path], settings: Sequence[str]) -> list[Case]:
+    """Read studies. Raises StudyError with everything that is wrong with any of them, or differs between them."""
+    from tvimdesign.report.run.check_study import refuse_what_cannot_be
+
     problems: list[Mistake] = []
-    found = []
+    cases = []
     for path in paths:
         try:
             study = read_tree(tree_of_file(path, settings))
@@ -114,34 +108,48 @@ def _read(paths: Sequence[Path], settings: Sequence[str]) -> list[Case]:
             shown = printable(path)
             problems.append(Mistake(shown, 0, 0, "", str(error).removeprefix(f"{shown}: ").removeprefix(f"{shown} ")))
         else:
-            found.append(Case(path, study))
+            cases.append(Case(path, study))
     if problems:
         raise StudyError(problems)
-    refuse_unequal(found)
-    return found
+    refuse_unequal(cases)
+    return cases
 
 
-def _write(folder: ResultsFolder, outcome: Outcome, settings: Sequence[str]) -> None:
+def _results(paths: Sequence[Path]) -> list[Case]:
+    """Read the studies of finished runs. Raises InputError, and StudyError where they differ."""
+    cases = []
+    for path in map(design_file, paths):
+        study = Study.model_validate(read_design(path).study)
+        beside = path.with_name("study.yaml")
+        cases.append(Case(beside if beside.exists() and path.name == "design.json" else path, study))
+    refuse_unequal(cases)
+    return cases
+
+
+def _study_text(case: Case, settings: Sequence[str]) -> str:
+    """Return a study as it was answered, as text."""
+    if case.path.suffix == ".json":
+        return json.dumps(read_design(case.path).study, indent=2)
+    text = study_file(tree_of_file(case.path, settings))
+    return text if isinstance(text, str) else text.decode()
+
+
+def _write(folder: ResultsFolder, outcome: Outcome, texts: dict[str, str]) -> None:
+    """Write what is there: each study with its designs, and the tables once two studies have a design."""
+    for label, found in outcome.found.items():
+        name = "-".join(part for part in Path(label).with_suffix("").parts if part not in {"/", ".."})
+        for which in COMPARISONS:
+            if which in found:
+                folder.write(f"{name}/{which}.json", design_json(Design.model_validate(found[which]["design"])))
+        folder.write(f"{name}/study.yaml", texts[label])
     folder.write("compare.csv", compare_csv(outcome.rows, outcome.alone))
     folder.write("summary.txt", summary_text(outcome))
+    folder.write_json("compare.json", outcome.plain())
     if outcome.fronts:
         folder.write("fronts.csv", outcome.fronts_csv())
         folder.write_json("fronts.json", outcome.fronts_plain())
-    for label, found in outcome.found.items():
-        name = Path(label).stem
-        for which in ("drawn", "optimised"):
-            if which in found:
-                design = Design.model_validate(found[which]["design"])
-                folder.write(f"{name}/{which}.json", design_json(design))
-        folder.write(f"{name}/study.yaml", study_file(tree_of_file(outcome.entrants[label].path, settings)))
 
 
-def _trouble(outcome: Outcome, troubles: Sequence[str]) -> TvimError:
-    """What is told last: infeasible where that is all that went wrong, done in part otherwise."""
-    codes = {trouble["exit_code"] for _, trouble in outcome.troubles}
-    text = "\n".join(troubles) + "\nWhat the other studies came to is kept."
-    if codes == {InfeasibleError.exit_code} and len(troubles) == len(outcome.troubles):
-        return InfeasibleError(text)
-    error = TvimError(f"done in part: {text}")
-    error.exit_code = 4
-    return error
+def _no_design(failures: Sequence[TvimError]) -> TvimError:
+    """Return the error of a comparison in which studies have no design, and nothing else is missing."""
+    return InfeasibleError("\n".join(map(str, failures)) + "\nThe results of the other studies are written.")

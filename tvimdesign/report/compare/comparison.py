@@ -17,7 +17,7 @@ from tvimdesign.solve.pareto.front_leads import leads
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
 
-COMPARISONS = {"drawn": "as drawn", "optimised": "each optimised for itself"}
+COMPARISONS = {"optimised": "each optimised for itself", "drawn": "as drawn"}
 _SAID_FIRST = ("envelope_diameter", "module_mass", "cycle_time", "response_time")
 
 
@@ -34,6 +34,11 @@ class Outcome:
     def troubles(self) -> list[tuple[str, dict[str, Any]]]:
         """(study, what failed) of everything that was not done."""
         return [(label, trouble) for label, found in self.found.items() for trouble in found["troubles"]]
+
+    @property
+    def failures(self) -> list[str]:
+        """Everything that was not done, a line each."""
+        return [f"{label}, {trouble['step']}: {trouble['error']}" for label, trouble in self.troubles]
 
     @cached_property
     def designs(self) -> dict[str, dict[str, Design]]:

@@ -1,8 +1,8 @@
-"""The child process that answers one study of a comparison.
+"""The child process that answers one study of a comparison: its optimum first, fronts last.
 
-`python -m tvimdesign.report.compare.comparison_job STUDY OUT POINTS SETTINGS OTHERS`, the settings being a JSON list of
-`name=value`, the others the studies it is compared with. It says each step as a line of JSON on standard output and
-writes what it found to OUT, one JSON object. What fails stands there under `troubles`; all else is kept.
+`python -m tvimdesign.report.compare.comparison_job STUDY OUT POINTS SETTINGS OTHERS`. SETTINGS is a JSON list of
+`name=value`; OTHERS are the studies it is compared with. After each step it writes what it has found to OUT, one JSON
+object, and prints a line of JSON. A step that fails is listed under `troubles`, and the other steps are done.
 """
 
 from __future__ import annotations
@@ -23,10 +23,9 @@ from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, TvimError
 from tvimdesign.base.units import from_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.tables import check_row
-from tvimdesign.report.output.thresholds import soft_in_words
-from tvimdesign.report.run.infeasible_report import above_rating, complaint
-from tvimdesign.report.run.why import binding
+from tvimdesign.report.compare.compared_design import compared_design, nothing_found
+from tvimdesign.report.output.tables import results
+from tvimdesign.report.run.infeasible_report import above_rating, complaint, starts_reported
 from tvimdesign.report.run.yield_words import below_yield
 from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.report.virtual_tests import find_test
@@ -42,58 +41,59 @@ from tvimdesign.study import Study, drawn, read_tree
 from tvimdesign.study.tree import StudyTree, tree_of_file
 
 Say = Callable[[str], None]
-HELD_TOLD = 3
-"""Count of the limits that are told of a design, those that hold it back most."""
 
 
 def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
-    """The time, the mass and the size that fronts are drawn of: those the study minimises, else the usual ones."""
+    """Return the time, mass and size of which fronts are drawn: those the study minimises, else the usual ones."""
     times = [name for name in study.minimize if table.unit(name) == "s"]
     sizes = [name for name in study.minimize if name in {"envelope_diameter", "envelope_volume", "envelope_height"}]
     return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]
 
 
 class ComparisonJob:
-    """One study on its way: what was found, what failed, how long each step took."""
+    """The answer of one study: what was found, what failed, how long each step took."""
 
-    def __init__(self, tree: StudyTree, points: int, others: Callable[[], Sequence[StudyTree]], say: Say) -> None:
-        """Read the study; who asks has seen that it can be read. `others` are those it is compared with."""
-        self.study = read_tree(tree)
+    def __init__(
+        self, tree: StudyTree, points: int, others: Callable[[], Sequence[StudyTree]], say: Say,
+        keep: Callable[[dict[str, Any]], object] = lambda _: None,
+    ) -> None:  # fmt: skip
+        """Read the study. `others` gives the studies it is compared with; `keep` gets what is found, step by step."""
+        self.study, self._keep = read_tree(tree), keep
         self._others = others
         self.table = self.study.table
         self.points, self.say = points, say
         self._built: list[tuple[Optimizer, list[Run]]] = []
-        self.found: dict[str, Any] = {"fronts": [], "troubles": [], "seconds": {}, "release": {}, "heat": {}}
+        self.found = nothing_found()
 
     @cached_property
     def others(self) -> list[Study]:
-        """The studies it is compared with; one that is gone since costs this one its optimum alone."""
+        """The studies it is compared with. If one cannot be read any more, only the optimum of this one fails."""
         return [read_tree(tree) for tree in self._others()]
 
     def run(self) -> dict[str, Any]:
         """Do every step that can be done."""
         designs: dict[str, StudyResult] = {}
-        with self._step("as drawn"):
-            self.say("as drawn")
-            designs["drawn"] = answer(drawn(self.study))
-            self.found["drawn"] = self._told(designs["drawn"])
         if self.study.vary:
             with self._step("optimised"):
                 designs["optimised"] = self._optimised()
-            if "optimised" in designs and self.points:
-                with self._step("fronts"):
-                    self._trade(designs["optimised"])
-        # Of both, as a neighbour may have no optimum, and is then held against what is drawn here.
+        with self._step("as drawn"):
+            self.say("as drawn")
+            designs["drawn"] = answer(drawn(self.study))
+            self.found["drawn"] = self._compared(designs["drawn"])
+        # Of both designs: another study may have no optimum, and is then compared with what is drawn here.
         for which, design in designs.items():
             with self._step("release"):
                 self.say("release")
                 self.found["release"][which] = self._release(design)
-            self.found["heat"][which] = self._heat(design)
+                self.found["heat"][which] = self._heat(design)
+        if "optimised" in designs and self.points:
+            with self._step("fronts"):
+                self._trade(designs["optimised"])
         return self.found
 
     @contextmanager
     def _step(self, name: str) -> Iterator[None]:
-        """Time a step and note its failure, so that the others are done."""
+        """Time a step, note its failure so that the others are done, and hand on what is found."""
         began = time.perf_counter()
         try:
             yield
@@ -102,15 +102,17 @@ class ComparisonJob:
         finally:
             spent = self.found["seconds"].get(name, 0.0)
             self.found["seconds"][name] = spent + time.perf_counter() - began
+            self._keep(self.found)
 
     def _optimised(self) -> StudyResult:
         starts = [normalization.at_its_start(study) for study in (self.study, *self.others)]
         common = normalization.common(starts)
         objectives = front_outputs(self.study, self.table) if self.points else ()
-        answered = answer(self.study, self.say, common, self._keep, objectives)
+        built = self._built
+        answered = answer(self.study, self.say, common, lambda *search: built.append(search), objectives)
         if not answered.found:
             raise InfeasibleError(complaint(answered, self.table))
-        self.found["optimised"] = self._told(answered)
+        self.found["optimised"] = self._compared(answered)
         if refused := above_rating(answered, self.table):
             self.found["troubles"].append(
                 {"step": "ratings", "error": refused, "exit_code": AboveRatingError.exit_code}
@@ -119,30 +121,9 @@ class ComparisonJob:
             self.found["troubles"].append({"step": "yield", "error": missed, "exit_code": BelowYieldError.exit_code})
         return answered
 
-    def _keep(self, built: Optimizer, runs: list[Run]) -> None:
-        self._built.append((built, runs))
-
-    def _told(self, answered: StudyResult) -> dict[str, Any]:
-        checks = [check_row(check, self.table) for check in answered.checks]
-        solution = answered.solution
-        return {
-            "design": answered.design.model_dump(mode="json"),
-            "broken": [check["limit"] for check in checks if not check["kept"]],
-            "warnings": [
-                {"output": check.output, "value": check.value, "because": check.origin} for check in answered.warnings
-            ],
-            "above_rating": list(answered.design.above_rating),
-            "accepting": list(answered.design.accepting),
-            "soft": soft_in_words(answered.design, self.table),
-            "active_constraints": [
-                {"limit": held.text, "because": held.origin, "shadow_price": held.shadow_price}
-                for held in binding(answered)[:HELD_TOLD]
-            ],
-            "starts": len(solution.free_starts) if solution else 0,
-            "converged": sum(start.converged for start in solution.free_starts) if solution else 0,
-            "optima": [{"objective": s.objective, "variables": s.end} for s in solution.distinct_optima()]
-            if solution else [],
-        }  # fmt: skip
+    def _compared(self, answered: StudyResult) -> dict[str, Any]:
+        reported = results(answered, self.table) | {"starts": starts_reported(answered)}
+        return compared_design(answered.design, reported, self.table)
 
     def _trade(self, best: StudyResult) -> None:
         assert best.solution is not None
@@ -187,20 +168,24 @@ class ComparisonJob:
 
 
 def main(arguments: list[str]) -> int:
-    """Run the job; an error that ends it is said, too."""
+    """Run the job; print each step, and when something is written."""
     follow_parent()
 
-    def say(text: str) -> None:
-        sys.stdout.write(json.dumps({"progress": text}) + "\n")
+    def write_line(message: dict[str, Any]) -> None:
+        sys.stdout.write(json.dumps(message) + "\n")
         sys.stdout.flush()
 
+    def keep(found: dict[str, Any]) -> None:
+        atomic_write(Path(out), json.dumps(found).encode())
+        write_line({"kept": list(found["seconds"])})
+
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
-    path, out, points, said, *others = arguments
-    settings = json.loads(said)
-    found = ComparisonJob(
-        tree_of_file(path, settings), int(points), lambda: [tree_of_file(other, settings) for other in others], say
-    ).run()
-    atomic_write(Path(out), json.dumps(found).encode())
+    path, out, points, listed, *others = arguments
+    settings = json.loads(listed)
+    ComparisonJob(
+        tree_of_file(path, settings), int(points), lambda: [tree_of_file(other, settings) for other in others],
+        lambda text: write_line({"progress": text}), keep,
+    ).run()  # fmt: skip
     return 0
 
 

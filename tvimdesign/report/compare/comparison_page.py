@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from tvimdesign.page.blocks import Block, Drawn, Folded, Listing, Page, Points, Section, Warned, Words
@@ -10,7 +11,6 @@ from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import side_by_side, told_rows, warnings_of
 from tvimdesign.report.output.page_sections import grid_of, made_by_words, there, tone_of, versions_section
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.study.tree import study_file, tree_of_file
 
 _FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "fronts.csv": "the fronts"}
 _LINES = {
@@ -20,9 +20,9 @@ _LINES = {
 """Figures of lines, with what they show."""
 
 
-def comparison_page(folder: ResultsFolder, outcome: Outcome, settings: tuple[str, ...] = ()) -> Page:
-    """The page of studies held against each other."""
-    troubles = [f"{label}, {trouble['step']}: {trouble['error']}" for label, trouble in outcome.troubles]
+def comparison_page(folder: ResultsFolder, outcome: Outcome, texts: Mapping[str, str]) -> Page:
+    """Return the page of compared studies; `texts` are the studies' files."""
+    troubles = outcome.failures
     said = "PARTLY DONE" if troubles else f"COMPARED {COMPARISONS[outcome.which].upper()}"
     warnings = [(text, "") for text in warnings_of(outcome)]
     lead, *rest = outcome.conclusions
@@ -30,7 +30,7 @@ def comparison_page(folder: ResultsFolder, outcome: Outcome, settings: tuple[str
     follows = [Section("follows", "What follows", [Points(rest)])] if rest else []
     sections = [*follows, _side_by_side(outcome), *_figures(outcome)]
     sections += [Section("not-done", "Not done", [Points(troubles)])] if troubles else []
-    sections += [_studies(outcome, settings), versions_section(folder)]
+    sections += [_studies(texts), versions_section(folder)]
     title = " against ".join(one.study.name for one in outcome.entrants.values())
     return Page(
         title, "comparison", said, tone_of(said), first, None, sections, made_by_words(folder), there(folder, _FILES)
@@ -66,10 +66,6 @@ def _panels(data: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _studies(outcome: Outcome, settings: tuple[str, ...]) -> Section:
-    texts = {label: study_file(tree_of_file(one.path, settings)) for label, one in outcome.entrants.items()}
-    return Section(
-        "study", "Studies",
-        [Folded(label, [Listing(f"Study of {label}", text if isinstance(text, str) else text.decode())])
-         for label, text in texts.items()],
-    )  # fmt: skip
+def _studies(texts: Mapping[str, str]) -> Section:
+    listed = [Folded(label, [Listing(f"Study of {label}", text)]) for label, text in texts.items()]
+    return Section("study", "Studies", listed)

@@ -39,8 +39,8 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
     _print_searches(outcome, console)
     _print_fronts(outcome, console)
     _print_warnings(outcome, console)
-    for label, trouble in outcome.troubles:
-        console.print(f"[red]Not done[/red] {escape(label)}, {trouble['step']}: {escape(trouble['error'])}")
+    for failure in outcome.failures:
+        console.print(f"[red]Not done[/red] {escape(failure)}")
 
 
 def summary_text(outcome: Outcome) -> str:
@@ -86,7 +86,7 @@ def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
 
 
 def _print_soft(outcome: Outcome, console: Console) -> None:
-    """What softening_time waits for, which is not the same impedance in every study."""
+    """Print at which impedance the joint counts as soft: it differs between studies."""
     which = outcome.which
     said = [f"{label}: {found[which]['soft']}" for label, found in outcome.found.items() if which in found]
     if said:
@@ -98,12 +98,15 @@ def _print_searches(outcome: Outcome, console: Console) -> None:
         reported: dict[str, Any] | None = found.get("optimised")
         if reported is None:
             continue
+        if not reported["optima"]:
+            continue
+        seconds = found["seconds"].get("optimised")
         optima = [f"{optimum['objective']:.5g}" for optimum in reported["optima"]]
         agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima"
         console.print(
             f"[dim]{escape(label)}: {reported['converged']} of {reported['starts']} starts converged, {agree}, "
-            f"objective {', '.join(optima)} over what is drawn on average; "
-            f"{found['seconds']['optimised']:.1f} s.[/dim]"
+            f"objective {', '.join(optima)} over what is drawn on average"
+            f"{'' if seconds is None else f'; {seconds:.1f} s'}.[/dim]"
         )
 
 
@@ -125,7 +128,8 @@ def warnings_of(outcome: Outcome) -> Iterator[str]:
     """The advice that the designs held against each other do not follow."""
     for label, found in outcome.found.items():
         for warning in found.get(outcome.which, {"warnings": []})["warnings"]:
-            value = format_quantity(warning["value"], outcome.unit(warning["output"]))
+            value = math.inf if warning["value"] is None else warning["value"]
+            value = format_quantity(value, outcome.unit(warning["output"]))
             yield f"{label}: {warning['output']} is {value}: {warning['because']}"
 
 
