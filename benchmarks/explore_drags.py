@@ -217,7 +217,7 @@ async def _leak(hand: Hand, server: Server, walks: dict[str, Iterator[dict[str, 
     await hand.socket.send_json({**last, "final": True})
     told = await hand.until(stage="exact", number=hand.number)
     after = _memory(server)
-    state: State = server.session.kept.state
+    state: State = server.session.history.state
     fresh = read_tree(tree_of(server.session.source.tree, state))
     values = answer(fresh).design.values
     exact = [from_si(values[name], fresh.table.unit(name)) for name in value_names(fresh)]

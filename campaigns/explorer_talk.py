@@ -13,7 +13,7 @@ from typing import Any
 import aiohttp
 
 from tvimdesign.base.errors import TvimError
-from tvimdesign.explore.states.history import open_kept
+from tvimdesign.explore.states.history import open_history
 from tvimdesign.explore.states.source import open_source
 
 Changes = dict[str, str]
@@ -26,7 +26,7 @@ class Conversation:
     def __init__(self, seed: int) -> None:
         """Nothing is said yet."""
         self._draw = random.Random(seed)
-        self.kept: Changes = {}
+        self.history: Changes = {}
         """What the explorer said that it kept."""
         self.asked: Changes = {}
         """The same, and what it has not answered yet."""
@@ -43,10 +43,10 @@ class Conversation:
                         ("pcl_thickness", f"{self._draw.uniform(0.6, 2.0):.4f} mm"),
                         ("current", f"{self._draw.uniform(0.8, 2.5):.4f} A"),
                     ])  # fmt: skip
-                    self.asked = {**self.kept, name: text}
+                    self.asked = {**self.history, name: text}
                     await socket.send_json({"kind": "set", "name": name, "text": text})
                     await _said(socket, partial(_has, name=name, text=text))
-                    self.kept = self.asked
+                    self.history = self.asked
 
 
 async def _said(socket: aiohttp.ClientWebSocketResponse, wanted: Callable[[dict[str, Any]], bool]) -> None:
@@ -65,7 +65,7 @@ def not_kept(conversation: Conversation, study: Path, folder: Path) -> list[str]
     """What an explorer that is opened again does not have of what was kept."""
     source = open_source(study)
     try:
-        there = open_kept(folder, source.text, source.first).state.at
+        there = open_history(folder, source.text, source.first).state.at
     except TvimError as error:
         return [f"cannot be opened again: {error}"]
     told = [{**source.first.at, **changes} for changes in (conversation.kept, conversation.asked)]

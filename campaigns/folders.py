@@ -29,7 +29,7 @@ from typing import Any
 from ended_commands import COMMANDS, FIRST, GOES_ON, NEEDS_FE, ROOT, SERVES
 
 from tvimdesign.base.errors import TvimError
-from tvimdesign.explore.states.history import FILE, open_kept, write_kept, written_digest
+from tvimdesign.explore.states.history import FILE, open_history, write_history, written_digest
 from tvimdesign.explore.states.state import State
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 
@@ -152,11 +152,11 @@ def killed_at(number: int) -> Iterator[None]:
 def replay(command: str, files: dict[str, bytes], out: Path, flags: list[str], meanwhile: Any) -> None:
     """Write a command's files through its results folder, as the command does; `meanwhile` is called in between."""
     if command == SERVES:
-        kept = open_kept(out, b"study", State(way="evaluate"), overwrite="--overwrite" in flags)
+        kept = open_history(out, b"study", State(way="evaluate"), overwrite="--overwrite" in flags)
         out.mkdir(parents=True, exist_ok=True)
         before = written_digest(out)
         meanwhile()
-        write_kept(out, kept, before)
+        write_history(out, kept, before)
         return
     goes_on = GOES_ON.get(command, PROGRESS)
     with ResultsFolder(out, "--overwrite" in flags, "--resume" in flags, goes_on) as folder:

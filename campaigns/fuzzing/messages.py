@@ -19,7 +19,7 @@ from fuzzing.mutations import ODD, mutated_text
 from tvimdesign.explore import session as explored
 from tvimdesign.explore.answers.engine import Engine
 from tvimdesign.explore.session import Session
-from tvimdesign.explore.states.history import Kept
+from tvimdesign.explore.states.history import History
 from tvimdesign.explore.states.source import Source, open_source
 from tvimdesign.explore.worker_process import Job
 
@@ -57,7 +57,7 @@ class _Talk:
         _Answered.shown = self.engine.answer(self.source.first, "quick").shown
         self.runner = asyncio.Runner()
 
-    async def hears(self, texts: list[str], folder: Path) -> Kept:
+    async def hears(self, texts: list[str], folder: Path) -> History:
         """Everything a server does with these messages; what is kept then."""
         started = {name: _Answered for name in _PROCESSES if hasattr(explored, name)}
         with patch.multiple(explored, open_source=lambda *_: self.source, **started):
@@ -68,7 +68,7 @@ class _Talk:
         _sent(session.state_shown())
         if session._timer:
             session._timer.cancel()
-        return session.kept
+        return session.history
 
 
 def _sent(told: dict[str, Any]) -> None:

@@ -35,7 +35,7 @@ time.sleep(600)
 
 
 def started(name: str, text: str, folder: Path) -> subprocess.Popen[str]:
-    """A parent with a child whose module has this text."""
+    """Start a parent with a child whose module has this text."""
     (folder / f"{name}.py").write_text(text)
     environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{folder}", "PYTHONIOENCODING": "ascii"}
     command = [sys.executable, "-c", PARENT.replace("sleeping_child", name)]

@@ -27,7 +27,7 @@ def test_what_a_command_says_and_its_code_are_given_back() -> None:
     assert (done.returncode, done.stdout.strip(), done.stderr) == (3, "out", "err")
 
 
-def test_commands_of_other_threads_end_where_the_group_is_left_and_none_begins_then(tmp_path: Path) -> None:
+def test_commands_of_other_threads_end_with_the_group(tmp_path: Path) -> None:
     told, ended = tmp_path / "told", []
     with CommandGroup() as commands:
         command = [sys.executable, "-c", STARTS_ANOTHER, str(told)]

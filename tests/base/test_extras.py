@@ -1,4 +1,4 @@
-"""What is installed only when asked for is named where it is missing, and the rest is done."""
+"""Extras: a missing one is named, and the other work is done."""
 
 from __future__ import annotations
 

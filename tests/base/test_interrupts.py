@@ -27,7 +27,7 @@ def test_an_interrupt_that_was_swallowed_is_raised_again_until_all_is_over(numbe
     assert signal.getsignal(number) is before
 
 
-def test_a_signal_that_comes_twice_at_once_does_not_disturb_the_cleaning_up() -> None:
+def test_a_signal_received_twice_does_not_disturb_cleanup() -> None:
     cleaned = False
     with interrupt_handler():
         try:
@@ -48,7 +48,7 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
         signal.signal(signal.SIGHUP, before)
 
 
-def test_an_interrupt_that_cannot_be_raised_where_it_comes_is_kept_without_a_word(
+def test_an_interrupt_that_cannot_be_raised_stays_pending(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     class Ends:
@@ -127,7 +127,7 @@ except KeyboardInterrupt:
 
 
 @pytest.mark.slow
-def test_an_interrupt_while_vtk_is_imported_does_not_end_the_process_by_a_fault() -> None:
+def test_an_interrupt_while_vtk_is_imported_is_no_fault() -> None:
     codes = []
     for share in range(24):
         process = subprocess.Popen([sys.executable, "-c", IMPORTS], stdout=subprocess.PIPE)

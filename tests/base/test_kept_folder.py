@@ -1,4 +1,4 @@
-"""Where things are kept from one run to the next, and where they are not: a folder of others is not trusted."""
+"""Cache folders: one of another user is not trusted."""
 
 from __future__ import annotations
 

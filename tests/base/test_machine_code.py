@@ -52,7 +52,7 @@ def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def compiled_anew(values: np.ndarray) -> bool:
-    """Whether the compiler was called; the sum is right either way."""
+    """Return whether the compiler was called; the sum is right either way."""
     with mock.patch.object(machine_code, "_compiled", wraps=machine_code._compiled) as compiler:
         assert told(values) == pytest.approx(3.0 * values.sum(), rel=1e-14)
     return bool(compiler.called)

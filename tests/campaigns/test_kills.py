@@ -16,7 +16,7 @@ from ended_commands import coarse_python
 from explorer_talk import Conversation, not_kept
 from kills import Try
 
-from tvimdesign.explore.states.history import open_kept, write_kept, written_digest
+from tvimdesign.explore.states.history import open_history, write_history, written_digest
 from tvimdesign.explore.states.source import open_source
 
 
@@ -156,9 +156,9 @@ def test_the_campaign_sees_broken_files(tmp_path: Path) -> None:
 
 def test_the_campaign_sees_what_an_explorer_has_lost(tmp_path: Path) -> None:
     source, talk = open_source(kills.SMALL), Conversation(1)
-    kept = open_kept(tmp_path, source.text, source.first)
+    kept = open_history(tmp_path, source.text, source.first)
     kept.state = kept.state.model_copy(update={"at": {**source.first.at, "current": "1.1 A"}})
-    write_kept(tmp_path, kept, written_digest(tmp_path))
+    write_history(tmp_path, kept, written_digest(tmp_path))
     talk.kept = talk.asked = {"current": "1.2 A"}
     assert not_kept(talk, kills.SMALL, tmp_path)[0].startswith("kept {")
     talk.asked = {"current": "1.1 A"}  # it was under way when the explorer was ended

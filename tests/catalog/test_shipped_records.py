@@ -126,7 +126,7 @@ def test_wire_sizes_rise() -> None:
     of_every(CATALOG.names("wires"), check)
 
 
-def test_chinese_wire_is_of_the_preferred_sizes_of_makers_in_the_metric_list() -> None:
+def test_chinese_wire_has_the_preferred_metric_sizes() -> None:
     """The wires of GB/T 2088-1997 from 0.5 to 2.5 mm, as cadhome.net prints the standard, and no size unknown there."""
     sizes, metric = (
         [round(1e3 * row["wire_diameter"], 6) for row in CATALOG.record("wires", name).table("sizes")]
@@ -232,7 +232,7 @@ def test_a_record_is_read_once() -> None:
     assert CATALOG.record("wires", "metric") is CATALOG.record("wires", "metric")
 
 
-def test_an_insert_weighs_no_more_than_brass_between_its_thread_and_its_knurls() -> None:
+def test_an_insert_weighs_no_more_than_its_brass() -> None:
     def check(name: str) -> None:
         value = CATALOG.record("inserts", name).value
         ring = 0.25 * math.pi * (value("outer_diameter") ** 2 - value("nominal_diameter") ** 2) * value("length")
@@ -294,7 +294,7 @@ def test_every_structure_material_can_be_ordered_by_a_process() -> None:
     assert made == set(CATALOG.names("structure_materials"))
 
 
-def test_a_structure_material_is_weakest_across_its_layers_and_serves_below_its_deflection() -> None:
+def test_structure_materials_are_weakest_across_layers() -> None:
     def check(name: str) -> None:
         record = CATALOG.record("structure_materials", name)
         value = record.value

@@ -163,7 +163,7 @@ tables:
 """The sum of modulus times time is 3491 Pa s, that of the moduli 1.000 MPa."""
 
 
-def test_a_spectrum_of_ones_own_is_taken_where_it_agrees_with_viscosity_and_plateau(tmp_path: Path) -> None:
+def test_a_users_spectrum_agrees_with_viscosity_and_plateau(tmp_path: Path) -> None:
     record = put(tmp_path, OWN_SPECTRUM, category="polymers").record("polymers", "mine")
     assert melt_modes(record) == [(1e-2, 2.5e5), (4e-3, 2.4e5), (1e-4, 3e5), (1e-5, 1e5), (1e-6, 6e4), (1e-7, 5e4)]
 
@@ -204,7 +204,7 @@ def test_a_polymer_without_spectrum_needs_viscosity_and_plateau(tmp_path: Path) 
         put(tmp_path, text, category="polymers").record("polymers", "mine")
 
 
-def test_a_record_based_on_others_says_what_differs_and_keeps_their_sources(tmp_path: Path) -> None:
+def test_a_based_record_keeps_the_sources_of_its_base(tmp_path: Path) -> None:
     own = {
         "first": ("petg", "density: {value: 1300, unit: kg/m^3"),
         "second": ("first", "youngs_modulus: {value: 3, unit: GPa"),

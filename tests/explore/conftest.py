@@ -16,7 +16,7 @@ __all__ = ["browser"]
 
 @pytest.fixture(scope="module")
 def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    """One explorer of the small study for all tests of a file."""
+    """Serve one explorer of the small study for all tests of a file."""
     folder = tmp_path_factory.mktemp("explore")
     found = Served(small_study(folder), folder / "out")
     found.begin()
@@ -26,7 +26,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 
 @pytest.fixture
 def explorer(browser: Browser, served: Served) -> Iterator[Explorer]:
-    """The explorer on a usual screen, where the study begins."""
+    """Open the explorer on a usual screen, in its first state."""
     with exploring(browser, served.address) as found:
         found.reset()
         yield found

@@ -24,13 +24,13 @@ AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text("ut
 
 
 def run(study: Path, out: Path) -> None:
-    """The command `run`."""
+    """Answer the study by the command `run`."""
     words = ["run", str(study), "--out", str(out), "--no-cad", "--no-plots", "--overwrite"]
     subprocess.run([sys.executable, "-m", "tvimdesign", *words], check=True, env=environment(), capture_output=True)
 
 
 @pytest.mark.gate
-def test_a_requirement_is_dragged_the_optimum_moves_and_what_binds_lights_up(explorer: Explorer) -> None:
+def test_dragging_a_requirement_moves_the_optimum(explorer: Explorer) -> None:
     page, power = explorer.page, explorer.knob("peak_power <=")
     current = explorer.knob("current").get_by_role("textbox").first
     before, number = current.input_value(), explorer.number
@@ -45,7 +45,7 @@ def test_a_requirement_is_dragged_the_optimum_moves_and_what_binds_lights_up(exp
 
 
 @pytest.mark.slow
-def test_a_slider_dragged_by_the_mouse_is_answered_on_its_way_and_exactly_when_it_is_let_go(explorer: Explorer) -> None:
+def test_a_dragged_slider_is_answered_quickly_then_exactly(explorer: Explorer) -> None:
     page, power = explorer.page, explorer.knob("peak_power <=")
     slider, field = power.get_by_role("slider"), power.get_by_role("textbox")
     explorer.answered(0, "exact")
@@ -170,9 +170,7 @@ def test_a_phone_has_it_all_in_its_width_and_axe_finds_no_serious_fault(
 
 
 @pytest.mark.slow
-def test_the_connection_is_cut_the_page_says_so_and_comes_back_with_what_was_done(
-    explorer: Explorer, served: Served
-) -> None:
+def test_a_cut_connection_comes_back_with_the_same_state(explorer: Explorer, served: Served) -> None:
     page = explorer.page
     field = explorer.knob("peak_power <=").get_by_role("textbox")
     number = explorer.number
@@ -216,7 +214,7 @@ def test_the_draft_in_3d_follows_a_slider_that_is_held(explorer: Explorer) -> No
 
 
 @pytest.mark.slow
-def test_where_nothing_is_feasible_the_page_says_so_and_shows_the_nearest_design(explorer: Explorer) -> None:
+def test_an_infeasible_study_shows_the_nearest_design(explorer: Explorer) -> None:
     page, number = explorer.page, explorer.number
     field = explorer.knob("peak_power <=").get_by_role("textbox")
     field.fill("0.5 W")

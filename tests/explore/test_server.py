@@ -19,7 +19,7 @@ from explored import SMALL, TOKEN, awaited, served, small_study, talking
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.server import HOST, Server, serve
-from tvimdesign.explore.states.history import FILE, open_kept, write_kept
+from tvimdesign.explore.states.history import FILE, open_history, write_history
 from tvimdesign.explore.states.messages import read_message
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.study import Range, read_study
@@ -38,7 +38,7 @@ async def _statuses(study: Path, folder: Path, asked: list[tuple[str, dict[str, 
         return found
 
 
-def test_only_who_has_the_token_gets_anything_and_nothing_outside_the_folder(tmp_path: Path) -> None:
+def test_only_the_token_opens_the_folder_and_nothing_outside(tmp_path: Path) -> None:
     outside = [
         f"/{TOKEN}/parts/..%2fexplore.json", f"/{TOKEN}/parts/%2e%2e/explore.json", f"/{TOKEN}/parts/link",
         f"/{TOKEN}/parts//etc/passwd", f"/{TOKEN}/static/page/..%2fpage_file.py", f"/{TOKEN}/static/other/x",
@@ -219,11 +219,11 @@ def test_a_history_that_somebody_changed_meanwhile_is_kept_beside(tmp_path: Path
     opened = open_source(small_study(tmp_path))
     out = tmp_path / "out"
     out.mkdir()
-    kept = open_kept(out, opened.text, opened.first)
-    before = write_kept(out, kept, "")
-    assert write_kept(out, kept, before) == before
+    kept = open_history(out, opened.text, opened.first)
+    before = write_history(out, kept, "")
+    assert write_history(out, kept, before) == before
     (out / FILE).write_text("changed by hand")
-    write_kept(out, kept, before)
+    write_history(out, kept, before)
     assert (out / "explore-1.json").read_text() == "changed by hand"
     assert json.loads((out / FILE).read_text())["study"] == kept.study
 

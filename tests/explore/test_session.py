@@ -22,7 +22,7 @@ from tvimdesign.study.tree import tree_of_file
 
 
 @pytest.mark.gate
-def test_the_newest_of_a_drag_is_answered_and_those_between_are_passed_over(tmp_path: Path) -> None:
+def test_the_newest_state_of_a_drag_is_answered(tmp_path: Path) -> None:
     async def drag() -> tuple[list[dict[str, Any]], dict[str, Any], dict[str, Any]]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             first = await page.answer("quick")
@@ -43,7 +43,7 @@ def test_the_newest_of_a_drag_is_answered_and_those_between_are_passed_over(tmp_
 
 
 @pytest.mark.slow
-def test_where_there_is_no_module_the_page_is_told_why_none_is_drawn_and_drafts_follow_again(tmp_path: Path) -> None:
+def test_an_impossible_module_has_a_reason_in_place_of_a_draft(tmp_path: Path) -> None:
     async def dragged() -> list[dict[str, Any]]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.send(kind="way", way="evaluate")
@@ -105,7 +105,7 @@ def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) ->
 
 
 @pytest.mark.slow
-def test_where_nothing_is_feasible_the_conflict_is_said_and_the_nearest_design_shown(tmp_path: Path) -> None:
+def test_an_infeasible_state_reports_the_conflict(tmp_path: Path) -> None:
     async def asked() -> dict[str, Any]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.answer("quick")
@@ -171,7 +171,7 @@ def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_a_result_is_opened_with_the_optimum_that_was_found_not_with_another_of_its_study(tmp_path: Path) -> None:
+def test_a_result_is_opened_with_its_own_optimum(tmp_path: Path) -> None:
     found = shipped_answer("paper_shear").design
     write_design(found, tmp_path / "design.json")
     source = open_source(tmp_path)

@@ -48,7 +48,7 @@ values:
 
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of the sweep."""
+    """Return the folder of the sweep."""
     return _swept(tmp_path_factory.mktemp("swept"), STUDY)
 
 

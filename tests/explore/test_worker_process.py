@@ -19,7 +19,7 @@ class _Counted(WorkerProcess):
         super()._start()
 
 
-def test_a_worker_that_cannot_start_is_given_up_and_asked_anew_with_the_next_job() -> None:
+def test_a_worker_that_cannot_start_is_tried_again_per_job() -> None:
     async def asked() -> tuple[list[tuple[int, str]], int]:
         told: list[tuple[int, str]] = []
         worker = _Counted("tvimdesign.no_such_module", [], lambda job, said: told.append((job.number, said["words"])))

@@ -1,4 +1,4 @@
-"""What studies must have in common to be compared: each difference is told with both places, and nothing else is."""
+"""Conditions of a comparison: each difference is reported with both places."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_all_differences_are_told_at_once_in_the_order_of_the_file(tmp_path: Pat
     assert len(reported) == 2
 
 
-def test_another_record_is_one_difference_and_not_one_for_each_of_its_numbers(tmp_path: Path) -> None:
+def test_another_record_is_one_difference(tmp_path: Path) -> None:
     reported = said(tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current"))
     assert len(reported) == 1
 
@@ -95,7 +95,7 @@ def test_limits_on_what_one_mode_alone_has_may_differ(tmp_path: Path) -> None:
     assert "layer_strain <= 4 is required here" in said(tmp_path, SHEAR, strain)[0]
 
 
-def test_limits_of_one_mode_are_held_against_each_other_behind_a_study_of_another_mode(tmp_path: Path) -> None:
+def test_limits_are_compared_across_a_study_of_another_mode(tmp_path: Path) -> None:
     strict = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.4"')
     reported = said(tmp_path, SHEAR, COMPRESSION, strict)
     assert len(reported) == 1
@@ -103,7 +103,7 @@ def test_limits_of_one_mode_are_held_against_each_other_behind_a_study_of_anothe
     assert "block_strain <= 0.4 is required here" in reported[0]
 
 
-def test_a_study_that_is_evaluated_only_is_not_held_against_an_optimised_one(tmp_path: Path) -> None:
+def test_an_evaluated_study_is_not_compared_with_an_optimised_one(tmp_path: Path) -> None:
     start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
     drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
     reported = said(tmp_path, SHEAR, drawn)

@@ -22,7 +22,7 @@ def study(currents: str) -> Study:
 
 
 def test_a_given_current_that_does_not_change_is_the_constant_one() -> None:
-    """The constant currents are inputs of their own, so the two ways share nothing but the integrator."""
+    """Compare with constant currents, which are inputs of their own: the two ways share only the integrator."""
     flat = "{softening: {moments: [0 s, 5 s], currents: [1.5 A, 1500 mA]},"
     flat += " stiffening: {moments: [0 s, 1 min], currents: [-0.3 A, -0.3 A]}}"
     given = answer(study(flat)).design.values

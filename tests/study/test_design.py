@@ -84,7 +84,7 @@ def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path: Path)
         resolve_design(read_design(edited))
 
 
-def test_all_mistakes_of_a_design_are_told_at_once_and_that_another_version_wrote_it(tmp_path: Path) -> None:
+def test_all_mistakes_of_a_design_and_its_version_are_reported(tmp_path: Path) -> None:
     plain = _plain()
     plain |= {"tvimdesign": "2019.1"}
     plain["values"]["wire_diameter"] = 1.0

@@ -16,7 +16,7 @@ from tvimdesign.study.text.json_places import JsonPlaces
 
 
 def marks(node: yaml.Node, path: str = "") -> Iterator[tuple[str, int, int]]:
-    """Every path of a document with the place of its key, or of the item."""
+    """Yield every path of a document with the place of its key, or of the item."""
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             yield f"{path}{key.value}", key.start_mark.line + 1, key.start_mark.column + 1

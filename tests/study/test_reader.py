@@ -1,4 +1,4 @@
-"""What a good study becomes, and where the reader points in a bad one."""
+"""Results of reading good studies, and errors as data."""
 
 import subprocess
 import sys

@@ -20,7 +20,7 @@ def shipped() -> Path:
 
 
 def _cut_to_size(sheet: Path) -> str:
-    """The same sheet for a module that is cut to the PCL."""
+    """Return the sheet of a module that is cut to the PCL."""
     bulk = "values:\n  bulk_modulus: {value: 1, unit: GPa, status: datasheet, source: a test}\n"
     text = sheet.read_text(encoding="utf-8").replace("form: rigid", "form: flexible")
     return text.replace("values:\n", bulk, 1)
@@ -33,9 +33,7 @@ def _study(folder: Path, record: str) -> Study:
     return read_study(folder / "study.yaml")
 
 
-def test_a_sheet_whose_cooling_power_does_not_follow_from_its_other_ratings_is_named(
-    shipped: Path, tmp_path: Path
-) -> None:
+def test_inconsistent_cooling_power_is_reported(shipped: Path, tmp_path: Path) -> None:
     study = _study(tmp_path, _cut_to_size(shipped))
     (said,) = record_checks(study)
     # S^2 T^2/(2 R) is V_max^2/(2 R) at the sheet's own 27 degC: 15.8^2/(2 * 2.0455) = 61.0 W.
@@ -55,7 +53,7 @@ def test_a_record_without_that_rating_is_not() -> None:
 
 
 def test_another_material_with_the_polymer_s_laws_is_told_on_the_page(tmp_path: Path) -> None:
-    """A metal described by a few numbers of its own, as a user would: until now its freezing was a polymer's."""
+    """Describe a metal by a few numbers of its own, based on a polymer."""
     folder = tmp_path / "records/polymers"
     folder.mkdir(parents=True)
     own = "{value: 7900, unit: kg/m^3, source: a scale, status: measured}"

@@ -72,7 +72,7 @@ PROFILES = {
 }
 
 
-def test_a_design_whose_current_follows_a_profile_is_a_study_that_gives_its_currents() -> None:
+def test_a_current_profile_becomes_given_currents() -> None:
     study = evaluating(design(current_profiles=PROFILES))
     assert {phase: one.model_dump(mode="json") for phase, one in study.currents.items()} == PROFILES
     again = read_study_text(study_text(study, "written", ROOT), "again", ROOT)

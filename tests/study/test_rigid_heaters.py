@@ -20,7 +20,7 @@ def test_compression_takes_them_as_they_are_too() -> None:
     assert (known["heater_form"], known["tiles_per_block"]) == ("rigid", 1.0)
 
 
-def test_a_module_whose_record_names_no_pressure_is_told_where_blocks_press_on_it() -> None:
+def test_a_missing_pressure_limit_is_reported_under_blocks() -> None:
     def said(mode: str, module: str) -> list[str]:
         text = f"mode: {mode}\nmodule: {{{module}}}\n"
         return [line for line in record_checks(read_study_text(text, "a test")) if "pressure" in line]

@@ -147,7 +147,7 @@ class Study:
             source = f"study.{call}({name}={value!r})"
             problems = Mistakes(source)
             node = node_of(value, source, problems, name)
-            tree = with_value(tree, f"{section}{name}", node, source, tuple(problems.found))
+            tree = with_value(tree, f"{section}{name}", node, source, tuple(problems.items))
         return Study._of(tree)
 
     # --- answers ---

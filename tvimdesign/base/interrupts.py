@@ -37,8 +37,8 @@ def interrupt_handler(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
     """
     every = {number: signal.getsignal(number) for number in numbers}
     before = {number: handler for number, handler in every.items() if handler not in (signal.SIG_IGN, None)}
-    told, sys.unraisablehook = sys.unraisablehook, _kept_quietly(sys.unraisablehook)
-    printed, sys.excepthook = sys.excepthook, _not_printed(sys.excepthook)
+    unraisable_hook, sys.unraisablehook = sys.unraisablehook, _without_interrupts(sys.unraisablehook)
+    exception_hook, sys.excepthook = sys.excepthook, _not_printed(sys.excepthook)
     _heeding.append(_imports(sys._getframe()))
     for number in before:
         signal.signal(number, _heed)
@@ -52,7 +52,7 @@ def interrupt_handler(numbers: Collection[int] = _SIGNALS) -> Iterator[None]:
         _heeding.pop()  # first: what comes while the outermost is left ends nothing any more
         for number, handler in before.items():
             signal.signal(number, handler)
-        sys.unraisablehook, sys.excepthook = told, printed
+        sys.unraisablehook, sys.excepthook = unraisable_hook, exception_hook
         if not _heeding:
             _received.clear()
             _times.clear()
@@ -83,12 +83,12 @@ def exit_code() -> int:
     return 128 + (_received[0] if _received else signal.SIGINT)
 
 
-def _kept_quietly(told: Callable[[Any], Any]) -> Callable[[Any], Any]:
+def _without_interrupts(report: Callable[[Any], Any]) -> Callable[[Any], Any]:
     """Wrap the hook for exceptions that cannot be raised; `raise_pending` raises an interrupt later."""
 
     def tell(unraisable: Any) -> None:
         if not (_received and issubclass(unraisable.exc_type, KeyboardInterrupt)):
-            told(unraisable)
+            report(unraisable)
 
     return tell
 
@@ -118,11 +118,11 @@ def _heed(number: int, frame: FrameType | None) -> None:
 
 def _imports(frame: FrameType | None) -> int:
     """Count the frames of the import system below a frame."""
-    found = 0
+    count = 0
     while frame is not None:
-        found += frame.f_code.co_filename.startswith("<frozen importlib")
+        count += frame.f_code.co_filename.startswith("<frozen importlib")
         frame = frame.f_back
-    return found
+    return count
 
 
 def _send_later(number: int) -> None:

@@ -31,7 +31,9 @@ def record(path: Path, digest: str) -> None:
 
     Raises OSError, also where a link leads out of the folder.
     """
-    folder = next((one for one in path.absolute().parents if one.name == UNFINISHED and (one / RUN).exists()), None)
+    folder = next(
+        (parent for parent in path.absolute().parents if parent.name == UNFINISHED and (parent / RUN).exists()), None
+    )
     if folder is None:
         return
     name = path.absolute().relative_to(folder).as_posix()
@@ -47,7 +49,7 @@ def record(path: Path, digest: str) -> None:
 
 def recorded(folder: Path) -> dict[str, set[str]]:
     """Return the digests that the journals of an unfinished run give for each name."""
-    found: dict[str, set[str]] = {}
+    digests: dict[str, set[str]] = {}
     for journal in sorted(folder.glob(JOURNALS)):
         for line in journal.read_bytes().splitlines():
             try:
@@ -56,8 +58,8 @@ def recorded(folder: Path) -> dict[str, set[str]]:
             except (ValueError, KeyError, TypeError):
                 continue  # the process was killed within this line, before the file existed
             if is_inside(name):
-                found.setdefault(name, set()).add(digest)
-    return found
+                digests.setdefault(name, set()).add(digest)
+    return digests
 
 
 def is_inside(name: str) -> bool:

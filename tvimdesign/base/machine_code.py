@@ -38,7 +38,7 @@ class Lines:
 
     def intrinsic(self, name: str, *arguments: str) -> str:
         """Write a call of one of LLVM's functions."""
-        given = ", ".join(f"{self._kind} {one}" for one in arguments)
+        given = ", ".join(f"{self._kind} {argument}" for argument in arguments)
         return self.new(f"call {self._kind} @llvm.{name}.{self._suffix}({given})")
 
 

@@ -27,11 +27,11 @@ def end_process_tree(process: int) -> None:
         return
     with contextlib.suppress(psutil.NoSuchProcess):
         root.suspend()  # so that it starts no more
-    found: list[psutil.Process] = []
-    while new := [one for one in _descendants(root) if one not in found]:
-        found += new
-        for one in new:
-            _kill(one)
+    killed: list[psutil.Process] = []
+    while new := [child for child in _descendants(root) if child not in killed]:
+        killed += new
+        for child in new:
+            _kill(child)
     _kill(root)
 
 

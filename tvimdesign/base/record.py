@@ -66,8 +66,8 @@ class Record:
 
     def entry(self, name: str) -> Entry:
         """Return a value with its source and status; raises CatalogError where the record lacks it."""
-        found: Entry = self._find("values", self.entries, name)
-        return found
+        entry: Entry = self._find("values", self.entries, name)
+        return entry
 
     def table(self, name: str) -> list[dict[str, float]]:
         """Return a table's rows by column, in SI; raises CatalogError where the record lacks it.
@@ -80,8 +80,8 @@ class Record:
 
     def word(self, name: str) -> str:
         """Return a plain word such as a module's form; raises CatalogError where the record lacks it."""
-        found: str = self._find("words", self.words, name)
-        return found
+        word: str = self._find("words", self.words, name)
+        return word
 
     def _find(self, section: str, where: Mapping[str, Any], name: str) -> Any:
         if name in where:

@@ -191,18 +191,18 @@ def _split(text: str, unit: str) -> tuple[float, str]:
     match = _NUMBER.fullmatch(text)
     if match is None:
         _fail(text, unit, "this does not start with a number")
-    digits, rest = match.groups()
-    if re.match(r",\s?[0-9]", rest):
+    digits, unit_text = match.groups()
+    if re.match(r",\s?[0-9]", unit_text):
         _fail(text, unit, "a decimal comma is not read; write a decimal point")
-    if rest[:1] in {".", ",", "_"}:
-        _fail(text, unit, f"{digits + rest.split(' ')[0]!r} is no number")
+    if unit_text[:1] in {".", ",", "_"}:
+        _fail(text, unit, f"{digits + unit_text.split(' ')[0]!r} is no number")
     number = float(digits)
     if not math.isfinite(number) or (number == 0.0 and re.search(r"[1-9]", re.split("[eE]", digits)[0])):
         _fail(text, unit, f"the number {digits} is out of range")
-    rest = rest.removeprefix(" ")
-    if rest[:1].isspace():
+    unit_text = unit_text.removeprefix(" ")
+    if unit_text[:1].isspace():
         _fail(text, unit, "write one blank between number and unit")
-    return number, rest
+    return number, unit_text
 
 
 def parse_quantity(text: str, unit: str) -> float:

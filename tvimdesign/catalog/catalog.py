@@ -100,7 +100,7 @@ class Catalog:
             raise CatalogError(f"{_shown(path)}: based_on: expected the name of one record of {category}")
         chain, other = (*before, path), self._base(category, path, base)
         if other in chain:
-            names = " -> ".join(one.stem for one in (*chain, other))
+            names = " -> ".join(path_in_circle.stem for path_in_circle in (*chain, other))
             raise CatalogError(f"{_shown(path)}: based_on: {names} goes in a circle; one of them must say all itself")
         return _over(tree, self._tree(category, other, chain))
 

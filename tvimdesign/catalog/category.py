@@ -83,11 +83,11 @@ class Category:
     def units(self) -> dict[str, str]:
         """A unit of the kind each number needs: what a record must have, and what values of `follows` follow from."""
         of_words = {name: unit for needed in self.values_of.values() for name, unit in needed.items()}
-        found = {**self.may_have, **self.values, **of_words}
+        units = {**self.may_have, **self.values, **of_words}
         for name, law in self.follows.items():
-            found |= {law.known_value: found[name], law.exponent: "1"}
-            found |= dict.fromkeys((law.size, law.known_size), law.size_unit)
-        return found
+            units |= {law.known_value: units[name], law.exponent: "1"}
+            units |= dict.fromkeys((law.size, law.known_size), law.size_unit)
+        return units
 
 
 def _category(content: dict[str, Any]) -> Category:
@@ -104,15 +104,15 @@ CATEGORIES: Mapping[str, Category] = {
 
 def following(category: Category, entries: Mapping[str, Entry], tables: Mapping[str, RecordTable]) -> dict[str, Entry]:
     """Return the entries that follow from others of a record, by name, without those it has itself."""
-    found = {}
+    entries_found = {}
     for table, values in category.instead.items():
         for name, columns in values.items() if table in tables else ():
             if name not in entries:
-                found[name] = _sum(tables[table], columns, category.units[name])
+                entries_found[name] = _sum(tables[table], columns, category.units[name])
     for name, law in category.follows.items():
-        if name not in entries and name not in found and {*law.names} <= entries.keys():
-            found[name] = _power(law, entries, category.units[name])
-    return found
+        if name not in entries and name not in entries_found and {*law.names} <= entries.keys():
+            entries_found[name] = _power(law, entries, category.units[name])
+    return entries_found
 
 
 def _sum(table: RecordTable, columns: tuple[str, ...], unit: str) -> Entry:

@@ -32,43 +32,43 @@ def inherited_laws(record: Record) -> list[InheritedLaw]:
     """Return the laws that a record takes from another material's record, of those its kind uses."""
     category = CATEGORIES[record.category]
     used = {law for word in record.words.values() for law in category.own_laws.get(word, ())}
-    found = []
+    inherited = []
     for law, names in category.laws.items():
         owner = _owner(record, names) if law in used else record
         differs = "" if owner is record else _difference(record, owner, category)
         if differs:
             kind_differs = any(owner.words.get(word) != record.words.get(word) for word in category.usual_words)
-            found.append(InheritedLaw(law, owner, differs, names, kind_differs))
-    return found
+            inherited.append(InheritedLaw(law, owner, differs, names, kind_differs))
+    return inherited
 
 
 def meaningless_laws(record: Record) -> list[str]:
     """Return a problem for each law that a record has from a material of another kind."""
     return [
-        f"{record.file}: {one.law}: those of {one.owner.name} mean nothing here, where {_kind(record)}; "
-        f"give {' or '.join(one.names)} of its own"
-        for one in inherited_laws(record)
-        if one.kind_differs
+        f"{record.file}: {inherited.law}: those of {inherited.owner.name} mean nothing here, where {_kind(record)}; "
+        f"give {' or '.join(inherited.names)} of its own"
+        for inherited in inherited_laws(record)
+        if inherited.kind_differs
     ]
 
 
 def inherited_law_warnings(record: Record) -> list[str]:
     """Return a sentence for each law that a record has from another material."""
     return [
-        f"{record.title}: the {one.law} are those of {one.owner.title}, and its {one.differs} is another material's; "
-        f"give {' or '.join(one.names)} of its own"
-        for one in inherited_laws(record)
+        f"{record.title}: the {inherited.law} are those of {inherited.owner.title}, and its {inherited.differs} is "
+        f"another material's; give {' or '.join(inherited.names)} of its own"
+        for inherited in inherited_laws(record)
     ]
 
 
 def _owner(record: Record, names: tuple[str, ...]) -> Record:
     """Return the record in a chain that first gave the values and tables as they are."""
 
-    def said(one: Record) -> dict[str, Any]:
-        everything: Mapping[str, Any] = {**one.entries, **one.tables}
+    def content(of: Record) -> dict[str, Any]:
+        everything: Mapping[str, Any] = {**of.entries, **of.tables}
         return {name: everything[name] for name in names if name in everything}
 
-    while record.based_on is not None and said(record) == said(record.based_on):
+    while record.based_on is not None and content(record) == content(record.based_on):
         record = record.based_on
     return record
 

@@ -29,8 +29,10 @@ def build_record(category: str, name: str, file: str, tree: dict[str, Tree]) -> 
     title = check.text("title", tree, "a line that says what this is")
     entries = {key: entry for key, item in check.section(tree, "values") if (entry := check.entry(key, item))}
     sheets = {key: sheet for key, item in check.section(tree, "tables") if (sheet := check.sheet(key, item))}
-    told = {key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)}
-    words = {**check.category.usual_words, **told}
+    own_words = {
+        key: item for key, item in check.section(tree, "words") if check.word(key, item) and isinstance(item, str)
+    }
+    words = {**check.category.usual_words, **own_words}
     check.required(tree, entries, words)
     check.paired(sheets)
     check.agreeing(entries, sheets)
@@ -75,11 +77,11 @@ class _Check:
         return False
 
     def text(self, field: str, tree: dict[str, Tree], expected: str) -> str:
-        found = tree.get(field.rpartition(".")[2])
-        if not isinstance(found, str) or not found.strip():
+        value = tree.get(field.rpartition(".")[2])
+        if not isinstance(value, str) or not value.strip():
             self.no(field, f"missing; expected {expected}")
             return ""
-        return found.strip()
+        return value.strip()
 
     def number(self, field: str, text: Tree, unit: str, wanted: str) -> float | None:
         """Read a number in `unit` where a quantity of the kind of `wanted` belongs."""
@@ -212,8 +214,8 @@ class _Check:
     def paired(self, sheets: dict[str, RecordTable]) -> None:
         counts = {name: len(sheets[name].rows) for name in self.category.paired if name in sheets}
         if len(set(counts.values())) > 1:
-            found = ", ".join(f"{name} has {count}" for name, count in counts.items())
-            self.no("tables", f"{found} rows; they belong together, first to first, and must be as many")
+            lengths = ", ".join(f"{name} has {count}" for name, count in counts.items())
+            self.no("tables", f"{lengths} rows; they belong together, first to first, and must be as many")
 
     def agreeing(self, entries: dict[str, Entry], sheets: dict[str, RecordTable]) -> None:
         """Name the values that differ from what a table of the record, which may stand in their place, comes to."""
@@ -222,21 +224,21 @@ class _Check:
                 if name not in entries:
                     continue
                 rows = [dict(zip(sheets[table].columns, row, strict=True)) for row in sheets[table].rows]
-                found, said = sum(prod(row[column] for column in columns) for row in rows), entries[name].value
-                if abs(found - said) > AGREEMENT * said:
+                total, value = sum(prod(row[column] for column in columns) for row in rows), entries[name].value
+                if abs(total - value) > AGREEMENT * value:
                     self.no(
                         f"values.{name}",
-                        f"{said:g} and tables.{table} contradict each other: the sum of {' times '.join(columns)} is "
-                        f"{found:g}; they must agree to {AGREEMENT:.0%}, in SI; leave one of them out",
+                        f"{value:g} and tables.{table} contradict each other: the sum of {' times '.join(columns)} is "
+                        f"{total:g}; they must agree to {AGREEMENT:.0%}, in SI; leave one of them out",
                     )
 
-    def required(self, tree: dict[str, Tree], entries: dict[str, Entry], said: dict[str, str]) -> None:
+    def required(self, tree: dict[str, Tree], entries: dict[str, Entry], words: dict[str, str]) -> None:
         """Name what the category wants and the file does not have at all; what is there but wrong is named already."""
-        of_words = [self.category.values_of.get(word, {}) for word in said.values()]
+        of_words = [self.category.values_of.get(word, {}) for word in words.values()]
         wanted: dict[str, dict[str, Any]] = {
             "values": {**self.category.values, **{name: unit for more in of_words for name, unit in more.items()}},
             "tables": dict.fromkeys(self.category.tables, "see the shipped records"),
-            "words": {name: " or ".join(allowed) for name, allowed in self.category.words.items() if name not in said},
+            "words": {name: " or ".join(allowed) for name, allowed in self.category.words.items() if name not in words},
         }
         for table, values in self.category.instead.items():
             tables = tree.get("tables")
@@ -254,9 +256,9 @@ class _Check:
                     close = get_close_matches(name, set(present) - set(names), n=1)
                     hint = f"; is {close[0]} meant to be it?" if close else ""
                     self.no(f"{section}.{name}", f"missing; expected {expected}{hint}")
-        of_word = [order for word in said.values() for order in self.category.rising_of.get(word, ())]
+        of_word = [order for word in words.values() for order in self.category.rising_of.get(word, ())]
         for order in (*self.category.rising, *of_word):
-            found = [(name, entries[name].value) for name in order if name in entries]
-            for (one, low), (other, high) in pairwise(found):
+            values_in_order = [(name, entries[name].value) for name in order if name in entries]
+            for (lower_name, low), (name_above, high) in pairwise(values_in_order):
                 if low >= high:
-                    self.no(f"values.{other}", f"must be above {one}")
+                    self.no(f"values.{name_above}", f"must be above {lower_name}")

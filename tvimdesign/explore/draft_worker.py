@@ -52,7 +52,7 @@ def _parts(draft: Draft) -> list[dict[str, Any]]:
     return [
         {
             "name": name, "kind": kinds[name], "colour": KINDS[kinds[name]].colour, "turns": kinds[name] in TURNING,
-            "lift": round(draft.lifts[name], _DIGITS), "matrix": [round(float(one), 9) for one in matrix.ravel()],
+            "lift": round(draft.lifts[name], _DIGITS), "matrix": [round(float(number), 9) for number in matrix.ravel()],
         }
         for name, matrix in draft.places.items()
     ]  # fmt: skip

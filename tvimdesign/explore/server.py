@@ -23,7 +23,7 @@ from aiohttp.http_exceptions import HttpProcessingError
 import tvimdesign.page
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.session import Session
-from tvimdesign.explore.states.history import PARTS, open_kept
+from tvimdesign.explore.states.history import PARTS, open_history
 from tvimdesign.explore.states.messages import MOST_BYTES
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.report.output.progress import wide_console
@@ -88,9 +88,9 @@ class Server:
         if self.session:
             self.session.close()
 
-    def _send(self, told: dict[str, Any]) -> None:
+    def _send(self, message: dict[str, Any]) -> None:
         """To every page; one that does not read is not waited for."""
-        text = json.dumps(told, allow_nan=False)
+        text = json.dumps(message, allow_nan=False)
         for queue in list(self._pages):
             if queue.qsize() < _SLOWEST:
                 queue.put_nowait(text)
@@ -143,18 +143,18 @@ class Server:
         session = self.session
         assert session is not None
         queue: asyncio.Queue[str] = asyncio.Queue()
-        answers = sorted(session.answers.values(), key=lambda one: int(one["number"]))
+        answers = sorted(session.answers.values(), key=lambda reply: int(reply["number"]))
         drafts = [session.draft] if session.draft else []
-        for told in (session.state_shown(), session.points_shown(), *answers, *drafts):
-            queue.put_nowait(json.dumps(told, allow_nan=False))
+        for reply in (session.state_shown(), session.points_shown(), *answers, *drafts):
+            queue.put_nowait(json.dumps(reply, allow_nan=False))
         self._pages.add(queue)
         self._sockets.add(socket)
         sender = asyncio.create_task(_forward(queue, socket))
         try:
             async for message in socket:
                 if message.type == WSMsgType.TEXT:
-                    for told in session.receive(message.data):
-                        queue.put_nowait(json.dumps(told, allow_nan=False))
+                    for reply in session.receive(message.data):
+                        queue.put_nowait(json.dumps(reply, allow_nan=False))
         finally:
             self._pages.discard(queue)
             self._sockets.discard(socket)
@@ -232,7 +232,7 @@ def serve(
             f"--token: needs {SHORTEST_TOKEN} or more letters, digits, - and _; leave it out to have one drawn"
         )
     opened = open_source(source, settings)
-    open_kept(folder, opened.text, opened.first, overwrite=overwrite)
+    open_history(folder, opened.text, opened.first, overwrite=overwrite)
     with contextlib.suppress(KeyboardInterrupt):
         asyncio.run(_serve(Server(source, folder, settings, token, overwrite=overwrite), port, browse))
 

@@ -18,7 +18,7 @@ from tvimdesign.explore.answers.shown import value_names
 from tvimdesign.explore.parts import PartsMaker
 from tvimdesign.explore.states import messages
 from tvimdesign.explore.states.controls import controls_shown
-from tvimdesign.explore.states.history import Kept, open_kept, write_kept, written_digest
+from tvimdesign.explore.states.history import History, open_history, write_history, written_digest
 from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.source import Source, open_source
 from tvimdesign.explore.states.state import Pinned, State, changed, saved_text, tree_of
@@ -43,12 +43,12 @@ class Session:
         """
         self.source: Source = open_source(source, settings)
         self.folder, self._send = folder, send
-        self.kept: Kept = open_kept(folder, self.source.text, self.source.first, overwrite=overwrite)
+        self.history: History = open_history(folder, self.source.text, self.source.first, overwrite=overwrite)
         make_folder(folder)
         self._written = written_digest(folder)
         if not self._written:
-            self._written = write_kept(folder, self.kept, "")
-        self._since: State = self.kept.state
+            self._written = write_history(folder, self.history, "")
+        self._since: State = self.history.state
         self._number = 0
         self._timer: asyncio.TimerHandle | None = None
         self.answers: dict[str, Reply] = {}
@@ -85,7 +85,7 @@ class Session:
         if isinstance(message, Change):
             self._change(message)
         elif isinstance(message, messages.SetWay):
-            self._become(self.kept.state.model_copy(update={"way": message.way}))
+            self._become(self.history.state.model_copy(update={"way": message.way}))
         elif isinstance(message, messages.Step):
             self._step(message)
         elif isinstance(message, messages.Pin):
@@ -93,7 +93,7 @@ class Session:
         elif isinstance(message, messages.OfPin):
             self._of_pin(message)
         elif isinstance(message, messages.Point):
-            self._become(self.source.at_point(message.number, self.kept.state))
+            self._become(self.source.at_point(message.number, self.history.state))
         elif isinstance(message, messages.Save):
             return [self._save(message.file)]
         elif isinstance(message, messages.Confirm):
@@ -103,18 +103,18 @@ class Session:
         return []
 
     def _change(self, change: Change) -> None:
-        before = self.kept.state
+        before = self.history.state
         after = changed(self.source.tree, before, change, self._read("optimize"))
-        self.kept.state = after
+        self.history.state = after
         if change.final:
-            self.kept.advance(after, self._since)
+            self.history.advance(after, self._since)
             self._settle()
         if after != before:  # a control that is let go where it was dragged to has its answer, or will
             self._ask("quick")
 
     def _become(self, after: State) -> None:
         """Go to a state that differs in more than one value."""
-        self.kept.advance(after, self._since)
+        self.history.advance(after, self._since)
         self._settle()
         self._ask("quick")
 
@@ -123,9 +123,9 @@ class Session:
             self._become(self.source.first)
             return
         if step.kind == "undo":
-            self.kept.undo()
+            self.history.undo()
         else:
-            self.kept.redo()
+            self.history.redo()
         self._settle()
         self._ask("quick")
 
@@ -134,53 +134,53 @@ class Session:
         if answer is None or "values" not in answer["shown"] or answer["number"] != self._number:
             raise InputError("pin: the design is still being computed; pin it when its values are there")
         study = self._read("optimize")
-        units = [pretty(study.table.unit(one)) for one in value_names(study)]
+        units = [pretty(study.table.unit(name)) for name in value_names(study)]
         numbers = zip(value_names(study), answer["shown"]["values"], units, strict=True)
-        texts = {one: "never" if value is None else f"{value:.4g} {unit}".rstrip() for one, value, unit in numbers}
+        texts = {name: "never" if value is None else f"{value:.4g} {unit}".rstrip() for name, value, unit in numbers}
         variables = answer["shown"]["variables"].items()
         inputs = {name: f"{variable['value']:.4g} {pretty(study.table.unit(name))}".rstrip()
                   for name, variable in variables if variable["value"] is not None}  # fmt: skip
-        self.kept.pin(Pinned(name=label, state=self.kept.state, values={**inputs, **texts}))
+        self.history.pin(Pinned(name=label, state=self.history.state, values={**inputs, **texts}))
         self._settle()
 
     def _of_pin(self, message: messages.OfPin) -> None:
         if message.kind == "recall":
-            self._become(self.kept.pinned(message.number).state)
+            self._become(self.history.pinned(message.number).state)
         else:
-            self.kept.unpin(message.number)
+            self.history.unpin(message.number)
             self._settle()
 
     def _save(self, file: str) -> Reply:
         if not _FILE.fullmatch(file):
             raise InputError(f"save: {file!r} is no file name; letters, digits, _ . - and .yaml at the end")
         path = self.folder / file
-        if os.path.lexists(path) and not is_as_written(self.folder, file, {self.kept.saved.get(file, "-")}):
+        if os.path.lexists(path) and not is_as_written(self.folder, file, {self.history.saved.get(file, "-")}):
             raise InputError(f"save: {path} is there already, and is not what was saved from here; choose another name")
-        atomic_write(path, saved_text(self.source.tree, self.kept.state, self.folder).encode())
-        self.kept.saved[file] = digest_of(path)
-        self._written = write_kept(self.folder, self.kept, self._written)
+        atomic_write(path, saved_text(self.source.tree, self.history.state, self.folder).encode())
+        self.history.saved[file] = digest_of(path)
+        self._written = write_history(self.folder, self.history, self._written)
         return {"kind": "saved", "file": file, "path": str(path)}
 
     # --- what becomes of it ---
 
     def _read(self, way: messages.Way | None = None) -> Study:
-        tree = tree_of(self.source.tree, self.kept.state, way)
+        tree = tree_of(self.source.tree, self.history.state, way)
         return read_tree(tree, lambda _: self.source.study.table, lambda _: self.source.study.catalog)
 
     def _settle(self) -> None:
         """Write a state to which undo returns, and send it to every page."""
-        self._since = self.kept.state
-        self._written = write_kept(self.folder, self.kept, self._written)
+        self._since = self.history.state
+        self._written = write_history(self.folder, self.history, self._written)
         self._send(self.state_shown())
 
     def state_shown(self) -> Reply:
         """Return all that a page needs beside answers."""
         free = self._read("optimize")
         return {
-            "kind": "state", "name": free.name, "mode": free.mode, "way": self.kept.state.way,
-            "optimizes": bool(free.vary), "undo": bool(self.kept.past), "redo": bool(self.kept.future),
-            "controls": controls_shown(free, self._read("evaluate"), self.kept.state),
-            "pins": [{"name": one.name, "way": one.state.way, "values": one.values} for one in self.kept.pins],
+            "kind": "state", "name": free.name, "mode": free.mode, "way": self.history.state.way,
+            "optimizes": bool(free.vary), "undo": bool(self.history.past), "redo": bool(self.history.future),
+            "controls": controls_shown(free, self._read("evaluate"), self.history.state),
+            "pins": [{"name": pin.name, "way": pin.state.way, "values": pin.values} for pin in self.history.pins],
             "quantities": [_quantity(free, name) for name in value_names(free)],
             "asked": list(dict.fromkeys([*free.minimize, *(limit.output for limit in free.require)])),
             "folder": str(self.folder), "parts": self.parts.shown,
@@ -197,7 +197,7 @@ class Session:
             self._wait()
 
     def _job(self, number: int, stage: Stage) -> Job:
-        state = self.kept.state
+        state = self.history.state
         words = "the solver ended without an answer; what you did is kept: undo, or go on from here"
         shown = {"status": words, "found": False, "stage": stage, "way": state.way}
         return Job(number, {"stage": stage, "state": state.model_dump()}, {"shown": shown}, stage != "quick")
@@ -254,10 +254,10 @@ class Session:
 
     def _follow(self, job: Job, shown: Reply) -> None:
         """Let the hand's variables be the optimum's, so that it can be gone on from."""
-        if "at" not in shown or job.number != self._number or self.kept.state.way != "optimize":
+        if "at" not in shown or job.number != self._number or self.history.state.way != "optimize":
             return
-        if shown["at"] != self.kept.state.at:
-            self.kept.state = self.kept.state.model_copy(update={"at": shown["at"]})
+        if shown["at"] != self.history.state.at:
+            self.history.state = self.history.state.model_copy(update={"at": shown["at"]})
             if job.stage != "quick":
                 self._settle()
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.study import Study
-from tvimdesign.study.result_study import begun_at
+from tvimdesign.study.result_study import started_at
 
 
 class SearchInterrupted(KeyboardInterrupt):
@@ -26,4 +26,4 @@ def best_so_far(study: Study, trees: Sequence[Relaxation]) -> Study | None:
     tree = min(found)[-1]
     assert tree.best is not None
     values = dict(zip(tree.optimizer.model.names, tree.best.inputs.tolist(), strict=True))
-    return begun_at(study, values, tree.best.start.choices)
+    return started_at(study, values, tree.best.start.choices)

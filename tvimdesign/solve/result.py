@@ -36,7 +36,7 @@ from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
-from tvimdesign.study.result_study import begun_at
+from tvimdesign.study.result_study import started_at
 
 Designed = Callable[[Design], None]
 """Who is told a design as soon as it is there."""
@@ -146,7 +146,7 @@ def answer(
         if solution.status not in {OPTIMAL, BELOW_YIELD}:
             raise
         found = dict(zip(solution.model.names, solution.inputs.tolist(), strict=True))
-        raise SearchInterrupted(begun_at(study, found, _choices(solution.model, study.table))) from interrupt
+        raise SearchInterrupted(started_at(study, found, _choices(solution.model, study.table))) from interrupt
 
 
 def _result(study: Study, solution: Solution | None, designed: Designed) -> StudyResult:

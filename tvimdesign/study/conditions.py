@@ -121,7 +121,7 @@ def _evaluated_only(entrants: Sequence[Case]) -> Iterator[Mistake]:
 
 
 def _unequal_conditions(first: Case, other: Case) -> Iterator[Mistake]:
-    theirs, mine = ({condition.name: condition for condition in _conditions(one)} for one in (first, other))
+    theirs, mine = ({condition.name: condition for condition in _conditions(case)} for case in (first, other))
     differing = {name for name in theirs.keys() & mine.keys() if not _same(theirs[name].value, mine[name].value)}
     for name in (name for name in mine if name in differing):
         row = first.study.table.by_name.get(name)
@@ -129,13 +129,13 @@ def _unequal_conditions(first: Case, other: Case) -> Iterator[Mistake]:
             continue  # another record, which is told
         message = f"{mine[name].words} here, {theirs[name].words} in {first.places.text(theirs[name].path)}"
         yield _problem(other, mine[name].path, message, "the same in every study that is compared")
-    for one, another, names in ((first, other, theirs), (other, first, mine)):
+    for case, lacking, names in ((first, other, theirs), (other, first, mine)):
         for point in dict.fromkeys(name.partition(".")[0] for name in names if "." in name):
-            if point not in another.study.operating_points:
+            if point not in lacking.study.operating_points:
                 message = (
-                    f"there is no operating point {point} here, as in {one.places.text(f'operating_points.{point}')}"
+                    f"there is no operating point {point} here, as in {case.places.text(f'operating_points.{point}')}"
                 )
-                yield _problem(another, "operating_points", message, "the same operating points in every study")
+                yield _problem(lacking, "operating_points", message, "the same operating points in every study")
 
 
 def _conditions(of: Case) -> Iterator[_Condition]:
@@ -215,7 +215,7 @@ def _unequal_requirements(entrants: Sequence[Case], other: Case) -> Iterator[Mis
     for entrant in entrants[: entrants.index(other)]:
         common = (entrant.study.table.by_name.keys() & other.study.table.by_name.keys()) - reported
         reported |= common
-        theirs, mine = (_limits_on(common, one) for one in (entrant, other))
+        theirs, mine = (_limits_on(common, case) for case in (entrant, other))
         for key in dict.fromkeys([*mine, *theirs]):
             if key not in mine:
                 place = entrant.places.text(f"require.{key[0]}")

@@ -65,8 +65,10 @@ class Design(BaseModel):
     @property
     def rating_notes(self) -> list[str]:
         """Sentences on the ratings that the design exceeds, accepted or not."""
-        said = {"not accepted by its study": self.above_rating, "as its study accepts": self.accepting}
-        return [f"The design is beyond its rating, {how}: {', '.join(names)}." for how, names in said.items() if names]
+        groups = {"not accepted by its study": self.above_rating, "as its study accepts": self.accepting}
+        return [
+            f"The design is beyond its rating, {how}: {', '.join(names)}." for how, names in groups.items() if names
+        ]
 
     def value(self, name: str) -> float:
         """SI value of a row; raises InputError for a name the design does not have."""
@@ -137,14 +139,14 @@ def _too_big(shown: str) -> InputError:
 
 def _check_form(error: ValidationError, data: Any, problems: Mistakes, path: str = "") -> None:
     """Note what pydantic says, once for each place: a value that may be of several kinds has a fault for each."""
-    said: dict[str, str] = {}
+    messages: dict[str, str] = {}
     for fault in error.errors(include_url=False):
         if _of_the_other_kind(data, fault["loc"]):
             continue
         where = ".".join(filter(None, [path, *_inside(data, fault["loc"])]))
         message = "unknown name" if fault["type"] == "extra_forbidden" else fault["msg"]
-        said[where] = message if where not in said else f"{said[where]}; or: {message}"
-    for where, message in said.items():
+        messages[where] = message if where not in messages else f"{messages[where]}; or: {message}"
+    for where, message in messages.items():
         problems.add(_NOWHERE, where, message)
 
 
@@ -210,7 +212,7 @@ def _study(design: Design, table: Table, problems: Mistakes) -> Study | None:
     try:
         read_tree(tree_of_values(written(study), problems.file, Path()))
     except StudyError as error:
-        problems.found += [replace(one, path=f"study.{one.path}") for one in error.problems]
+        problems.items += [replace(mistake, path=f"study.{mistake.path}") for mistake in error.problems]
     return study
 
 
@@ -263,12 +265,12 @@ def _numbers(data: Any) -> TypeGuard[list[float]]:
 
 def _stop(problems: Mistakes, data: bytes, version: object) -> None:
     """Raise what was found, if anything, each with its line; and that another version wrote it, where one did."""
-    if not problems.found:
+    if not problems.items:
         return
     if isinstance(version, str) and version != __version__:
-        said = f"another version wrote it: {quoted(version)}, this is {__version__}"
-        problems.add(_NOWHERE, "tvimdesign", said, hint=_AGAIN)
+        message = f"another version wrote it: {quoted(version)}, this is {__version__}"
+        problems.add(_NOWHERE, "tvimdesign", message, hint=_AGAIN)
     places = JsonPlaces(data)
-    located = ((one, places.at(one.path)) for one in problems.found)
-    problems.found = [replace(one, line=at.line, column=at.column) for one, at in located]
+    located = ((mistake, places.at(mistake.path)) for mistake in problems.items)
+    problems.items = [replace(mistake, line=at.line, column=at.column) for mistake, at in located]
     problems.stop()

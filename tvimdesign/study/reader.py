@@ -60,9 +60,9 @@ def _read(tree: StudyTree, table: TableOf, catalog: CatalogOf) -> tuple[Study, S
     reading = Reading(problems, mode, table(mode or MODES[0]), records, nodes, readers)
     read = {section.name: reading.section(section.name) for section in SECTIONS if mode or not section.needs_mode}
     problems.stop()
-    kept = {name: read[name] for name in Study.model_fields if name in read}
+    fields = {name: read[name] for name in Study.model_fields if name in read}
     named = {"name": read["name"] or tree.name, "mode": mode, "catalog_folder": folder.as_posix() if folder else None}
-    return Study(**{**kept, **named}).based_on(reading.catalog, reading.table), read["sweep"]
+    return Study(**{**fields, **named}).based_on(reading.catalog, reading.table), read["sweep"]
 
 
 def _mode(problems: Mistakes, node: Node | None, tree: StudyTree, table: TableOf) -> str:

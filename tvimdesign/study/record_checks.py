@@ -19,12 +19,13 @@ def record_checks(study: Study) -> list[str]:
     it, or names no limit."""
     values = given(study)
     records = [record for record in values.values() if isinstance(record, Record)]
-    said = [said for record in records if record.category == "peltiers" and (said := contradiction(record))]
+    messages = [contradiction(record) for record in records if record.category == "peltiers"]
     if values["peltier_seebeck"] == 0.0 and values["cooling_current"] > 0.0:
         heats = format_quantity(values["cooling_current"], study.table.unit("cooling_current"))
         title = values["peltier_module"].title
-        said.append(f"cooling_current of {heats} heats: {title} cannot cool; leave it out, and the air cools")
-    return said + [one for record in records for one in inherited_law_warnings(record)] + _pressed(study, values)
+        messages.append(f"cooling_current of {heats} heats: {title} cannot cool; leave it out, and the air cools")
+    messages += [warning for record in records for warning in inherited_law_warnings(record)]
+    return [message for message in messages if message] + _pressed(study, values)
 
 
 def _pressed(study: Study, values: Mapping[str, Any]) -> list[str]:

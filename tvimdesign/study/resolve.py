@@ -20,18 +20,18 @@ def given(study: Study) -> dict[str, Any]:
     to the nearest of the listed values, so that the result is a member of the search. Raises InputError naming what has
     no value, and what cannot stand together.
     """
-    found: dict[str, Any] = {}
+    known: dict[str, Any] = {}
     for choice in study.table.choices:
-        found[choice.name] = _chosen(choice, study, found)
+        known[choice.name] = _chosen(choice, study, known)
     for row in study.table.inputs:
         if row.per_point:
             for point, values in study.operating_points.items():
                 name = f"{row.name}@{point}"
-                found[name] = _or_default(row, name, values.get(row.name), found)
+                known[name] = _or_default(row, name, values.get(row.name), known)
         else:
-            found[row.name] = _started(row, study, found)
-    _refuse_incompatible(study, found)
-    return found
+            known[row.name] = _started(row, study, known)
+    _refuse_incompatible(study, known)
+    return known
 
 
 def drawn(study: Study) -> Study:
@@ -124,7 +124,7 @@ def _or_default(row: Input, name: str, own: float | str | None, chosen: dict[str
 
 def _reason(row: Input, chosen: dict[str, Any]) -> str:
     """Explain why an input needs a value, and what its record has instead."""
-    reason = "".join(f", needed as {one.choice} is {chosen[one.choice]}" for one in row.requires)
+    reason = "".join(f", needed as {feature.choice} is {chosen[feature.choice]}" for feature in row.requires)
     if row.record is not None and not isinstance(chosen[row.record[0]], str):
         choice, field = row.record
         try:
@@ -157,9 +157,9 @@ def _refuse_incompatible(study: Study, values: Mapping[str, Any]) -> None:
     least = _least(study, "cooling_current")
     if least > 0.0:
         heater = values["peltier_module"]
-        asked = format_quantity(least, study.table.unit("cooling_current"))
+        current = format_quantity(least, study.table.unit("cooling_current"))
         raise InputError(
-            f"cooling_current of {asked} and peltier_module {heater.name} cannot stand together: {heater.title} "
+            f"cooling_current of {current} and peltier_module {heater.name} cannot stand together: {heater.title} "
             "has no Peltier effect, so any current heats; leave cooling_current out, and the air cools, or choose a "
             "Peltier module"
         )

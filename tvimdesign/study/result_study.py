@@ -27,7 +27,7 @@ def study_text(study: Study, title: str, folder: Path) -> str:
     return tree_yaml(tree_of_values(written(study), title, folder))
 
 
-def begun_at(study: Study, values: Mapping[str, float], choices: Mapping[str, str | float]) -> Study:
+def started_at(study: Study, values: Mapping[str, float], choices: Mapping[str, str | float]) -> Study:
     """Return the study with its search started at a design, or as near as its ranges allow."""
     module, vary = dict(study.module), dict(study.vary)
     for name, allowed in study.vary.items():
@@ -50,8 +50,10 @@ def evaluating(design: Design) -> Study:
     lacking = {Feature(choice.name, design.choices[choice.name]) for choice in table.choices}
     rows: list[Choice | Input] = [*table.choices, *table.inputs]
     idle = {row.name for row in rows if lacking & set(row.requires)}
-    kept = {name: value for name, value in module.items() if name not in idle}
+    effective = {name: value for name, value in module.items() if name not in idle}
     currents = {phase: GivenCurrent.model_validate(plain) for phase, plain in design.current_profiles.items()}
-    update = {"module": kept, "vary": {}, "minimize": {}, "front": None, "robust": None, "profile": ProfileOptions(),
-              "currents": currents}  # fmt: skip
+    update = {
+        "module": effective, "vary": {}, "minimize": {}, "front": None, "robust": None, "profile": ProfileOptions(),
+        "currents": currents,
+    }  # fmt: skip
     return study.model_copy(update=update)

@@ -182,15 +182,15 @@ class Study(_Part):
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Study:
         """Return a copy with some fields changed; it keeps the open catalogue and the table unless these change."""
         copied = super().model_copy(update=update, deep=deep)
-        for kept, field in _KEPT.items():
+        for cached, field in _CACHED.items():
             if getattr(copied, field) != getattr(self, field):
-                copied.__dict__.pop(kept, None)
+                copied.__dict__.pop(cached, None)
         return copied
 
     def __getstate__(self) -> dict[Any, Any]:
         """Return the fields for a pickle; its reader looks up the catalogue and the table again."""
         state = super().__getstate__()
-        return {**state, "__dict__": {name: value for name, value in state["__dict__"].items() if name not in _KEPT}}
+        return {**state, "__dict__": {name: value for name, value in state["__dict__"].items() if name not in _CACHED}}
 
     @property
     def task(self) -> Literal["evaluate", "optimize"]:
@@ -198,5 +198,5 @@ class Study(_Part):
         return "optimize" if self.vary else "evaluate"
 
 
-_KEPT = {"catalog": "catalog_folder", "table": "mode"}
+_CACHED = {"catalog": "catalog_folder", "table": "mode"}
 """What a study keeps once it is asked for, by the field it follows from."""

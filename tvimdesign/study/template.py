@@ -20,10 +20,10 @@ def template_text() -> str:
 
 def examples() -> dict[str, str]:
     """Return the title line of every shipped study by name."""
-    found = sorted((file for file in _shipped().iterdir() if file.name.endswith(".yaml")), key=lambda file: file.name)
+    studies = sorted((file for file in _shipped().iterdir() if file.name.endswith(".yaml")), key=lambda file: file.name)
     return {
         file.name.removesuffix(".yaml"): file.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
-        for file in found
+        for file in studies
     }
 
 

@@ -41,8 +41,8 @@ class StudyTree:
 
     def section(self, name: str) -> Node | None:
         """Return the node under one of the study's keys."""
-        found = self.root.entries.get(name)
-        return found[1] if found else None
+        entry = self.root.entries.get(name)
+        return entry[1] if entry else None
 
 
 def tree_of_text(source: str, file: str, name: str, folder: Path) -> StudyTree:
@@ -53,7 +53,7 @@ def tree_of_text(source: str, file: str, name: str, folder: Path) -> StudyTree:
         misfit(problems, root, "", "a study: lines such as 'mode: shear'")
         problems.stop()
     assert isinstance(root, Mapping)  # else the problems have stopped it
-    return StudyTree(root, file, name, folder, problems=tuple(problems.found))
+    return StudyTree(root, file, name, folder, problems=tuple(problems.items))
 
 
 def tree_of_file(path: str | os.PathLike[str], settings: Sequenced[str] = ()) -> StudyTree:
@@ -69,7 +69,7 @@ def tree_of_values(values: Mapped[str, Any], file: str, folder: Path) -> StudyTr
     problems = Mistakes(file)
     root = node_of(values, file, problems)
     assert isinstance(root, Mapping)  # as `values` is one
-    return StudyTree(root, file, "study", folder, problems=tuple(problems.found))
+    return StudyTree(root, file, "study", folder, problems=tuple(problems.items))
 
 
 def without_section(tree: StudyTree, name: str) -> StudyTree:
@@ -107,7 +107,7 @@ def _with_setting(tree: StudyTree, setting: str) -> StudyTree:
         problems.add(At(0, 0), "", "there is no '=' after a name", expected)
         problems.stop()
     node = _setting_node(value, problems)
-    return with_value(tree, name.strip(), node, problems.file, tuple(problems.found))
+    return with_value(tree, name.strip(), node, problems.file, tuple(problems.items))
 
 
 def _setting_node(value: str, problems: Mistakes) -> Node:
@@ -168,18 +168,18 @@ def _without_variable(root: Mapping, name: str) -> Mapping:
 
 def _put(node: Mapping, steps: Sequenced[str], value: Node, source: str, path: str) -> Mapping:
     """Return a mapping with the value at the end of the steps, everything else unchanged."""
-    first, *rest = steps
+    first, *inner_steps = steps
     where = step(path, first)
     entries = dict(node.entries)
     key, old = entries.get(first, (Text(0, 0, first, file=source), None))
-    if rest:
+    if inner_steps:
         inner = Mapping(0, 0, {}, source) if old is None or (isinstance(old, Text) and old.empty) else old
         if not isinstance(inner, Mapping):
             problems = Mistakes(source)
             problems.add(At(0, 0), where, "is no mapping, so nothing stands in it", f"a value for {where} itself")
             problems.stop()
         assert isinstance(inner, Mapping)  # else the problems have stopped it
-        entries[first] = (key, _put(inner, rest, value, source, where))
+        entries[first] = (key, _put(inner, inner_steps, value, source, where))
     elif isinstance(value, Text) and value.empty:
         entries.pop(first, None)
     else:

@@ -59,18 +59,18 @@ class Engine:
         self._free: tuple[Mapping[str, Any], Study] | None = None
         self._reference_of: tuple[QuickModel, bytes, list[str]] | None = None
         self._references: dict[str, float] = {}
-        self._told: Answer | None = None
+        self._last_answer: Answer | None = None
 
     def answer(self, state: State, stage: Stage, progress: Progress = lambda _: None) -> Answer:
         """Answer a state. Raises InputError and InfeasibleError in the study's own words."""
-        if stage == "report" and self._told is not None:
-            return self._told
+        if stage == "report" and self._last_answer is not None:
+            return self._last_answer
         began = perf_counter()
-        found = self._quick(state) if stage == "quick" else self._exact(state, stage, progress)
-        if found.answered is not None:
-            self._told = found
-        found.shown.update(stage=stage, way=state.way, milliseconds=round(1e3 * (perf_counter() - began), 1))
-        return found
+        reply = self._quick(state) if stage == "quick" else self._exact(state, stage, progress)
+        if reply.answered is not None:
+            self._last_answer = reply
+        reply.shown.update(stage=stage, way=state.way, milliseconds=round(1e3 * (perf_counter() - began), 1))
+        return reply
 
     # --- while something is dragged ---
 
@@ -93,11 +93,11 @@ class Engine:
         if not moved.converged:
             return Answer({"status": "no optimum near the last one; the search from every start follows"})
         self._last = moved
-        found = {name: float(moved.run.inputs[self._problem_index(name)]) for name in study.vary}
+        optimum = {name: float(moved.run.inputs[self._problem_index(name)]) for name in study.vary}
         known = given(study)
-        evaluated = self._evaluated(study, known, found)
+        evaluated = self._evaluated(study, known, optimum)
         shown = shown_design(study, free, known, evaluated.values, moved.binding, moved.ends)
-        shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in found.items()}}
+        shown["at"] = {**state.at, **{name: _rounded(study, name, value) for name, value in optimum.items()}}
         shown["curves"], shown["iterations"] = finite_data(evaluated.curves), moved.run.start.iterations
         return Answer({"status": "", **shown}, None, _module(study, evaluated.values, evaluated.words))
 
@@ -113,7 +113,7 @@ class Engine:
         if self._last:
             return self._problem.solve(study, self._last.run, reference)
         hand, start = given(self._read(tree_of(self._base, state, "evaluate"))), given(study)
-        at = {name: float(hand[name]) for name, one in study.vary.items() if isinstance(one, Range)}
+        at = {name: float(hand[name]) for name, allowed in study.vary.items() if isinstance(allowed, Range)}
         return self._problem.solve(study, None, reference, at if any(at[name] != start[name] for name in at) else None)
 
     def _reference(self, study: Study, problem: ParametricOptimizer) -> dict[str, float]:
@@ -123,19 +123,19 @@ class Engine:
         start = model.inputs(known)
         if np.array_equal(start, built.model.start):
             return {}
-        asked = model, start.tobytes(), list(study.minimize)
-        if self._reference_of == asked:
+        key = model, start.tobytes(), list(study.minimize)
+        if self._reference_of == key:
             return self._references
         values = model.evaluate(start).values
         horizon = values["horizon"]
-        found = {name: values[name] if np.isfinite(values[name]) else horizon for name in study.minimize}
-        self._reference_of, self._references = asked, {name: value or 1.0 for name, value in found.items()}
+        objectives = {name: values[name] if np.isfinite(values[name]) else horizon for name in study.minimize}
+        self._reference_of, self._references = key, {name: value or 1.0 for name, value in objectives.items()}
         return self._references
 
-    def _evaluated(self, study: Study, known: Mapping[str, Any], found: Mapping[str, float]) -> Evaluated:
+    def _evaluated(self, study: Study, known: Mapping[str, Any], optimum: Mapping[str, float]) -> Evaluated:
         """Raises InputError in the study's words where there is no such module; `known` is what the study gives."""
         model = self._model(study, known)
-        evaluated = model.evaluate(model.inputs({**known, **found}))
+        evaluated = model.evaluate(model.inputs({**known, **optimum}))
         with np.errstate(invalid="ignore"):
             if impossible(evaluated.values, study.table):
                 refuse_impossible(study)
@@ -164,12 +164,12 @@ class Engine:
             tree = set_values(tree, _listed(free, state))
         tree = set_values(tree, {"front": None}) if tree.section("front") is not None else tree
         answered = answer_study(tree, progress, search=self._near if stage == "exact" else optimize)
-        found, table = answered.result, answered.study.table
-        design = found.design
+        result, table = answered.result, answered.study.table
+        design = result.design
         known = given(answered.study)
         shown = shown_design(answered.study, free, known, design.values)
-        shown["status"] = "" if found.found else complaint(found, table)
-        shown["found"] = found.found
+        shown["status"] = "" if result.found else complaint(result, table)
+        shown["found"] = result.found
         with suppress(TvimError):
             at = {name: design.values[name] for name in free.vary if name in design.values}
             evaluated = self._evaluated(answered.study, known, at)
@@ -222,7 +222,11 @@ def _module(study: Study, values: Mapping[str, float], words: Mapping[str, str])
 
 def _listed(study: Study, state: State) -> dict[str, str]:
     """Return the choices from lists, as the controls have them."""
-    return {name: state.at[name] for name, one in study.vary.items() if isinstance(one, Options) and name in state.at}
+    return {
+        name: state.at[name]
+        for name, allowed in study.vary.items()
+        if isinstance(allowed, Options) and name in state.at
+    }
 
 
 def _rounded(study: Study, name: str, value: float) -> str:

@@ -53,7 +53,7 @@ class QuickModel:
         """Simulate the study's start, which sets the pace, and begin to record."""
         known = given(study)
         self.words = words_of(known)
-        self._said = {row.name: str(getattr(known[row.name], "name", known[row.name])) for row in study.table.choices}
+        self._chosen = {row.name: str(getattr(known[row.name], "name", known[row.name])) for row in study.table.choices}
         self.points, self.cells = tuple(study.operating_points), study.solver.cells
         self.model = DeviceFunctions(study.table, known, self.points, self.cells)
         self._simulator = Simulator(self.model, _LOOSE, _SAMPLES)
@@ -102,7 +102,7 @@ class QuickModel:
             for name, drawn in self._maps.items() if name in lines
         }  # fmt: skip
         return Evaluated({**dict(zip(self.model.names, inputs.tolist(), strict=True)),
-                          **self.model.values(inputs, switch)}, curves, self._said)  # fmt: skip
+                          **self.model.values(inputs, switch)}, curves, self._chosen)  # fmt: skip
 
     @property
     def _fixed(self) -> int:

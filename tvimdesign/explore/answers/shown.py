@@ -55,11 +55,11 @@ def limits_shown(
         (limit, _stands(limit, values[limit.output], study.table, limit.name in binding))
         for limit in constraints_of(study, study.table, known)
     ]
-    told = [
+    limits = [
         _limit(limit, values[limit.output], study.table, stands) for limit, stands in stand
         if limit.origin == "require" or stands != "kept"
     ]  # fmt: skip
-    return sorted(told, key=lambda row: ("broken", "binds", "kept").index(row["stands"]))
+    return sorted(limits, key=lambda row: ("broken", "binds", "kept").index(row["stands"]))
 
 
 def _stands(limit: Constraint, value: float, table: Table, presses: bool) -> str:
@@ -94,11 +94,11 @@ def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
 def finite_data(data: Any) -> Any:
     """Plain data with none in place of numbers that JSON does not have."""
     if isinstance(data, Mapping):
-        return {name: finite_data(one) for name, one in data.items()}
-    if isinstance(data, list) and all(type(one) is float for one in data):
-        return [one if math.isfinite(one) else None for one in data]
+        return {name: finite_data(item) for name, item in data.items()}
+    if isinstance(data, list) and all(type(item) is float for item in data):
+        return [item if math.isfinite(item) else None for item in data]
     if isinstance(data, list | tuple):
-        return [finite_data(one) for one in data]
+        return [finite_data(item) for item in data]
     return None if isinstance(data, float) and not math.isfinite(data) else data
 
 

@@ -51,10 +51,10 @@ def main() -> None:
     sys.stderr = _Quiet(sys.stderr)
     source, folder, settings = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
     engine = Engine(open_source(source, settings).tree)
-    _say(answers, {"ready": True})
+    _write_line(answers, {"ready": True})
     for line in sys.stdin:
         job = json.loads(line)
-        _say(answers, {"number": job["number"], **_done(engine, job, folder, answers)})
+        _write_line(answers, {"number": job["number"], **_done(engine, job, folder, answers)})
 
 
 def _done(engine: Engine, job: dict[str, Any], folder: Path, answers: TextIO) -> dict[str, Any]:
@@ -62,32 +62,32 @@ def _done(engine: Engine, job: dict[str, Any], folder: Path, answers: TextIO) ->
 
     def progress(text: str) -> None:
         raise_pending()
-        _say(answers, {"number": job["number"], "progress": text})
+        _write_line(answers, {"number": job["number"], "progress": text})
 
     try:
         with interrupt_handler((signal.SIGINT,)):
             try:
-                found = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
-                told = _told(found, folder)
+                reply = engine.answer(State.model_validate(job["state"]), job["stage"], progress)
+                data = _reply_data(reply, folder)
             except TvimError as error:
-                told = {"shown": {**refused(error), "stage": job["stage"], "way": job["state"]["way"]}}
+                data = {"shown": {**refused(error), "stage": job["stage"], "way": job["state"]["way"]}}
             raise_pending()
     except KeyboardInterrupt:
         return {"superseded": True}
-    return told
+    return data
 
 
-def _told(found: Answer, folder: Path) -> dict[str, Any]:
-    told: dict[str, Any] = {"shown": found.shown, "module": found.module}
-    if found.answered is not None:
-        design = found.answered.result.design
-        told["report"] = report_fragment(folder, found.answered)
-        told["design"] = {"name": design_name(design), "json": design_json(design).decode()}
-    return told
+def _reply_data(reply: Answer, folder: Path) -> dict[str, Any]:
+    data: dict[str, Any] = {"shown": reply.shown, "module": reply.module}
+    if reply.answered is not None:
+        design = reply.answered.result.design
+        data["report"] = report_fragment(folder, reply.answered)
+        data["design"] = {"name": design_name(design), "json": design_json(design).decode()}
+    return data
 
 
-def _say(answers: TextIO, told: dict[str, Any]) -> None:
-    answers.write(json.dumps(told, allow_nan=False) + "\n")
+def _write_line(answers: TextIO, data: dict[str, Any]) -> None:
+    answers.write(json.dumps(data, allow_nan=False) + "\n")
     answers.flush()
 
 
@@ -106,8 +106,8 @@ def design_name(design: Design) -> str:
         for name in sorted(design.values)
         if name.partition("@")[0] in _inputs(design)
     }
-    told = json.dumps([design.mode, design.choices, numbers], sort_keys=True)
-    return hashlib.sha256(told.encode()).hexdigest()[:16]
+    content = json.dumps([design.mode, design.choices, numbers], sort_keys=True)
+    return hashlib.sha256(content.encode()).hexdigest()[:16]
 
 
 def _inputs(design: Design) -> set[str]:
@@ -115,7 +115,7 @@ def _inputs(design: Design) -> set[str]:
 
 
 def report_fragment(folder: Path, answered: AnsweredStudy) -> dict[str, Any]:
-    """First screen and sections as HTML, with what their figures are drawn from."""
+    """Return first screen and sections as HTML, with the data of their figures."""
     own = folder / PARTS / design_name(answered.result.design)
     page = run_page(DesignFolder(own), answered)
     left_out = {"study", "versions", *(() if (own / "cad").is_dir() else ("assembly",))}

@@ -43,15 +43,15 @@ def _variable(name: str, free: Study, state: State) -> Shown:
 def _requirements(free: Study) -> list[Shown]:
     """Return a control for each limit; those of one output know their place in its list."""
     seen: dict[str, int] = {}
-    found = []
+    controls = []
     for limit in free.require:
         unit = free.table.unit(limit.output)
         place = seen[limit.output] = seen.get(limit.output, -1) + 1
-        found.append({
+        controls.append({
             "name": limit.output, "place": place, "sense": limit.sense, "value": from_si(limit.limit, unit),
             "unit": pretty(unit), "text": exactly(limit.limit, unit), "means": _means(free, limit.output),
         })  # fmt: skip
-    return found
+    return controls
 
 
 def _choice(row: Choice, fixed: Study, value: Any) -> Shown:
@@ -62,13 +62,13 @@ def _choice(row: Choice, fixed: Study, value: Any) -> Shown:
 
 def _inputs(free: Study, fixed: Study, values: Mapping[str, Any]) -> list[Shown]:
     """Numbers that are not varied; those the study sets first. A temperature of a point is `temperature@hot`."""
-    found = []
+    controls = []
     for row in free.table.inputs:
         if row.name in free.vary:
             continue
         names = [f"{row.name}@{point}" for point in free.operating_points] if row.per_point else [row.name]
-        found += [_input(row, name, values[name], fixed) for name in names]
-    return sorted(found, key=lambda one: not one["said"])
+        controls += [_input(row, name, values[name], fixed) for name in names]
+    return sorted(controls, key=lambda control: not control["said"])
 
 
 def _input(row: Input, name: str, value: float, fixed: Study) -> Shown:

@@ -21,7 +21,7 @@ MOST_STEPS = 200
 MOST_PINS = 12
 
 
-class Kept(BaseModel):
+class History(BaseModel):
     """All that an explorer goes on from when it is opened again."""
 
     model_config = ConfigDict(extra="forbid")
@@ -71,7 +71,7 @@ class Kept(BaseModel):
     def unpin(self, number: int) -> None:
         """Let a design go."""
         gone = self.pinned(number)
-        self.pins = [one for one in self.pins if one is not gone]
+        self.pins = [pin for pin in self.pins if pin is not gone]
 
 
 def hash_of(text: bytes) -> str:
@@ -79,7 +79,7 @@ def hash_of(text: bytes) -> str:
     return "sha256:" + hashlib.sha256(text).hexdigest()
 
 
-def open_kept(folder: Path, study: bytes, first: State, *, overwrite: bool = False) -> Kept:
+def open_history(folder: Path, study: bytes, first: State, *, overwrite: bool = False) -> History:
     """Return the history in a folder, or a new one. Raises InputError where the folder is another study's.
 
     With `overwrite` a new one replaces that of any study, once something is changed.
@@ -88,19 +88,19 @@ def open_kept(folder: Path, study: bytes, first: State, *, overwrite: bool = Fal
     if not path.exists():
         if folder.is_dir() and any(folder.iterdir()):
             raise InputError(f"{folder}: holds files that are no explorer's; name another folder with --out")
-        return Kept(study=hash_of(study), state=first)
+        return History(study=hash_of(study), state=first)
     try:
-        kept = Kept.model_validate(json.loads(path.read_bytes()))
+        history = History.model_validate(json.loads(path.read_bytes()))
     except (ValueError, ValidationError) as error:
         raise InputError(f"{path}: not written by `tvimdesign explore`; name another folder with --out") from error
     if overwrite:
-        return Kept(study=hash_of(study), state=first, saved=kept.saved)
-    if kept.study != hash_of(study):
+        return History(study=hash_of(study), state=first, saved=history.saved)
+    if history.study != hash_of(study):
         raise InputError(
             f"{folder}: holds what was done with the study as it was before its file changed; --overwrite begins "
             "again, --out names another folder"
         )
-    return kept
+    return history
 
 
 def written_digest(folder: Path) -> str:
@@ -108,7 +108,7 @@ def written_digest(folder: Path) -> str:
     return digest_of(folder / FILE) if (folder / FILE).is_file() else ""
 
 
-def write_kept(folder: Path, kept: Kept, before: str) -> str:
+def write_history(folder: Path, history: History, before: str) -> str:
     """Write the history, whole, and return its digest. Raises OutputError.
 
     A file that has not the digest `before` was changed by hand meanwhile: it is renamed, not replaced.
@@ -116,5 +116,5 @@ def write_kept(folder: Path, kept: Kept, before: str) -> str:
     path = folder / FILE
     if os.path.lexists(path) and not is_as_written(folder, FILE, {before}):
         path.rename(free_name(path))
-    atomic_write(path, kept.model_dump_json(indent=1).encode() + b"\n")
+    atomic_write(path, history.model_dump_json(indent=1).encode() + b"\n")
     return digest_of(path)

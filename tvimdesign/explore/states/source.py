@@ -55,8 +55,8 @@ class Source:
             return None
         names, table = list(self.front["units_of_values"]), self.study.table
         points = [
-            {"number": one["number"], "status": one["status"], "values": [one["values"][name] for name in names]}
-            for one in self.front["points"]
+            {"number": point["number"], "status": point["status"], "values": [point["values"][name] for name in names]}
+            for point in self.front["points"]
         ]
         labels = [axis_label(name, table.unit(name)) for name in names]
         return {"of": list(self.front["of"]), "names": names, "labels": labels, "points": points}
@@ -65,10 +65,10 @@ class Source:
         """Return the state that shows a point of the front or a cell. Raises InputError if there is none."""
         if self.cells:
             return _state_of(self.cells, number)
-        found = next((one for one in (self.front or {"points": []})["points"] if one["number"] == number), None)
-        if found is None or self.folder is None:
+        point = next((point for point in (self.front or {"points": []})["points"] if point["number"] == number), None)
+        if point is None or self.folder is None:
             raise InputError(f"point {number}: the front has none of this number")
-        path = (self.folder / found["design"]).resolve()
+        path = (self.folder / point["design"]).resolve()
         if not path.is_relative_to(self.folder.resolve()):
             raise InputError(f"point {number}: its design lies outside {self.folder}")
         at = beginning(self.study, _of_design(read_design(path)))
@@ -89,8 +89,8 @@ def open_source(path: Path, settings: Sequence[str] = ()) -> Source:
 
 
 def _result(design: Design, path: Path) -> Source:
-    asked = Study.model_validate(design.study)
-    tree = tree_of_values(written(asked), f"The study of {path}", Path())
+    request = Study.model_validate(design.study)
+    tree = tree_of_values(written(request), f"The study of {path}", Path())
     study = read_tree(tree)
     refuse_other_folders(tree, study)
     return Source(tree, study, _of_design(design), path.parent, _front_of(path.parent))
@@ -106,9 +106,9 @@ def _sweep(folder: Path, settings: Sequence[str]) -> Source:
 
 def _state_of(cells: SweptCells, number: int) -> State:
     """Return the state that shows a cell, evaluated; a cell without an answer is computed again."""
-    found = cells.found(number)
-    way: Way = "evaluate" if found.answered or not found.study.vary else "optimize"
-    return State(way=way, changes=found.changes, at={**beginning(found.study), **found.at})
+    cell = cells.found(number)
+    way: Way = "evaluate" if cell.answered or not cell.study.vary else "optimize"
+    return State(way=way, changes=cell.changes, at={**beginning(cell.study), **cell.at})
 
 
 def _of_design(design: Design) -> dict[str, Any]:

@@ -65,7 +65,7 @@ def set_values(tree: StudyTree, values: Mapping[str, Any]) -> StudyTree:
 
 def _set(tree: StudyTree, path: str, value: Any) -> StudyTree:
     problems = Mistakes(SOURCE)
-    return with_value(tree, path, node_of(value, SOURCE, problems), SOURCE, tuple(problems.found))
+    return with_value(tree, path, node_of(value, SOURCE, problems), SOURCE, tuple(problems.items))
 
 
 def changed(base: StudyTree, state: State, change: Change, study: Study) -> State:

@@ -11,7 +11,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
-from tvimdesign.study.result_study import begun_at, study_text
+from tvimdesign.study.result_study import started_at, study_text
 
 DESIGN = "design.json"
 BEST = "best_so_far.yaml"
@@ -28,7 +28,7 @@ class Best:
         """Note an answer where it is a design that was searched."""
         if found.found and found.solution:
             design = found.design
-            self.study = begun_at(Study.model_validate(design.study), design.values, design.choices)
+            self.study = started_at(Study.model_validate(design.study), design.values, design.choices)
 
 
 @contextmanager

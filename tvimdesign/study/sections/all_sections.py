@@ -23,8 +23,8 @@ _TEXT: Schema = {"type": ["string", "number", "null"]}
 def _read_format(reading: Reading, node: Node | None) -> None:
     version = None if node is None else whole(reading.problems, node, "tvimdesign")
     if node is not None and version is not None and version != FORMAT:
-        found = f"this version of tvimdesign does not read format {version}"
-        reading.problems.add(node, "tvimdesign", found, str(FORMAT))
+        message = f"this version of tvimdesign does not read format {version}"
+        reading.problems.add(node, "tvimdesign", message, str(FORMAT))
 
 
 def _words(name: str, meaning: str) -> Section:

@@ -22,40 +22,40 @@ def _read(reading: Reading, node: Node | None) -> dict[str, GivenCurrent]:
     problems = reading.problems
     phases = list(ProfileOptions.model_fields)
     expected = f"phases, each with its moments and currents: {', '.join(phases)}"
-    found = entries(problems, node, "currents", expected)
-    if reading.has("vary") and found and node is not None:
+    phases_given = entries(problems, node, "currents", expected)
+    if reading.has("vary") and phases_given and node is not None:
         hint = "a search finds them: `profile`, or the inputs of constant currents under `vary`"
         problems.add(node, "currents", "given currents belong to a module that is evaluated", "no `vary` beside", hint)
-    read = {}
-    for phase, value in unknown_keys(problems, found, "currents", "phase", phases).items():
+    currents = {}
+    for phase, value in unknown_keys(problems, phases_given, "currents", "phase", phases).items():
         given = _given(reading, value, step("currents", phase))
         if given is not None:
-            read[phase] = given
-    return read
+            currents[phase] = given
+    return currents
 
 
 def _given(reading: Reading, node: Node, path: str) -> GivenCurrent | None:
     problems = reading.problems
-    found = entries(problems, node, path, _EXPECTED)
-    known = unknown_keys(problems, found, path, "series", list(_SERIES))
+    parts = entries(problems, node, path, _EXPECTED)
+    known = unknown_keys(problems, parts, path, "series", list(_SERIES))
     if isinstance(node, Text) and node.empty:
         misfit(problems, node, path, _EXPECTED)
-    missing = [name for name in _SERIES if name not in found]
-    if found and missing:
+    missing = [name for name in _SERIES if name not in parts]
+    if parts and missing:
         problems.add(node, path, f"has no {' and no '.join(missing)}", _EXPECTED)
     series = {name: _series(reading, known[name], step(path, name), unit)
               for name, unit in _SERIES.items() if name in known}  # fmt: skip
     moments, currents = series.get("moments"), series.get("currents")
     if moments is None or currents is None:
         return None
-    said = len(problems.found)
+    before = len(problems.items)
     if len(moments) != len(currents):
         problems.add(node, path, f"{len(moments)} moments and {len(currents)} currents", "a current for each moment")
     if moments[0] != 0.0:
         problems.add(node, path, f"begins at {format_quantity(moments[0], 's')}", "0 s, the phase's start, at first")
     if any(later <= earlier for earlier, later in pairwise(moments)):
         problems.add(node, path, "the moments do not rise", "each moment later than the one before")
-    return None if len(problems.found) > said else GivenCurrent(moments=moments, currents=currents)
+    return None if len(problems.items) > before else GivenCurrent(moments=moments, currents=currents)
 
 
 def _series(reading: Reading, node: Node, path: str, unit: str) -> tuple[float, ...] | None:

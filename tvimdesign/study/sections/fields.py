@@ -23,10 +23,10 @@ def settings(
     """Declare a section whose keys are the fields of a model; `check` notes what contradicts other sections."""
 
     def read(reading: Reading, node: Node | None) -> BaseModel:
-        found = _read(reading.problems, node, name, model)
+        options = _read(reading.problems, node, name, model)
         if check:
             check(reading)
-        return found
+        return options
 
     return Section(
         name,
@@ -46,8 +46,8 @@ def unit_of(field: FieldInfo) -> str:
 
 def _read(problems: Mistakes, node: Node | None, path: str, model: type[_Model]) -> _Model:
     fields = model.model_fields
-    found = entries(problems, node, path, f"settings: {', '.join(fields)}")
-    known = unknown_keys(problems, found, path, "setting", list(fields))
+    given = entries(problems, node, path, f"settings: {', '.join(fields)}")
+    known = unknown_keys(problems, given, path, "setting", list(fields))
     read = {name: _value(problems, value, step(path, name), fields[name]) for name, value in known.items()}
     try:
         return model(**{name: value for name, value in read.items() if value is not None})
@@ -89,5 +89,5 @@ def changed(options: BaseModel) -> dict[str, Any]:
 def written(value: Any, unit: str) -> Any:
     """Return a value, or each of several, as it is written in a unit."""
     if isinstance(value, tuple):
-        return [written(one, unit) for one in value]
+        return [written(item, unit) for item in value]
     return exactly(value, unit) if unit else value

@@ -33,7 +33,7 @@ _LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
 
 def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...]:
     """Return every limit the study sets; every problem is noted."""
-    found: list[Requirement] = []
+    requirements: list[Requirement] = []
     for name, (key, value) in entries(reading.problems, node, "require", "outputs, each with its limits").items():
         path = step("require", name)
         row = named_output(reading, key, path, name)
@@ -41,23 +41,23 @@ def _read_require(reading: Reading, node: Node | None) -> tuple[Requirement, ...
             continue
         read = _limits(reading, value, path, name, row)
         _contradictions(reading, value, path, row, read)
-        found += read
-    return tuple(found)
+        requirements += read
+    return tuple(requirements)
 
 
 def _read_minimize(reading: Reading, node: Node | None) -> dict[str, float]:
     """Return the weight of each output that is to be small; every problem is noted."""
-    found = _weights(reading, node)
+    weights = _weights(reading, node)
     if node is not None and reading.has("minimize") and not reading.has("vary"):
         reading.problems.add(node, "minimize", "nothing may change: `vary` is missing", "both or neither")
-    return found
+    return weights
 
 
 def _weights(reading: Reading, node: Node | None) -> dict[str, float]:
     if isinstance(node, Text) and not node.empty:
         row = named_output(reading, node, "minimize", node.value)
         return {} if row is None else {node.value: 1.0}
-    found: dict[str, float] = {}
+    weights: dict[str, float] = {}
     expected = "the name of an output, or outputs with their weights"
     for name, (key, value) in entries(reading.problems, node, "minimize", expected).items():
         path = step("minimize", name)
@@ -67,33 +67,33 @@ def _weights(reading: Reading, node: Node | None) -> dict[str, float]:
         if weight is not None and weight <= 0:
             reading.problems.add(value, path, f"the weight {weight:g} is not above 0", "a number above 0")
         elif weight is not None:
-            found[name] = weight
-    return found
+            weights[name] = weight
+    return weights
 
 
 def _read_front(reading: Reading, node: Node | None) -> FrontOptions | None:
     """Return the outputs to be traded and the count of points; every problem is noted."""
-    found = _traded_outputs(reading, node)
+    front = _traded_outputs(reading, node)
     if node is not None and reading.has("front") and not reading.has("vary"):
         expected = "`vary` and `minimize` with it"
         reading.problems.add(node, "front", "nothing may change: `vary` is missing", expected)
-    return found
+    return front
 
 
 def _traded_outputs(reading: Reading, node: Node | None) -> FrontOptions | None:
     expected = "'{of: [response_time, module_mass], points: 12}'"
     known = list(FrontOptions.model_fields)
-    found = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", known)
-    if node is None or not found:
+    parts = unknown_keys(reading.problems, entries(reading.problems, node, "front", expected), "front", "key", known)
+    if node is None or not parts:
         return None
-    outputs = found.get("of")
+    outputs = parts.get("of")
     if not isinstance(outputs, Sequence) or len(outputs.items) not in (2, 3):
         reading.problems.add(
             outputs or node, "front.of", "are not two or three outputs", "[response_time, module_mass]"
         )
         return None
     names = [_traded(reading, item, f"front.of[{i}]") for i, item in enumerate(outputs.items)]
-    count = whole(reading.problems, found["points"], "front.points") if "points" in found else None
+    count = whole(reading.problems, parts["points"], "front.points") if "points" in parts else None
     if None in names:
         return None
     if len(set(names)) < len(names):
@@ -101,7 +101,7 @@ def _traded_outputs(reading: Reading, node: Node | None) -> FrontOptions | None:
         return None
     least, most = FEWEST_POINTS, MOST_POINTS
     if count is not None and not least <= count <= most:
-        reading.problems.add(found["points"], "front.points", f"{count} points", f"{least} to {most}")
+        reading.problems.add(parts["points"], "front.points", f"{count} points", f"{least} to {most}")
         return None
     return FrontOptions(of=tuple(filter(None, names)), **({} if count is None else {"points": count}))
 
@@ -172,18 +172,18 @@ def _contradictions(reading: Reading, node: Node, path: str, row: Output, read: 
     ceilings = [limit.limit for limit in read if limit.sense == "<="]
     if floors and ceilings and below(min(ceilings), max(floors)):
         floor, ceiling = format_quantity(max(floors), row.unit), format_quantity(min(ceilings), row.unit)
-        found = f"cannot be both at least {floor} and at most {ceiling}"
-        reading.problems.add(node, path, found, "limits that leave room between them")
+        message = f"cannot be both at least {floor} and at most {ceiling}"
+        reading.problems.add(node, path, message, "limits that leave room between them")
 
 
 def _write_require(study: Study) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
+    limits: dict[str, list[str]] = {}
     for limit in study.require:
         unit = study.table.unit(limit.output)
         same = limit.text.startswith(limit.sense) and _reads_as(limit.text.removeprefix(limit.sense), unit, limit.limit)
         text = limit.text if same else f"{limit.sense} {exactly(limit.limit, unit)}"
-        found.setdefault(limit.output, []).append(text)
-    return found
+        limits.setdefault(limit.output, []).append(text)
+    return limits
 
 
 def _reads_as(text: str, unit: str, value: float) -> bool:
@@ -223,20 +223,20 @@ def _read_accept(reading: Reading, node: Node | None) -> tuple[str, ...]:
         return ()
     items: list[tuple[str, Node]] = [("accept", node)] if isinstance(node, Text) else []
     items += [(f"accept[{i}]", item) for i, item in enumerate(node.items)] if isinstance(node, Sequence) else []
-    found: list[str] = []
+    accepted: list[str] = []
     for path, item in items:
         name = text(reading.problems, item, path, one_of(known))
         if name is None:
             continue
-        if name in found:
+        if name in accepted:
             reading.problems.add(item, path, f"names {quoted(name)} twice", "each rating once")
         elif name in known:
-            found.append(name)
+            accepted.append(name)
         elif name in reading.table.by_name:
             reading.problems.add(item, path, f"{name} is no rating of a material or a bought part", one_of(known))
         else:
             reading.unknown_quantity(item, path, "rating", name, known)
-    return tuple(found)
+    return tuple(accepted)
 
 
 def _accept_schema(table: Table) -> Schema:

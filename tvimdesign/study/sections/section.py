@@ -84,10 +84,14 @@ def set_schema(quantity: Input | Choice) -> Schema:
 
 def by_output(table: Table, schema: Schema) -> Schema:
     """Return the schema for each output that a study may name, by the pattern of its full names."""
-    named = [one for one in table.outputs if not (one.instant or one.hidden or isinstance(one, FirstOscillation))]
+    named = [
+        output
+        for output in table.outputs
+        if not (output.instant or output.hidden or isinstance(output, FirstOscillation))
+    ]
     return {
-        f"^{one.name}{'@' + POINT if one.per_point else ''}$": {"description": described(one), **schema}
-        for one in named
+        f"^{output.name}{'@' + POINT if output.per_point else ''}$": {"description": described(output), **schema}
+        for output in named
     }
 
 

@@ -18,7 +18,7 @@ _POINT = re.compile(POINT)
 
 def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
     """Return the inputs (SI) and choices the study sets; every problem is noted."""
-    found: dict[str, float | str] = {}
+    module: dict[str, float | str] = {}
     for name, (key, value) in entries(
         reading.problems, node, "module", "names of the module's inputs, each with a value"
     ).items():
@@ -37,35 +37,35 @@ def _read_module(reading: Reading, node: Node | None) -> dict[str, float | str]:
         else:
             reading.unknown_quantity(key, path, "input or choice", name, [row.name for row in settable(reading.table)])
         if read is not None:
-            found[name] = read
-    return found
+            module[name] = read
+    return module
 
 
 def _read_points(reading: Reading, node: Node | None) -> dict[str, dict[str, float]]:
     """Return every operating point in full (SI): the study's values over the standard ones over the defaults."""
     rows = {row.name: row for row in reading.table.inputs if row.per_point}
-    found = {name: _standard(name, rows) for name in STANDARD_POINTS}
+    all_points = {name: _standard(name, rows) for name in STANDARD_POINTS}
     expected = "operating points, each with its " + ", ".join(rows)
     for name, (key, value) in list(entries(reading.problems, node, "operating_points", expected).items()):
         path = step("operating_points", name)
         if not _POINT.fullmatch(name) or "_at_" in name:
             shown = f"{quoted(name)} cannot name an operating point"
             reading.problems.add(key, path, shown, "a short word of lower-case letters, digits and _, without '_at_'")
-        elif len(found) == MOST_POINTS and name not in found:
+        elif len(all_points) == MOST_POINTS and name not in all_points:
             reading.problems.add(key, path, f"more than {MOST_POINTS} operating points", "fewer")
             break
         else:
             own = _point(reading, value, path, rows)
-            found[name] = _standard(name, rows) | own
+            all_points[name] = _standard(name, rows) | own
             given = list(value.entries) if isinstance(value, Mapping) else []
-            missing = [row.name for row in rows.values() if _unset(row, found[name]) and row.name not in given]
+            missing = [row.name for row in rows.values() if _unset(row, all_points[name]) and row.name not in given]
             if missing:
                 reading.problems.add(key, path, f"has no {' and no '.join(missing)}", _examples(missing, rows))
-    return found
+    return all_points
 
 
 def _point(reading: Reading, node: Node, path: str, rows: dict[str, Input]) -> dict[str, float]:
-    found: dict[str, float] = {}
+    values: dict[str, float] = {}
     expected = "values such as " + _examples(list(rows), rows)
     for name, (key, value) in entries(reading.problems, node, path, expected).items():
         where = step(path, name)
@@ -74,8 +74,8 @@ def _point(reading: Reading, node: Node, path: str, rows: dict[str, Input]) -> d
             continue
         read = quantity(reading.problems, value, where, rows[name])
         if read is not None:
-            found[name] = read
-    return found
+            values[name] = read
+    return values
 
 
 def _standard(point: str, rows: dict[str, Input]) -> dict[str, float]:
@@ -114,16 +114,16 @@ def _check_profile(reading: Reading) -> None:
     """Note each profile of a current that has no range in which it could change."""
     if not reading.mode:
         return
-    vary, asked = reading.section("vary"), reading.nodes.get("vary")
+    vary, vary_node = reading.section("vary"), reading.nodes.get("vary")
     for phase, (_, node) in entries(Mistakes(""), reading.nodes.get("profile"), "profile", "").items():
         if phase not in ProfileOptions.model_fields:
             continue  # it has been noted
         row = reading.table.phase(phase).current_input
-        if row not in vary and isinstance(asked, Mapping) and row in asked.entries:
+        if row not in vary and isinstance(vary_node, Mapping) and row in vary_node.entries:
             continue  # what is wrong with that range has been noted
         if not isinstance(vary.get(row), Range) and not (isinstance(node, Text) and node.value.strip() == "0"):
-            found = f"the current of this phase has no range: `vary.{row}` is missing"
-            reading.problems.add(node, step("profile", phase), found, f"{row}: [0.1 A, 3 A] under `vary`, for one")
+            message = f"the current of this phase has no range: `vary.{row}` is missing"
+            reading.problems.add(node, step("profile", phase), message, f"{row}: [0.1 A, 3 A] under `vary`, for one")
 
 
 MODULE = Section(

@@ -57,25 +57,25 @@ _EXAMPLE = "'over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 20}}'"
 
 def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
     """Return what is swept, None where nothing is; every problem is noted."""
-    found = unknown_keys(
+    parts = unknown_keys(
         reading.problems, entries(reading.problems, node, "sweep", _EXAMPLE), "sweep", "key", list(_FIELDS)
     )
-    if node is None or not found:
+    if node is None or not parts:
         return None
-    method = _word(reading, found.get("method"), "sweep.method", METHODS) or ("list" if "cells" in found else "grid")
-    before = len(reading.problems.found)
+    method = _word(reading, parts.get("method"), "sweep.method", METHODS) or ("list" if "cells" in parts else "grid")
+    before = len(reading.problems.items)
     if method == "list":
-        axes, rows = _listed(reading, found, node)
+        axes, rows = _listed(reading, parts, node)
     else:
-        axes, rows = _axes(reading, found, node, method), ()
-    count = _count(reading, found, node, method)
+        axes, rows = _axes(reading, parts, node, method), ()
+    count = _count(reading, parts, node, method)
     block = SweepBlock(
-        method=method, axes=axes, rows=rows, task=_word(reading, found.get("task"), "sweep.task", TASKS),
-        count=count, seed=_number(reading, found, "seed", 0, _MOST_SEED) or 0 if "seed" in found else 1,
-        outputs=_outputs(reading, found.get("outputs")),
+        method=method, axes=axes, rows=rows, task=_word(reading, parts.get("task"), "sweep.task", TASKS),
+        count=count, seed=_number(reading, parts, "seed", 0, _MOST_SEED) or 0 if "seed" in parts else 1,
+        outputs=_outputs(reading, parts.get("outputs")),
     )  # fmt: skip
-    most = _number(reading, found, "most", 1, 10**9)
-    if len(reading.problems.found) > before:
+    most = _number(reading, parts, "most", 1, 10**9)
+    if len(reading.problems.items) > before:
         return None
     return block if most is None else replace(block, most=most)
 
@@ -90,23 +90,23 @@ def _word(reading: Reading, node: Node | None, path: str, known: Collection[str]
     return word if word is not None and word in known else ""
 
 
-def _number(reading: Reading, found: dict[str, Node], key: str, least: int, most: int) -> int | None:
-    if key not in found:
+def _number(reading: Reading, parts: dict[str, Node], key: str, least: int, most: int) -> int | None:
+    if key not in parts:
         return None
-    value = whole(reading.problems, found[key], step("sweep", key))
+    value = whole(reading.problems, parts[key], step("sweep", key))
     if value is not None and not least <= value <= most:
-        reading.problems.add(found[key], step("sweep", key), f"{value} does not fit here", f"{least} to {most}")
+        reading.problems.add(parts[key], step("sweep", key), f"{value} does not fit here", f"{least} to {most}")
         return None
     return value
 
 
-def _count(reading: Reading, found: dict[str, Node], node: Node, method: str) -> int:
-    if method in SAMPLED and "count" not in found:
+def _count(reading: Reading, parts: dict[str, Node], node: Node, method: str) -> int:
+    if method in SAMPLED and "count" not in parts:
         reading.problems.add(node, "sweep", f"how many cells are drawn is missing ({method})", "'count: 256', for one")
-    elif method not in SAMPLED and "count" in found:
-        found_there = f"a {method} has as many cells as its axes give"
-        reading.problems.add(found["count"], "sweep.count", found_there, "'count' at a range of `over`")
-    return _number(reading, found, "count", 1, 10**9) or 0
+    elif method not in SAMPLED and "count" in parts:
+        message = f"a {method} has as many cells as its axes give"
+        reading.problems.add(parts["count"], "sweep.count", message, "'count' at a range of `over`")
+    return _number(reading, parts, "count", 1, 10**9) or 0
 
 
 def _outputs(reading: Reading, node: Node | None) -> tuple[str, ...]:
@@ -129,10 +129,10 @@ def _outputs(reading: Reading, node: Node | None) -> tuple[str, ...]:
 # --- axes ---
 
 
-def _axes(reading: Reading, found: dict[str, Node], node: Node, method: str) -> tuple[SweptAxis, ...]:
-    if "cells" in found:
-        reading.problems.add(found["cells"], "sweep.cells", f"a {method} has no list of cells", "'method: list'")
-    over = found.get("over")
+def _axes(reading: Reading, parts: dict[str, Node], node: Node, method: str) -> tuple[SweptAxis, ...]:
+    if "cells" in parts:
+        reading.problems.add(parts["cells"], "sweep.cells", f"a {method} has no list of cells", "'method: list'")
+    over = parts.get("over")
     named = entries(reading.problems, over, "sweep.over", _EXAMPLE)
     if not named and (over is None or isinstance(over, Mapping | Text)):
         reading.problems.add(over or node, "sweep.over", "nothing is swept: it has no axis", _EXAMPLE)
@@ -151,14 +151,14 @@ def _axes(reading: Reading, found: dict[str, Node], node: Node, method: str) -> 
 
 
 def _listed(
-    reading: Reading, found: dict[str, Node], node: Node
+    reading: Reading, parts: dict[str, Node], node: Node
 ) -> tuple[tuple[SweptAxis, ...], tuple[tuple[Text, ...], ...]]:
     """Read the axes and rows of `cells: [{pcl_thickness: 1 mm, current: 1 A}, ...]`."""
     expected = "a list such as [{pcl_thickness: 1 mm, current: 1 A}, ...]"
-    cells = found.get("cells")
-    if "over" in found:
+    cells = parts.get("cells")
+    if "over" in parts:
         reading.problems.add(
-            found["over"], "sweep.over", "a list of cells has no axes of its own", "'cells', or a grid"
+            parts["over"], "sweep.over", "a list of cells has no axes of its own", "'cells', or a grid"
         )
     if not isinstance(cells, Sequence) or not cells.items:
         reading.problems.add(cells or node, "sweep.cells", "there is no list of cells", expected)
@@ -179,22 +179,22 @@ def _listed(
         if missing := [name for name in axes if name not in named]:
             reading.problems.add(item, path, f"has no {' and no '.join(missing)}", "the same names in each cell")
         else:
-            rows.append(tuple(one for name in axes if isinstance(one := named[name][1], Text)))
+            rows.append(tuple(cell_text for name in axes if isinstance(cell_text := named[name][1], Text)))
     return tuple(axes.values()), tuple(rows)
 
 
 def _axis(reading: Reading, key: Text, path: str, name: str) -> SweptAxis | None:
     """Return the axis that a name under `over` means, still without values."""
-    section, _, rest = name.partition(".")
-    if not rest:
+    section, _, path_in_section = name.partition(".")
+    if not path_in_section:
         return _of_module(reading, key, path, name)
     if section not in _SWEPT_SECTIONS:
         reading.problems.unknown(key, path, f"section to sweep in: {quoted(section)}", section, _SWEPT_SECTIONS)
         return None
     if section == "require":
-        row = named_output(reading, key, path, rest)
+        row = named_output(reading, key, path, path_in_section)
         return SweptAxis(name, row.unit, whole=False, number=False) if row else None
-    point = rest.partition(".")[2] if section == "operating_points" else ""
+    point = path_in_section.partition(".")[2] if section == "operating_points" else ""
     value = reading.table.by_name.get(point)
     if isinstance(value, Input) and value.per_point:
         return SweptAxis(name, value.unit, whole=value.integer, number=not value.integer)
@@ -212,7 +212,7 @@ def _of_module(reading: Reading, key: Text, path: str, name: str) -> SweptAxis |
     elif row is not None:
         reading.problems.add(key, path, "is a result and cannot be set", f"'require.{name}' to sweep a limit on it")
     else:
-        names = [one.name for one in reading.table.quantities if isinstance(one, Choice | Input)]
+        names = [quantity.name for quantity in reading.table.quantities if isinstance(quantity, Choice | Input)]
         reading.unknown_quantity(key, path, "input or choice", name, names)
     return None
 
@@ -220,8 +220,8 @@ def _of_module(reading: Reading, key: Text, path: str, name: str) -> SweptAxis |
 def _values(reading: Reading, node: Node, path: str) -> tuple[Text, ...]:
     if not isinstance(node, Sequence) or not node.items:
         empty = isinstance(node, Sequence)
-        found = "is an empty list" if empty else "is no list of values"
-        reading.problems.add(node, path, found, "[a, b, c], or {from: ..., to: ..., count: ...}")
+        message = "is an empty list" if empty else "is no list of values"
+        reading.problems.add(node, path, message, "[a, b, c], or {from: ..., to: ..., count: ...}")
         return ()
     for i, item in enumerate(node.items):
         if not isinstance(item, Text) or item.empty:
@@ -267,9 +267,9 @@ def _ends(
 
 def _end(reading: Reading, node: Node, path: str, axis: SweptAxis) -> tuple[float, Sense] | None:
     """Return an end of a range in SI, with its sense if it is a limit."""
-    section, _, rest = axis.name.partition(".")
+    section, _, output = axis.name.partition(".")
     if section == "require":
-        limit = read_limit(reading, node, path, rest, reading.table.output(rest.partition("@")[0]))
+        limit = read_limit(reading, node, path, output, reading.table.output(output.partition("@")[0]))
         return (limit.limit, limit.sense) if limit else None
     row = reading.table.quantity(axis.name.rpartition(".")[2])
     assert isinstance(row, Input)  # what has a unit and is no limit

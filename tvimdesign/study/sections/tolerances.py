@@ -52,8 +52,8 @@ _MOST_SIGMAS = 6.0
 def standard_entries() -> dict[str, dict[str, Any]]:
     """Return the usual tolerances by input, as they stand in the file."""
     file = resources.files("tvimdesign.study.sections").joinpath("tolerances.yaml")
-    found: dict[str, dict[str, Any]] = plain_data(file.read_text(encoding="utf-8"))
-    return found
+    entries_by_name: dict[str, dict[str, Any]] = plain_data(file.read_text(encoding="utf-8"))
+    return entries_by_name
 
 
 def standard_tolerances(table: Table) -> dict[str, Tolerance]:
@@ -88,19 +88,19 @@ def _read_tolerances(reading: Reading, node: Node | None) -> dict[str, Tolerance
     if isinstance(node, Text) and node.value == STANDARD:
         return standard_tolerances(reading.table)
     expected = f"{STANDARD}, or names of inputs, each with a plus-minus value"
-    found: dict[str, Tolerance] = {}
+    tolerances: dict[str, Tolerance] = {}
     section = entries(reading.problems, node, "tolerances", expected)
     if STANDARD in section and flag(reading.problems, section[STANDARD][1], step("tolerances", STANDARD)):
-        found = standard_tolerances(reading.table)
+        tolerances = standard_tolerances(reading.table)
     for name, (key, value) in section.items():
         if name == STANDARD:
             continue
         path = step("tolerances", name)
         row = _input(reading, key, path, name)
-        read = None if row is None else _tolerance(reading, value, path, row, found.get(name))
+        read = None if row is None else _tolerance(reading, value, path, row, tolerances.get(name))
         if read is not None:
-            found[name] = read
-    return found
+            tolerances[name] = read
+    return tolerances
 
 
 def _input(reading: Reading, key: Text, path: str, name: str) -> Input | None:
@@ -112,7 +112,7 @@ def _input(reading: Reading, key: Text, path: str, name: str) -> Input | None:
     if isinstance(row, Input) and not row.integer and row.per_point == bool(point):
         return row
     if row is None:
-        names = [one.name for one in reading.table.inputs if not one.integer]
+        names = [quantity.name for quantity in reading.table.inputs if not quantity.integer]
         reading.unknown_quantity(key, path, "input", base, names)
     elif isinstance(row, Input) and row.integer:
         reading.problems.add(key, path, "counts whole things and has no tolerance")
@@ -138,19 +138,19 @@ def _tolerance(reading: Reading, node: Node, path: str, row: Input, standard: To
     if not isinstance(node, Mapping) or not node.entries:
         misfit(reading.problems, node, path, _forms(row))
         return None
-    before = len(reading.problems.found)
+    before = len(reading.problems.items)
     parts = unknown_keys(reading.problems, node.entries, path, "key", _KEYS)
     read = _read_parts(reading, parts, path, row)
     given = [key for key in ("plus_minus", "row") if key in parts]
     if len(given) == 2 or (not given and standard is None):
         problem = "both 'plus_minus' and 'row'" if given else "'plus_minus' missing"
         reading.problems.add(node, path, problem, _forms(row))
-    if len(reading.problems.found) > before:
+    if len(reading.problems.items) > before:
         return None
-    kept = {} if standard is None else standard.model_dump()
+    fields = {} if standard is None else standard.model_dump()
     if given:
-        kept |= {"plus_minus": None, "share": None, "row": None, "source": "the study", "status": "stated"}
-    return Tolerance(**{**kept, **read})
+        fields |= {"plus_minus": None, "share": None, "row": None, "source": "the study", "status": "stated"}
+    return Tolerance(**{**fields, **read})
 
 
 def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input) -> dict[str, Any]:
@@ -163,8 +163,8 @@ def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input)
     if "distribution" in parts:
         read |= _read_distribution(reading, parts["distribution"], f"{path}.distribution")
     if "sigma" in parts:
-        found = _sigmas(reading, parts["sigma"], f"{path}.sigma")
-        read |= {} if found is None else {"sigma": found}
+        sigma = _sigmas(reading, parts["sigma"], f"{path}.sigma")
+        read |= {} if sigma is None else {"sigma": sigma}
     if "adjustable" in parts:
         read |= {"adjustable": flag(reading.problems, parts["adjustable"], f"{path}.adjustable") or False}
     if "adjusted_to" in parts:
@@ -239,8 +239,8 @@ def _sigmas(reading: Reading, node: Node, path: str) -> float | None:
 def _read_robust(reading: Reading, node: Node | None) -> Robust | None:
     """Return how far within its limits a design must stay, or how many modules must keep all."""
     expected = "{sigma: 3} or {yield: 99 %}"
-    found = entries(reading.problems, node, "robust", expected)
-    parts = unknown_keys(reading.problems, found, "robust", "key", list(_ROBUST_KEYS))
+    given = entries(reading.problems, node, "robust", expected)
+    parts = unknown_keys(reading.problems, given, "robust", "key", list(_ROBUST_KEYS))
     if not parts:
         return None
     assert node is not None
@@ -248,11 +248,11 @@ def _read_robust(reading: Reading, node: Node | None) -> Robust | None:
         reading.problems.add(node, "robust", "both 'sigma' and 'yield'", expected)
         return None
     if not reading.section("tolerances"):
-        said = "there is nothing to be robust against: `tolerances` is missing"
-        reading.problems.add(node, "robust", said, "`tolerances: standard`, for one")
+        message = "there is nothing to be robust against: `tolerances` is missing"
+        reading.problems.add(node, "robust", message, "`tolerances: standard`, for one")
     if not reading.has("vary"):
-        said = "nothing may change: `vary` is missing"
-        reading.problems.add(node, "robust", said, "both or neither", "`tvimdesign tolerate` evaluates as well")
+        message = "nothing may change: `vary` is missing"
+        reading.problems.add(node, "robust", message, "both or neither", "`tvimdesign tolerate` evaluates as well")
     if "sigma" in parts:
         sigma = _sigmas(reading, parts["sigma"], "robust.sigma")
         return None if sigma is None else Robust(sigma=sigma)
@@ -280,10 +280,10 @@ def tolerance_schema(tables: Iterable[Table]) -> Schema:
 
 
 def _tolerances_schema(table: Table) -> Schema:
-    one: Schema = {"allOf": [{"$ref": "#/definitions/tolerance"}]}
+    reference: Schema = {"allOf": [{"$ref": "#/definitions/tolerance"}]}
     rows = [row for row in table.inputs if not row.integer]
-    points = {f"^{row.name}@{POINT}$": {"description": described(row), **one} for row in rows if row.per_point}
-    named = {row.name: {"description": described(row), **one} for row in rows if not row.per_point}
+    points = {f"^{row.name}@{POINT}$": {"description": described(row), **reference} for row in rows if row.per_point}
+    named = {row.name: {"description": described(row), **reference} for row in rows if not row.per_point}
     return {"anyOf": [mapping({STANDARD: {"type": "boolean"}, **named}, points), {"const": STANDARD}]}
 
 
@@ -291,26 +291,32 @@ def _write_tolerances(study: Study) -> dict[str, Any]:
     """Return each tolerance; if all the usual ones are there, only that they are and what differs from them."""
     table, tolerances, usual = study.table, study.tolerances, standard_tolerances(study.table)
     usual = usual if usual.keys() <= tolerances.keys() else {}
-    found: dict[str, Any] = {STANDARD: "true"} if usual else {}
-    for name, one in tolerances.items():
-        if one != usual.get(name):
-            found[name] = _written(table, name, one, usual.get(name))
-    return found
+    entries_written: dict[str, Any] = {STANDARD: "true"} if usual else {}
+    for name, tolerance in tolerances.items():
+        if tolerance != usual.get(name):
+            entries_written[name] = _written(table, name, tolerance, usual.get(name))
+    return entries_written
 
 
-def _written(table: Table, name: str, one: Tolerance, usual: Tolerance | None) -> dict[str, Any]:
+def _written(table: Table, name: str, tolerance: Tolerance, usual: Tolerance | None) -> dict[str, Any]:
     row = table.by_name[name.partition("@")[0]]
     unit = difference_unit(row.unit if isinstance(row, Input) else "1")
-    size: dict[str, Any] = {"row": one.row} if one.row else {"plus_minus": _written_size(one, unit)}
-    size = {} if usual and one.source == usual.source else size
-    left = {} if one.adjusted_to is None else {"adjusted_to": exactly(one.adjusted_to, unit)}
-    return {**size, "distribution": one.distribution, "sigma": one.sigma, "adjustable": one.adjustable, **left}
+    size: dict[str, Any] = {"row": tolerance.row} if tolerance.row else {"plus_minus": _written_size(tolerance, unit)}
+    size = {} if usual and tolerance.source == usual.source else size
+    left = {} if tolerance.adjusted_to is None else {"adjusted_to": exactly(tolerance.adjusted_to, unit)}
+    return {
+        **size,
+        "distribution": tolerance.distribution,
+        "sigma": tolerance.sigma,
+        "adjustable": tolerance.adjustable,
+        **left,
+    }
 
 
-def _written_size(one: Tolerance, unit: str) -> str | None:
-    if one.share is not None:
-        return exactly(one.share, "percent").replace(" percent", " %")
-    return None if one.plus_minus is None else exactly(one.plus_minus, unit)
+def _written_size(tolerance: Tolerance, unit: str) -> str | None:
+    if tolerance.share is not None:
+        return exactly(tolerance.share, "percent").replace(" percent", " %")
+    return None if tolerance.plus_minus is None else exactly(tolerance.plus_minus, unit)
 
 
 def _write_robust(study: Study) -> dict[str, float]:

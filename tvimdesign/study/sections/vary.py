@@ -44,7 +44,7 @@ def _read(reading: Reading, node: Node | None) -> dict[str, Vary]:
 def _ranges(reading: Reading, node: Node | None) -> dict[str, Vary]:
     rows: dict[str, Input | Choice] = {row.name: row for row in reading.table.inputs if row.variable}
     rows |= {row.name: row for row in reading.table.choices}
-    found: dict[str, Vary] = {}
+    ranges: dict[str, Vary] = {}
     for name, (key, value) in entries(
         reading.problems, node, "vary", "names of variables, each with a range or list"
     ).items():
@@ -52,13 +52,13 @@ def _ranges(reading: Reading, node: Node | None) -> dict[str, Vary]:
         row = rows.get(name)
         if row is not None:
             read = _input(reading, value, path, row) if isinstance(row, Input) else _choice(reading, value, path, row)
-            found |= {} if read is None else {name: read}
+            ranges |= {} if read is None else {name: read}
         elif name in reading.table.by_name:
             message, hint = _fixed(reading, name)
             reading.problems.add(key, path, message, one_of(list(rows)), hint)
         else:
             reading.unknown_quantity(key, path, "variable", name, rows)
-    return found
+    return ranges
 
 
 def _fixed(reading: Reading, name: str) -> tuple[str, str]:
@@ -82,9 +82,9 @@ def _input(reading: Reading, node: Node, path: str, row: Input) -> Vary | None:
     steps = row.integer or "step" in node.entries
     span = ["from", "to", "step"] if steps else ["from", "to", "start"]
     known = {"choose": ["choose"], "catalog": ["catalog", "from", "to"]}.get(kinds[0] if kinds else "", span)
-    before = len(reading.problems.found)
+    before = len(reading.problems.items)
     parts = unknown_keys(reading.problems, node.entries, path, f"key beside {kinds[0]!r}" if kinds else "key", known)
-    if len(reading.problems.found) > before:
+    if len(reading.problems.items) > before:
         return None
     if "choose" in parts:
         return _listed(reading, parts["choose"], path, row)
@@ -105,8 +105,8 @@ def _forms(row: Input) -> str:
 
 def _pair(reading: Reading, node: Sequence, path: str, row: Input) -> Range | None:
     if len(node.items) != 2:
-        found = f"a list of {len(node.items)} does not fit here" if node.items else "the list is empty"
-        reading.problems.add(node, path, found, _forms(row), "write several values as {choose: [...]}")
+        message = f"a list of {len(node.items)} does not fit here" if node.items else "the list is empty"
+        reading.problems.add(node, path, message, _forms(row), "write several values as {choose: [...]}")
         return None
     lower, upper = (quantity(reading.problems, item, f"{path}[{i}]", row) for i, item in enumerate(node.items))
     return _checked(reading, node, path, row, (lower, upper, None))
@@ -172,9 +172,11 @@ def _checked(
         reading.problems.add(node, path, "counts whole things, which a range cannot hold", _forms(row))
     elif not below(lower, upper):
         low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
-        found = f"the range ends where it begins, at {low}" if math.isclose(lower, upper, rel_tol=ROUNDING) else ""
-        hint = "to fix it, set it under `module`" if found else "swap the two"
-        reading.problems.add(node, path, found or f"the range is upside down: from {low} to {high}", "from < to", hint)
+        message = f"the range ends where it begins, at {low}" if math.isclose(lower, upper, rel_tol=ROUNDING) else ""
+        hint = "to fix it, set it under `module`" if message else "swap the two"
+        reading.problems.add(
+            node, path, message or f"the range is upside down: from {low} to {high}", "from < to", hint
+        )
     elif start is not None and (below(start, lower) or below(upper, start)):
         low, high = format_quantity(lower, row.unit), format_quantity(upper, row.unit)
         shown = format_quantity(start, row.unit)
@@ -197,8 +199,8 @@ def _listed(reading: Reading, node: Node, path: str, row: Input | Choice) -> Opt
         misfit(reading.problems, node, path, "a list [..., ...]")
         return None
     if not 1 <= len(node.items) <= MOST_OPTIONS:
-        found = f"the list has {len(node.items)} values" if node.items else "the list is empty"
-        reading.problems.add(node, path, found, f"1 to {MOST_OPTIONS} values")
+        message = f"the list has {len(node.items)} values" if node.items else "the list is empty"
+        reading.problems.add(node, path, message, f"1 to {MOST_OPTIONS} values")
         return None
     values: list[float | str] = []
     for index, item in enumerate(node.items):
@@ -231,8 +233,8 @@ def _check_against_module(reading: Reading, vary: dict[str, Vary], module: dict[
             span = f"{format_quantity(low, row.unit)} to {format_quantity(high, row.unit)}"
         else:
             continue
-        found = f"{_shown(place)} lies outside what `vary` allows, where it would be the start"
-        reading.problems.add(place, step("module", name), found, span, "widen the range or change the value")
+        message = f"{_shown(place)} lies outside what `vary` allows, where it would be the start"
+        reading.problems.add(place, step("module", name), message, span, "widen the range or change the value")
 
 
 def _with_start(vary: dict[str, Vary], module: dict[str, float | str]) -> dict[str, Vary]:
@@ -289,11 +291,11 @@ def _read_sizes(reading: Reading, parts: dict[str, Node], path: str, row: Input)
 def _sizes(reading: Reading, node: Node, path: str, name: str, row: Input) -> list[float]:
     """Return every size the record lists, smallest first; none (and a problem) where it lists none."""
     category, of, column = row.sizes_in
-    found = record(reading, node, path, category, name)
-    if found is None:
+    sizes_record = record(reading, node, path, category, name)
+    if sizes_record is None:
         return []
     try:
-        table = found.table(of)
+        table = sizes_record.table(of)
     except CatalogError as error:
         reading.problems.add(node, path, str(error))
         return []

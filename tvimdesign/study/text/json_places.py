@@ -28,16 +28,16 @@ class JsonPlaces:
             return At(0, 0)
         place = value = self._past_space(0)
         for name in re.findall(r"[^.\[\]]+", path):
-            found = self._member(value, name)
-            if found is None:
+            member = self._member(value, name)
+            if member is None:
                 break
-            place, value = found
+            place, value = member
         return At(self._text.count("\n", 0, place) + 1, place - self._text.rfind("\n", 0, place))
 
     def _past_space(self, at: int) -> int:
-        found = _SPACE.match(self._text, at)
-        assert found is not None
-        return found.end()
+        space = _SPACE.match(self._text, at)
+        assert space is not None
+        return space.end()
 
     def _member(self, at: int, name: str) -> tuple[int, int] | None:
         """Where the key and the value of that name begin, or the item of that number twice; what is between is read
@@ -48,11 +48,11 @@ class JsonPlaces:
             return None
         number, at = 0, self._past_space(at + 1)
         while self._text[at] not in "}]":
-            key, said = at, str(number)
+            key, key_text = at, str(number)
             if opening == "{":
-                said, at = _DECODER.raw_decode(self._text, at)
+                key_text, at = _DECODER.raw_decode(self._text, at)
                 at = self._past_space(self._past_space(at) + 1)  # the colon
-            if said == name:
+            if key_text == name:
                 return (key, at)
             at = self._past_space(_DECODER.raw_decode(self._text, at)[1])
             if self._text[at] == ",":

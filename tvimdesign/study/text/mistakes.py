@@ -82,23 +82,23 @@ class Mistakes:
     """The list that grows while a study is read."""
 
     file: str
-    found: list[Mistake] = field(default_factory=list)
+    items: list[Mistake] = field(default_factory=list)
 
     def add(self, place: Place, path: str, message: str, expected: str = "", hint: str = "") -> None:
         """Note one problem."""
         one_line = "; ".join(message.splitlines())
-        self.found.append(Mistake(place.file or self.file, place.line, place.column, path, one_line, expected, hint))
+        self.items.append(Mistake(place.file or self.file, place.line, place.column, path, one_line, expected, hint))
 
     def unknown(self, place: Place, path: str, what: str, word: str, known: Iterable[str]) -> None:
         """Note a word that is none of the known ones, with the nearest of them."""
         names = list(known)
-        hint = did_you_mean(word, names) if len(self.found) < MOST_SHOWN else ""
+        hint = did_you_mean(word, names) if len(self.items) < MOST_SHOWN else ""
         self.add(place, path, f"no such {what}", one_of(names), hint)
 
     def stop(self) -> None:
         """Raise what was found, if anything was."""
-        if self.found:
-            raise StudyError(self.found)
+        if self.items:
+            raise StudyError(self.items)
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

@@ -61,8 +61,8 @@ def _scalar(value: Any, file: str, problems: Mistakes, path: str) -> Text | Brok
         return Text(0, 0, "", file=file)
     text = _text(value)
     if text is None:
-        found = f"a value of the type {type(value).__name__}"
-        problems.add(At(0, 0, file), path, f"{found} does not fit here", "text with a unit, or a number")
+        message = f"a value of the type {type(value).__name__}"
+        problems.add(At(0, 0, file), path, f"{message} does not fit here", "text with a unit, or a number")
     elif odd := CONTROL.search(text):
         problems.add(At(0, 0, file), path, f"control character U+{ord(odd[0]):04X} in {quoted(text)}", "plain text")
     else:

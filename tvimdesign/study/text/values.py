@@ -88,10 +88,10 @@ def misfit(problems: Mistakes, node: Node, path: str, expected: str) -> None:
     if isinstance(node, Broken):
         return
     if isinstance(node, Text):
-        found = "no value" if node.empty else f"the value {quoted(node.value)}"
+        what = "no value" if node.empty else f"the value {quoted(node.value)}"
     else:
-        found = "a list" if isinstance(node, Sequence) else "a mapping (name: value)"
-    problems.add(node, path, f"{found} does not fit here", expected)
+        what = "a list" if isinstance(node, Sequence) else "a mapping (name: value)"
+    problems.add(node, path, f"{what} does not fit here", expected)
 
 
 def text(problems: Mistakes, node: Node, path: str, expected: str) -> str | None:
@@ -100,8 +100,8 @@ def text(problems: Mistakes, node: Node, path: str, expected: str) -> str | None
         misfit(problems, node, path, expected)
         return None
     if len(node.value) > LONGEST_VALUE:
-        found = f"{quoted(node.value)} has {len(node.value)} characters, the limit is {LONGEST_VALUE}"
-        problems.add(node, path, found, expected)
+        message = f"{quoted(node.value)} has {len(node.value)} characters, the limit is {LONGEST_VALUE}"
+        problems.add(node, path, message, expected)
         return None
     return node.value.strip()
 
@@ -197,8 +197,8 @@ def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
     if word in row.options:
         return word
     if row.category:
-        found = record(reading, node, path, row.category, word)
-        return word if found else None
+        chosen_record = record(reading, node, path, row.category, word)
+        return word if chosen_record else None
     reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
     return None
 
@@ -234,10 +234,10 @@ def limits(row: Input) -> str:
 
 
 def unknown_keys(
-    problems: Mistakes, found: dict[str, tuple[Text, Node]], path: str, what: str, known: list[str]
+    problems: Mistakes, keys: dict[str, tuple[Text, Node]], path: str, what: str, known: list[str]
 ) -> dict[str, Node]:
     """Return the values of the known keys; every other key is a problem."""
-    for name, (key, _) in found.items():
+    for name, (key, _) in keys.items():
         if name not in known:
             problems.unknown(key, step(path, name), what, name, known)
-    return {name: value for name, (_, value) in found.items() if name in known}
+    return {name: value for name, (_, value) in keys.items() if name in known}

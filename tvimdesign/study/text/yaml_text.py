@@ -218,12 +218,12 @@ _REMEDIES = (
 def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes) -> None:
     """Note the parser's complaint at its place, with what usually helps."""
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    said = " ".join(str(part) for part in (getattr(error, "context", ""), getattr(error, "problem", "")) if part)
+    complaint = " ".join(str(part) for part in (getattr(error, "context", ""), getattr(error, "problem", "")) if part)
     place: Place = At(mark.line + 1, mark.column + 1) if mark else At(0, 0)
     lines = text.splitlines()
     line = lines[place.line - 1] if 0 < place.line <= len(lines) else ""
-    hint = next((remedy for sign, words, remedy in _REMEDIES if words in said and re.search(sign, line)), "")
-    problems.add(place, "", f"not valid YAML ({said or 'unreadable'})", hint=hint)
+    hint = next((remedy for sign, words, remedy in _REMEDIES if words in complaint and re.search(sign, line)), "")
+    problems.add(place, "", f"not valid YAML ({complaint or 'unreadable'})", hint=hint)
 
 
 # --- from nodes back to text ---
