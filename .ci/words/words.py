@@ -12,6 +12,7 @@ import argparse
 import ast
 import json
 import re
+import subprocess
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
@@ -131,6 +132,16 @@ def counts_of(files: Iterable[list[Find]]) -> dict[str, int]:
     return dict(sorted(Counter(find.kind for finds in files for find in finds).items()))
 
 
+def changed_files() -> set[Path]:
+    """Return the files that differ from the last commit, or else those of the last commit."""
+    for versions in (["HEAD"], ["HEAD~1", "HEAD"]):
+        command = ["git", "-C", str(ROOT), "diff", "--name-only", *versions]
+        names = subprocess.run(command, capture_output=True, text=True, check=False).stdout.split()
+        if names:
+            return {ROOT / name for name in names}
+    return set()
+
+
 def write_allowed(counts: dict[str, dict[str, int]]) -> None:
     """Write the allowances, without those of nothing."""
     lines = [f"{json.dumps(floor)}: {json.dumps(kinds)}" for floor, kinds in counts.items() if any(kinds.values())]
@@ -158,13 +169,13 @@ def main() -> int:
         return 0
     counts = {floor: counts_of(files.values()) for floor, files in finds.items()}
     allowed: dict[str, dict[str, int]] = json.loads(ALLOWED.read_text()) if ALLOWED.exists() else counts
-    failed = False
+    failed, changed = False, changed_files()
     for floor, of_floor in counts.items():
         limits = allowed.get(floor, {})
         more = {kind: count for kind, count in of_floor.items() if count > limits.get(kind, 0)}
         if more:
             failed = True
-            show(finds[floor], more)
+            show({path: of_file for path, of_file in finds[floor].items() if path in changed} or finds[floor], more)
             excess = ", ".join(f"{count} x {kind}, allowed {limits.get(kind, 0)}" for kind, count in more.items())
             print(f"{floor}: {excess}")
     if given.update or not ALLOWED.exists():
