@@ -1,4 +1,4 @@
-"""Makes the gallery from the study files: name, description, mode, picture and file of each."""
+"""Gallery page made from the study files: name, description, mode, picture and file of each."""
 
 from __future__ import annotations
 
@@ -8,25 +8,23 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 REPORTS = ROOT / "results"
-"""Where runs have left their reports: one folder for each study."""
+"""Folder of the runs, one a study."""
 
 
 def reports() -> dict[str, Path]:
-    """Reports of the shipped studies that runs have left, by study; front and comparison included."""
+    """Return the reports of shipped studies that exist, by study."""
     names = (path.stem for path in sorted((ROOT / "studies").glob("*.yaml")))
-    found = {name: REPORTS / name / "report.html" for name in names}
-    return {name: path for name, path in found.items() if path.exists()}
+    paths = {name: REPORTS / name / "report.html" for name in names}
+    return {name: path for name, path in paths.items() if path.exists()}
 
 
 def gallery_page() -> str:
-    """The gallery as Markdown. Raises FileNotFoundError where a study has no picture."""
+    """Return the gallery as Markdown; raise FileNotFoundError if a study has no picture."""
     parts = [
         "# Gallery of the studies",
         "",
-        "Every file in `studies/` runs as it is: `tvimdesign run studies/NAME.yaml`. The code makes the pictures,",
-        "of the module a run comes to: on the left whole, on the right opened. `make pictures` makes them again.",
-        "The README's table has sizes and times. A link to a report stands here where this site was built with reports",
-        "(`make gallery`). A report carries the files of its parts.",
+        "Run a study with `tvimdesign run studies/NAME.yaml`. The pictures (`make pictures`) show the result of a run,",
+        "whole and opened. The README's table has sizes and times. `make gallery` adds reports with their parts.",
         "",
     ]  # fmt: skip
     for path in sorted((ROOT / "studies").glob("*.yaml")):

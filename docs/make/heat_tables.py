@@ -1,9 +1,9 @@
-"""Writes what docs/theory/heat.md tells of validation/heat_sector: its two tables and its counts, from the results.
+"""Writer of the tables and counts in docs/theory/heat.md from the results of validation/heat_sector.
 
     python docs/make/heat_tables.py
 
-reads results.csv and fresh.csv, which `compare.py` and `fresh.py` there write, and replaces the tables and counts in
-the page; the words around them stay.
+reads results.csv and fresh.csv, which `compare.py` and `fresh.py` there write, and replaces tables and counts in the
+page.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ PAGE = ROOT / "docs" / "theory" / "heat.md"
 TIMES = ("softening_time", "mean_time", "far_face_time")
 MODES = ("shear", "compression")
 MOST = 3.0
-"""What a time may differ by before the page names it [%]."""
+"""Difference of a time above which the page lists it [%]."""
 
 Row = dict[str, str]
 
 
 def rows(name: str) -> list[Row]:
-    """Rows of a table of validation/heat_sector."""
+    """Read the rows of a table of validation/heat_sector."""
     with (ROOT / "validation" / "heat_sector" / f"{name}.csv").open(encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
 def mode_of(row: Row) -> str:
-    """Mode of a row's study."""
+    """Return the mode of a row's study."""
     return _mode(row["study"])
 
 
@@ -43,40 +43,40 @@ def _mode(study: str) -> str:
 
 
 def difference(row: Row) -> float:
-    """Of the product's time [%]."""
+    """Return the difference of the product's time [%]."""
     return float(row["difference [%]"])
 
 
 def signed(number: float) -> str:
-    """A number with one digit and its sign, as the page writes it."""
+    """Format a number with its sign and one decimal."""
     return f"{number:+.1f}".replace("-", "−")
 
 
-def ranges(found: list[Row]) -> str:
-    """Least and largest difference of each time in each mode."""
+def ranges(table: list[Row]) -> str:
+    """Return the table of the least and largest difference of each time in each mode."""
     lines = ["| time, mode | difference of the product [%], least and largest |", "|---|---|"]
     for mode in MODES:
         for time in TIMES:
-            own = [difference(row) for row in found if row["time"] == time and mode_of(row) == mode]
-            reached = [one for one in own if math.isfinite(one)]
+            own = [difference(row) for row in table if row["time"] == time and mode_of(row) == mode]
+            reached = [value for value in own if math.isfinite(value)]
             lines.append(f"| `{time}`, {mode} | {signed(min(reached))} to {signed(max(reached))} |")
     return "\n".join(lines)
 
 
-def counts(found: list[Row]) -> str:
-    """How many times of each mode are within the limit; a joint that neither softens is no time."""
-    told = []
+def counts(table: list[Row]) -> str:
+    """Return the sentence that counts times within the limit; a joint that neither softens is no time."""
+    within = []
     for mode in MODES:
-        own = [abs(difference(row)) for row in found if mode_of(row) == mode and row["product [s]"] != "inf"]
-        told.append((sum(one <= MOST for one in own), len(own)))
-    (shear, of_shear), (compression, of_compression) = told
+        own = [abs(difference(row)) for row in table if mode_of(row) == mode and row["product [s]"] != "inf"]
+        within.append((sum(value <= MOST for value in own), len(own)))
+    (shear, of_shear), (compression, of_compression) = within
     return f"{shear} of {of_shear} times in shear and {compression} of {of_compression} in compression are within 3 %."
 
 
-def beyond(found: list[Row]) -> str:
-    """The times beyond the limit, with how nearly they stall and how many kelvins the product is off."""
+def beyond(table: list[Row]) -> str:
+    """Return the table of times beyond the limit, with their sensitivity and the product's error in kelvins."""
     lines = ["| study, design | time | difference [%] | time over rise | warmer by [K] |", "|---|---|---|---|---|"]
-    for row in found:
+    for row in table:
         if abs(difference(row)) > MOST:
             cells = (f"`{row['study']}`, {row['design']}", f"`{row['time']}`", signed(difference(row)),
                      f"{float(row['time over rise']):.1f}", signed(float(row["warmer by [K]"])))  # fmt: skip
@@ -84,14 +84,14 @@ def beyond(found: list[Row]) -> str:
     return "\n".join(lines)
 
 
-def fresh(found: list[Row]) -> str:
-    """How many times of the random designs are within the limit."""
-    within = sum(abs(difference(row)) <= MOST for row in found)
-    return f"{within} of its {len(found)} times are within 3 %"
+def fresh(table: list[Row]) -> str:
+    """Return the words that count times of random designs within the limit."""
+    within = sum(abs(difference(row)) <= MOST for row in table)
+    return f"{within} of its {len(table)} times are within 3 %"
 
 
 def written(page: str, results: list[Row], drawn: list[Row]) -> str:
-    """The page with the tables and counts of these results. Raises ValueError where it has no place for one."""
+    """Return the page with the tables and counts of these results; raise ValueError if a place is missing."""
     table = r"\| {} \|[^\n]*\n\|---[^\n]*(\n\|[^\n]*)*"
     places = (
         (table.format("time, mode"), ranges(results)),
@@ -107,5 +107,5 @@ def written(page: str, results: list[Row], drawn: list[Row]) -> str:
 
 
 if __name__ == "__main__":
-    told = written(PAGE.read_text(encoding="utf-8"), rows("results"), rows("fresh"))
-    PAGE.write_text(told, encoding="utf-8")
+    page = written(PAGE.read_text(encoding="utf-8"), rows("results"), rows("fresh"))
+    PAGE.write_text(page, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Draws the labelled plans in docs/pictures: cut through the PCL, with what is measured around the axis."""
+"""Labelled plans in docs/pictures: cuts through the PCL, with dimensions around the axis."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def _label_compression(axes: Axes, dims: Dimensions) -> None:
 
 
 def _around(axes: Axes, radius: float, angles: tuple[float, float], name: str, at: Sequence[float]) -> None:
-    """An arc between two azimuths [rad], and a line from its middle to its name."""
+    """Draw an arc between two azimuths [rad], and a line from its middle to its name."""
     points = [(radius * cos(angle), radius * sin(angle)) for angle in np.linspace(*angles, 40)]
     axes.plot(*zip(*points, strict=True), color="#2c6b2f", linewidth=1.6)
     for end in (points[0], points[-1]):
@@ -76,7 +76,7 @@ def _around(axes: Axes, radius: float, angles: tuple[float, float], name: str, a
 def _radii(
     axes: Axes, dims: Dimensions, names: Sequence[str], left: float, top: float, azimuth: float | None = None
 ) -> None:
-    """Arrows from the axis to radii, the names in a column; without an azimuth [rad] they fan out to the left."""
+    """Draw arrows from the axis to radii, names in a column; without an azimuth [rad] they fan out to the left."""
     for index, name in enumerate(names):
         radius, angle = getattr(dims, name), 1.52 + 0.14 * index if azimuth is None else azimuth
         tip = (radius * cos(angle), radius * sin(angle))

@@ -1,4 +1,4 @@
-"""Makes the reference: the sections of a study, and every quantity of both modes by group, with unit and source."""
+"""Reference pages: the sections of a study, and every quantity of both modes by group, with unit and source."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ ABOUT = {
     "Size and weight": "Volumes, masses and inertias of the parts.",
     "Gaps": "Distances that must not vanish, and the rules that hold them.",
 }
-"""What each group of quantities is about, in the order in which a reader meets them."""
+"""Subject of each group of quantities, in the order of the pages."""
 _WIDE = "---\nhide: [toc]\n---\n"
-"""Leaves the width of the table of contents to the page."""
+"""Front matter that hides the table of contents."""
 
 
 def reference_pages() -> dict[str, str]:
@@ -96,7 +96,7 @@ def _page(group: str, entries: Iterable[tuple[Quantity, list[str]]]) -> str:
 
 
 def _cells(quantity: Quantity, modes: list[str]) -> list[str]:
-    """Name, kind, unit, default, allowed values, meaning and source of a quantity, as cells of a table."""
+    """Return name, kind, unit, default, allowed values, meaning and source of a quantity as cells of a table."""
     point = "@point" if getattr(quantity, "per_point", False) else ""
     name = f'<span id="{quantity.name}"></span>`{quantity.name}{point}`'
     meaning = quantity.description + ("" if len(modes) == len(MODES) else f" ({modes[0]} mode only)")
@@ -118,7 +118,7 @@ def _cells(quantity: Quantity, modes: list[str]) -> list[str]:
 
 
 def _known(quantity: Input) -> str:
-    """How well a default is known that nobody has measured."""
+    """Return the status and range of an unmeasured default."""
     if quantity.low is None or quantity.high is None:
         return ""
     low, high = (_number(end, quantity.unit) for end in (quantity.low, quantity.high))
@@ -137,7 +137,7 @@ def _number(value: float, unit: str) -> str:
 
 
 def _text(text: str) -> str:
-    """Text as it may stand in a cell of a Markdown table."""
+    """Escape text for a cell of a Markdown table."""
     return text.replace("|", "\\|").replace("<", "&lt;").replace("\n", " ").replace("$", "\\$")
 
 

@@ -1,4 +1,4 @@
-"""Makes docs/pictures/report.png and explorer.png: what a browser shows of a run's page and of its explorer.
+"""Screenshots for docs/pictures/report.png and explorer.png: a run's page and its explorer.
 
     python docs/make/screenshots.py [RUN]
 
@@ -28,7 +28,7 @@ PATIENCE = 180_000
 
 
 def main() -> None:
-    """Take both. Raises FileNotFoundError where there is no run, or no browser."""
+    """Take both; raise FileNotFoundError without a run or a browser."""
     run = Path(sys.argv[1]) if sys.argv[1:] else ROOT / "results/paper_shear"
     browser_path = shutil.which("chromium") or shutil.which("google-chrome")
     if browser_path is None or not (run / "report.html").exists():
@@ -43,7 +43,7 @@ def main() -> None:
 
 
 def report(browser: Browser, run: Path) -> None:
-    """The assembly of a report, taken apart a little, with its parts beside it."""
+    """Take the assembly of a report, exploded a little, with its parts beside it."""
     page = _page(browser, (run / "report.html").resolve().as_uri())
     figure = page.locator("#figure-solids")
     figure.scroll_into_view_if_needed()
@@ -55,7 +55,7 @@ def report(browser: Browser, run: Path) -> None:
 
 
 def explorer(browser: Browser, run: Path) -> None:
-    """The explorer at the optimum, its draft beside the controls."""
+    """Take the explorer at the optimum, its draft beside the controls."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "tvimdesign", "explore", str(run), "--out", f"{folder}/out", "--no-open"]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)

@@ -1,4 +1,4 @@
-"""Draws the labelled sections in docs/pictures from the parts: every radius, level and height by its name."""
+"""Labelled sections in docs/pictures, drawn from the parts: every radius, level and height by its name."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _COLOURS = {"radii": "#1f4e9c", "levels": "#a3301f", "heights": "#2c6b2f"}
 
 
 def start(study: str) -> Dimensions:
-    """Dimensions of a study's module as the study starts, in mm."""
+    """Return the dimensions of a study's module at the study's start, in mm."""
     name, more = VARIANTS.get(study, (study, {}))
     read = read_study(ROOT / f"studies/{name}.yaml")
     read = read.model_copy(update={"module": {**read.module, **more}})
@@ -55,7 +55,7 @@ def start(study: str) -> Dimensions:
 
 
 def to_label(dims: Dimensions) -> list[str]:
-    """The radii, levels, heights and thicknesses that a module has, by name."""
+    """Return the radii, levels, heights and thicknesses of a module, by name."""
     table = table_for(dims.mode)
     lengths = [q.name for q in table.quantities if not isinstance(q, Choice) and q.unit == "mm"]
     names = [name for name in lengths if LENGTHS.search(name)]
@@ -64,13 +64,13 @@ def to_label(dims: Dimensions) -> list[str]:
 
 
 def _unused(dims: Dimensions) -> set[str]:
-    """Inputs that count only with something the module lacks."""
+    """Return the inputs that count only with something the module lacks."""
     inputs = table_for(dims.mode).inputs
     return {q.name for q in inputs if any(_lacks(dims, feature.choice) for feature in q.requires)}
 
 
 def _lacks(dims: Dimensions, choice: str) -> bool:
-    """Whether a module lacks what a choice would give it, by a dimension that is zero without it."""
+    """Return True if a module lacks a choice's part, by a dimension that is zero without it."""
     sign = {"motor": "drive_height", "cover": "cover_height", "preload_adjuster": "adjuster_radius",
             "sensor_flange": "flange_outer_radius", "encoder": "encoder_board_radius",
             "axial_preload": "preload_height"}  # fmt: skip
@@ -78,7 +78,7 @@ def _lacks(dims: Dimensions, choice: str) -> bool:
 
 
 def labelled(dims: Dimensions) -> dict[str, list[str]]:
-    """Which names of each list of `LABELS` are drawn for a module."""
+    """Return the names of each list of `LABELS` that are drawn for a module."""
     unused = _unused(dims)
     return {
         kind: [name for name, how in entries.items() if name not in unused and _is_drawn(dims, name, how)]
@@ -94,7 +94,7 @@ def _is_drawn(dims: Dimensions, name: str, how: Any) -> bool:
 
 
 def total(dims: Dimensions, text: Any) -> float:
-    """A sum such as `placement_radius - post_radius` or `0.5 rim_level` in mm."""
+    """Evaluate a sum such as `placement_radius - post_radius` or `0.5 rim_level` in mm."""
     value = 0.0
     for sign, factor, name in re.findall(r"([+-]?)\s*(\d*\.?\d*)\s*([a-z_]*)", str(text)):
         if factor or name:
@@ -107,7 +107,7 @@ def total(dims: Dimensions, text: Any) -> float:
 
 
 def cut_faces(solid: cq.Shape, plane: cq.Face, flat: Sequence[int]) -> list[Outline]:
-    """What a solid shows in a plane, as outlines in two of the three coordinates."""
+    """Cut a solid by a plane; return outlines in two of the three coordinates."""
     return [
         Outline.make_compound_path(
             _wound(_outline(face.outerWire(), flat), 1.0), *(_wound(_outline(w, flat), -1.0) for w in face.innerWires())
@@ -117,14 +117,14 @@ def cut_faces(solid: cq.Shape, plane: cq.Face, flat: Sequence[int]) -> list[Outl
 
 
 def _wound(outline: Outline, sense: float) -> Outline:
-    """An outline that runs counter-clockwise (1) or clockwise (-1), so that holes stay empty."""
+    """Orient an outline counter-clockwise (1) or clockwise (-1), so that holes stay empty."""
     x, y = outline.vertices.T
     area = 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
     return Outline(outline.vertices[:: 1 if area * sense > 0 else -1])
 
 
 def _outline(wire: cq.Wire, flat: Sequence[int]) -> Outline:
-    """A wire as points; its edges come in order, each in its own sense."""
+    """Return a wire as points; its edges come in order, each in its own sense."""
     first, *others = [_sampled(edge) for edge in wire]
     if others and min(dist(first[0], end) for end in (others[0][0], others[0][-1])) < 1e-6:
         first.reverse()
@@ -140,7 +140,7 @@ def _sampled(edge: cq.Edge) -> list[tuple[float, ...]]:
 
 
 def half_section(placed: Mapping[str, cq.Shape], azimuth: float, size: float) -> dict[str, list[Outline]]:
-    """Outlines of all parts in the half plane at an azimuth [rad], radius to the right and level upwards, by name."""
+    """Return outlines of all parts in the half plane at an azimuth [rad], by name: radius right, level up."""
     plane = cq.Face.makePlane(size, 2.0 * size, cq.Vector(0.5 * size, 0.0, 0.0), cq.Vector(0.0, 1.0, 0.0))
     found: dict[str, list[Outline]] = {}
     for name, shape in placed.items():
@@ -174,7 +174,7 @@ def draw(study: str, path: Path) -> None:
 
 
 def _sheet(dims: Dimensions) -> tuple[Figure, Axes]:
-    """A sheet with room for the labels; one unit is a millimetre of the module."""
+    """Make a sheet with room for the labels; a unit is a millimetre of the module."""
     bottom, top = _bounds(dims)
     outside = max(dims.housing_outer_radius, dims.by_name.get("motor_outer_radius", 0.0))
     width, height = 2.0 * (outside + 43.0), top - bottom + 72.0
@@ -191,7 +191,7 @@ def _bounds(dims: Dimensions) -> tuple[float, float]:
 
 
 def _label_radii(axes: Axes, dims: Dimensions) -> None:
-    """Names of radii, upright, above and below the section; a line leads from the dot to the name."""
+    """Write names of radii, upright, above and below the section, with a line from dot to name."""
     bottom, top = _bounds(dims)
     for side, edge in (("above", top + 3.0), ("below", bottom - 4.0)):
         marks = []
@@ -217,7 +217,7 @@ def _label_radii(axes: Axes, dims: Dimensions) -> None:
 
 
 def _label_sides(axes: Axes, dims: Dimensions) -> None:
-    """Names of levels and heights beside the section; an arrow spans what a height measures."""
+    """Write names of levels and heights beside the section; an arrow spans a height."""
     chosen = labelled(dims)
     outside = max(dims.housing_outer_radius, dims.by_name.get("motor_outer_radius", 0.0)) + 5.0
     for half, sign in _SIGN.items():
@@ -243,7 +243,7 @@ def _label_sides(axes: Axes, dims: Dimensions) -> None:
 
 
 def _arrow(axes: Axes, start_at: tuple[float, float], end_at: tuple[float, float]) -> None:
-    """An arrow with two heads, which spans a thickness."""
+    """Draw an arrow with two heads that spans a thickness."""
     style = {"arrowstyle": "<->", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 5}
     axes.annotate("", start_at, end_at, arrowprops={"color": _COLOURS["heights"], **style})
 
@@ -253,7 +253,7 @@ def _text(dims: Dimensions, name: str) -> str:
 
 
 def _spread(marks: Iterable[tuple[float, float, str]], axis: int) -> list[tuple[tuple[float, float, str], float]]:
-    """Each mark with a place for its label: in order, close to the mark, and no closer than `_SPACING`."""
+    """Place each mark's label: in order, close to the mark, and no closer than `_SPACING`."""
     ordered = sorted(marks, key=lambda mark: mark[axis])
     places = [mark[axis] for mark in ordered]
     for _ in range(200):
@@ -270,7 +270,7 @@ def _spread(marks: Iterable[tuple[float, float, str]], axis: int) -> list[tuple[
 
 
 def missing(study: str) -> list[str]:
-    """Radii, levels and heights of a study's module that no label shows and no reason excuses."""
+    """Return radii, levels and heights of a study's module that no label shows and no reason excuses."""
     dims = start(study)
     shown = labelled(dims)
     known = {*shown["radii"], *shown["levels"], *shown["heights"], *shown["widths"], *LABELS["elsewhere"]}

@@ -1,4 +1,4 @@
-"""What MkDocs calls to build the site: reference and gallery, files that pages link to, equations as MathML."""
+"""Hooks of MkDocs: reference and gallery, files that pages link to, equations as MathML."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def on_page_content(html: str, **_: object) -> str:
 
 
 def _outside(page: str, target: str) -> str | None:
-    """The path of a link's target in the repository, where that is not in docs/; None where it is."""
+    """Return the path of a link's target in the repository, or None if it is in docs/."""
     path = posixpath.normpath(posixpath.join("docs", posixpath.dirname(page), target))
     return None if path.startswith("docs/") else path
 

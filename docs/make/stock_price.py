@@ -1,4 +1,4 @@
-"""Runs what docs/stock-price.md compares, and writes its tables: ideal modules against those one can order.
+"""Runs and tables of docs/stock-price.md: ideal modules beside those one can order.
 
     python docs/make/stock_price.py [--only CASE] [--step NAME] [--runs FOLDER] [--table]
 
@@ -37,13 +37,13 @@ Figures = dict[tuple[str, str], dict[str, float | str]]
 
 
 def cases() -> dict[str, dict[str, Any]]:
-    """Studies and their steps, as the data file has them."""
+    """Read the studies and their steps."""
     loaded: dict[str, dict[str, Any]] = yaml.safe_load((HERE / "stock_price.yaml").read_text(encoding="utf-8"))
     return loaded
 
 
 def study_of(case: str, step: int) -> dict[str, Any]:
-    """The shipped study with the changes of a step and of those after it; a step's own come last."""
+    """Return the shipped study with the changes of a step and of those after it; a step's own come last."""
     study: dict[str, Any] = yaml.safe_load((ROOT / "studies" / f"{case}.yaml").read_text(encoding="utf-8"))
     for one in reversed(cases()[case]["steps"][step:]):
         for path, value in one["changes"].items():
@@ -59,7 +59,7 @@ def study_of(case: str, step: int) -> dict[str, Any]:
 
 
 def run(study: Mapping[str, Any]) -> dict[str, float | str]:
-    """Status and outputs (SI) of a study's optimum; raises RuntimeError where the run has none."""
+    """Return status and outputs (SI) of a study's optimum; raise RuntimeError if the run has none."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "study.yaml")
         path.write_text(yaml.safe_dump(dict(study), allow_unicode=True, sort_keys=False), encoding="utf-8")
@@ -74,13 +74,13 @@ def run(study: Mapping[str, Any]) -> dict[str, float | str]:
 
 
 def figures_of(design: Path) -> dict[str, float | str]:
-    """Status and outputs (SI) of a design."""
+    """Return status and outputs (SI) of a design."""
     answer = json.loads(design.read_text(encoding="utf-8"))
     return {"status": answer["status"]} | {name: answer["values"].get(name, float("nan")) for name in OUTPUTS}
 
 
 def read_figures() -> Figures:
-    """Figures of the last runs, by case and step."""
+    """Read the figures of the last runs, by case and step."""
     if not FIGURES.exists():
         return {}
     with FIGURES.open(encoding="utf-8") as file:
@@ -104,7 +104,7 @@ def write_figures(figures: Figures) -> None:
 
 
 def tables(figures: Figures) -> Iterator[str]:
-    """A table for each case: a row a step, and what the last costs over the first."""
+    """Yield a table for each case: a row a step, and the ratio of the last to the first."""
     heads = " | ".join(f"{word} [{unit}]" for unit, _, word in OUTPUTS.values())
     for case, about in cases().items():
         steps = [step["name"] for step in about["steps"]]
@@ -133,7 +133,7 @@ def write_page(figures: Figures) -> None:
 
 
 def _found(case: str, step: int, runs: Path | None) -> dict[str, float | str]:
-    """Figures of a step: of a run that is there, of a shipped study, else of one made now."""
+    """Return the figures of a step, from an existing run, a shipped study or a new run."""
     there = runs / case / "design.json" if runs else None
     if there and there.exists() and step == len(cases()[case]["steps"]) - 1:
         return figures_of(there)
@@ -141,7 +141,7 @@ def _found(case: str, step: int, runs: Path | None) -> dict[str, float | str]:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run what is asked for and write figures and page; returns the exit code."""
+    """Run the requested cases and write figures and page; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", help="one case")
     parser.add_argument("--step", help="one step")

@@ -1,4 +1,4 @@
-"""Makes the small pictures of the studies in docs/pictures/studies from the previews that runs have left."""
+"""Small pictures of the studies in docs/pictures/studies, made from previews of runs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 _BLANK = 6
-"""Rows without anything from which on what follows is no more of the views: the legend, which has a row or several."""
+"""Blank rows that separate the views from the legend."""
 _WIDTH = 460
 _COLOURS = 48
 
@@ -28,9 +28,9 @@ def small(preview: Path, picture: Path) -> None:
 
 
 def views_between(grey: NDArray[np.uint8]) -> tuple[int, int]:
-    """The rows between which the two views are: from the first that has something to where several have nothing.
+    """Return the rows between which the two views are: from the first drawn one to several blank ones.
 
-    Raises ValueError where nothing is drawn.
+    Raise ValueError if nothing is drawn.
     """
     drawn = (grey < 250).any(axis=1)
     if not drawn.any():
@@ -41,7 +41,7 @@ def views_between(grey: NDArray[np.uint8]) -> tuple[int, int]:
 
 
 def main() -> None:
-    """Make the pictures of all studies from a folder of runs; says which study has no preview there."""
+    """Make the pictures of all studies from a folder of runs; name studies without a preview."""
     runs = Path(sys.argv[1]) if sys.argv[1:] else ROOT / "results"
     without = []
     for study in sorted((ROOT / "studies").glob("*.yaml")):
