@@ -9,7 +9,7 @@ import numpy as np
 
 from comparisons.bare_stack import COLD, FIXED, bare_stack, integrate
 from comparisons.numbers import Array, si
-from tvimdesign.physics.heat_flow import electrodes, heat, held_plate, lumps, spreader
+from tvimdesign.physics.heat_flow import heat, held_plate, lumps, peltier, shape_factors
 from tvimdesign.physics.polymers import polymer
 
 Found = Mapping[str, Any]
@@ -121,7 +121,7 @@ def spread_plate(inputs: Found) -> Found:
     fed, thickness, k = inputs["fed"], inputs["thickness"], inputs["conductivity"]
     return {
         "resistance": [
-            spreader.spreading_resistance(fed + beside, fed, 1.0, k, thickness) + thickness / k
+            peltier.spreading_resistance(fed + beside, fed, 1.0, k, thickness) + thickness / k
             for beside in inputs["beside"]
         ]
     }
@@ -185,5 +185,5 @@ def layer_over_a_comb(inputs: Found) -> Found:
     """Resistance [ohm] of a layer between the fingers of a comb, over rows of gap and width in depths."""
     depth, area, r = 1e-3, 1e-3, inputs["resistivity"]
     return {
-        "resistance": [electrodes.comb_resistance(r, depth, area, g * depth, w * depth) for g, w in inputs["combs"]]
+        "resistance": [shape_factors.comb_resistance(r, depth, area, g * depth, w * depth) for g, w in inputs["combs"]]
     }

@@ -10,7 +10,7 @@ import numpy as np
 from comparisons.numbers import si
 from tvimdesign.physics.layers import block, hold, layer, shear_lag
 from tvimdesign.physics.motions import motion
-from tvimdesign.physics.polymers import creep, melt_flow, shrinkage
+from tvimdesign.physics.polymers import creep, melt, shrinkage
 from tvimdesign.physics.solids import structure
 
 Found = Mapping[str, Any]
@@ -76,10 +76,10 @@ def melt_in_gaps(inputs: Found) -> Found:
     """Mean speed in a gap [m/s], time to squeeze a strip [s], height a wetting liquid rises between plates [m]."""
     gap, viscosity = si(inputs["gap"]), inputs["viscosity"]
     length, width, thin, thick = (si(inputs[name]) for name in ("length", "width", "thin", "thick"))
-    held = melt_flow.meniscus_pressure(inputs["surface_tension"], gap)
+    held = melt.meniscus_pressure(inputs["surface_tension"], gap)
     return {
-        "speed": melt_flow.gap_speed(inputs["gradient"], gap, viscosity),
-        "squeeze_time": melt_flow.squeeze_time(inputs["force"], viscosity, length, width, thin, thick),
+        "speed": melt.gap_speed(inputs["gradient"], gap, viscosity),
+        "squeeze_time": melt.squeeze_time(inputs["force"], viscosity, length, width, thin, thick),
         "rise": held / (inputs["liquid_density"] * 9.80665),
     }
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from comparisons.numbers import Array
-from tvimdesign.physics.motions import dynamics, motion
+from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.course import Plant
 
@@ -34,9 +34,9 @@ def natural_motion(inputs: Found) -> Found:
     joint = _joint(inputs)
     ringing = link.swings(joint, _NOTHING, 0.1, np.zeros(1)).ringing()
     return {
-        "frequency": dynamics.natural_frequency(joint.spring_stiffness, joint.inertia),
+        "frequency": motion.natural_frequency(joint.spring_stiffness, joint.inertia),
         "seen": ringing[0],
-        "critical_damping": dynamics.critical_damping(joint.spring_stiffness, joint.inertia),
+        "critical_damping": motion.critical_damping(joint.spring_stiffness, joint.inertia),
     }
 
 

@@ -8,8 +8,8 @@ from typing import Any
 from comparisons.numbers import si
 from tvimdesign.cad.drawing.iso_286 import limit_deviations, standard_tolerance
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.motions import friction
-from tvimdesign.physics.solids import peg, structure
+from tvimdesign.physics.motions import contacts
+from tvimdesign.physics.solids import fasteners, structure
 
 Found = Mapping[str, Any]
 
@@ -35,7 +35,7 @@ def tightening(inputs: Found) -> Found:
     """Torque for a force [m] of screws by a nut factor."""
     return {
         "torque_per_force": [
-            friction.tightening_torque(1.0, si(diameter), inputs["nut_factor"]) for diameter in inputs["diameter"]
+            contacts.tightening_torque(1.0, si(diameter), inputs["nut_factor"]) for diameter in inputs["diameter"]
         ]
     }
 
@@ -45,7 +45,7 @@ def pin_shear(inputs: Found) -> Found:
     found = []
     for name in inputs["pins"]:
         record = Catalog().record("dowel_pins", name)
-        found.append(peg.shear_force(record.value("shear_strength"), record.value("diameter")))
+        found.append(fasteners.peg_shear_force(record.value("shear_strength"), record.value("diameter")))
     return {"shear_force": found}
 
 
@@ -53,13 +53,13 @@ def clamped_disc(inputs: Found) -> Found:
     """Friction torque [N*m] of clamped rings over the inner radius."""
     outer = si(inputs["outer_radius"])
     share, force = inputs["friction"], si(inputs["force"])
-    return {"torque": [friction.disc_torque(share, force, si(inner), outer) for inner in inputs["inner_radius"]]}
+    return {"torque": [contacts.disc_torque(share, force, si(inner), outer) for inner in inputs["inner_radius"]]}
 
 
 def bearing(inputs: Found) -> Found:
     """Friction torque [N*m] of a ball bearing, and load on the nearer of two of an overhung force."""
     return {
-        "torque": friction.journal_torque(inputs["friction"], si(inputs["force"]), si(inputs["bore"])),
+        "torque": contacts.journal_torque(inputs["friction"], si(inputs["force"]), si(inputs["bore"])),
         "nearer": structure.overhung_load(si(inputs["force"]), si(inputs["overhang"]), si(inputs["spread"])),
     }
 
@@ -69,9 +69,9 @@ def damping_of_friction(inputs: Found) -> Found:
     omega, amplitude = inputs["angular_frequency"], inputs["amplitude"]
     stiffness = inputs["stiffness"]
     return {
-        "constant": friction.equivalent_damping(inputs["torque"], omega, amplitude),
+        "constant": contacts.equivalent_damping(inputs["torque"], omega, amplitude),
         "with_the_load": [
-            friction.loaded_damping(inputs["share"], stiffness, stiffness * tangent, omega)
+            contacts.loaded_damping(inputs["share"], stiffness, stiffness * tangent, omega)
             for tangent in inputs["loss_factor"]
         ],
     }

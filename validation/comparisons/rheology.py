@@ -14,7 +14,7 @@ from comparisons.numbers import Array
 from tvimdesign.catalog import Catalog
 from tvimdesign.device.core.impedance.joint_impedance import solid_modes
 from tvimdesign.physics.motions import laplace
-from tvimdesign.physics.polymers import glass, large_strain, polymer, viscoelasticity
+from tvimdesign.physics.polymers import glass, melt, polymer, viscoelasticity
 from tvimdesign.physics.solids import structure
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
 
@@ -73,7 +73,7 @@ def large_oscillation(inputs: Found) -> Found:
     """First-harmonic moduli [Pa] by Wagner's equation over the strain's amplitude."""
     modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
     limit, omega = inputs["linear_limit"], inputs["frequency"]
-    moduli = [large_strain.wagner_moduli(strain, omega, modes, limit) for strain in inputs["strain"]]
+    moduli = [melt.wagner_moduli(strain, omega, modes, limit) for strain in inputs["strain"]]
     return {"storage": [one[0] for one in moduli], "loss": [one[1] for one in moduli]}
 
 

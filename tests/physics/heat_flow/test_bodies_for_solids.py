@@ -7,13 +7,13 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from tvimdesign.physics.heat_flow import lumps, shape_factors, strip
+from tvimdesign.physics.heat_flow import lumps, shape_factors
 
 
 @pytest.mark.parametrize("over", [0.01, 0.03, 0.1, 0.3, 1.0, 3.0])
 def test_a_strip_in_three_bodies_takes_as_much_from_an_edge_that_warms_up_as_the_series_says(over: float) -> None:
     # Carslaw and Jaeger, ch. III: a slab, one face at the rate of one, the other insulated; all of it of one.
-    bodies = strip.bodies(1.0, 1.0, 1.0, lumps.NOWHERE)
+    bodies = lumps.strip_bodies(1.0, 1.0, 1.0, lumps.NOWHERE)
     size = len(bodies)
     system = np.zeros((size + 2, size + 2))
     for i, body in enumerate(bodies):
@@ -32,9 +32,9 @@ def test_a_strip_in_three_bodies_takes_as_much_from_an_edge_that_warms_up_as_the
 
 
 def test_a_strip_conducts_across_its_whole_width_as_it_is_long() -> None:
-    ways = sum(1.0 / body.conductance for body in strip.bodies(2.0, 3.0, 5.0, lumps.NOWHERE))
-    assert ways + strip.BEYOND / 5.0 == pytest.approx(1.0 / 5.0, rel=1e-12)
-    assert sum(strip.STRIP) == pytest.approx(1.0, rel=1e-12)
+    ways = sum(1.0 / body.conductance for body in lumps.strip_bodies(2.0, 3.0, 5.0, lumps.NOWHERE))
+    assert ways + lumps.BEYOND / 5.0 == pytest.approx(1.0 / 5.0, rel=1e-12)
+    assert sum(lumps.STRIP) == pytest.approx(1.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("slenderness", [0.05, 0.7, 1.5, 4.0])

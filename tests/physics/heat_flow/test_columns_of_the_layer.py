@@ -10,7 +10,7 @@ from scipy.integrate import solve_bvp
 from scipy.sparse import eye, kron
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import columns, lumps, shape_factors, strip
+from tvimdesign.physics.heat_flow import columns, lumps, shape_factors
 
 Array = NDArray[np.float64]
 
@@ -111,8 +111,8 @@ def test_a_strip_that_goes_on_at_its_end_takes_the_heat_of_a_fin(onward: float, 
     tanh, wave = np.tanh(steep * width), np.sqrt(coefficient * sheet)
     exact = wave * (onward / wave + tanh) / (1.0 + onward / wave * tanh)
     air = lumps.Surface(1.0, coefficient)
-    bodies = strip.bodies(width, 1.0, sheet / width, air)
-    last, to_end, at_end = strip.end(bodies[-1].surface, sheet / width / strip.BEYOND, onward, 300.0)
+    bodies = lumps.strip_bodies(width, 1.0, sheet / width, air)
+    last, to_end, at_end = lumps.strip_end(bodies[-1].surface, sheet / width / lumps.BEYOND, onward, 300.0)
     # What counts at the end meets the same air as the end itself, which takes all at 0.
     assert last.area + at_end < bodies[-1].surface.area
     taken = to_end + coefficient * last.area

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tvimdesign.physics.heat_flow import electrodes, heat, lumps, peltier
+from tvimdesign.physics.heat_flow import heat, lumps, peltier, shape_factors
 from tvimdesign.physics.polymers import polymer
 
 MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
@@ -49,8 +49,8 @@ def test_the_current_s_sign_does_not_matter() -> None:
 
 def test_a_wide_foot_is_longer_by_its_limit_and_a_narrow_one_by_more() -> None:
     # 2 ln 2/pi = 0.441271 of the depth for a foot much wider than the depth.
-    assert electrodes.foot(8e-3, 1e-3) == pytest.approx(0.441271e-3, rel=1e-5)
-    feet = [electrodes.foot(width, 1e-3) for width in (0.1e-3, 0.25e-3, 0.5e-3, 1e-3, 2e-3)]
+    assert shape_factors.electrode_foot(8e-3, 1e-3) == pytest.approx(0.441271e-3, rel=1e-5)
+    feet = [shape_factors.electrode_foot(width, 1e-3) for width in (0.1e-3, 0.25e-3, 0.5e-3, 1e-3, 2e-3)]
     assert np.all(np.diff(feet) < 0.0)
 
 
@@ -58,5 +58,5 @@ def test_a_comb_by_hand() -> None:
     """Wide gaps: 10 mm long, 1 mm deep, 12 mm from finger to finger on 1200 mm2: 100 mm of gaps, 0.1 ohm m."""
     foot = 1e-3 - 2e-3 / np.pi * np.log(np.sinh(0.5 * np.pi))
     by_hand = 0.1 * (10e-3 + 2.0 * foot) / (1e-3 * 0.1)
-    assert electrodes.comb_resistance(0.1, 1e-3, 1200e-6, 10e-3, 2e-3) == pytest.approx(by_hand)
+    assert shape_factors.comb_resistance(0.1, 1e-3, 1200e-6, 10e-3, 2e-3) == pytest.approx(by_hand)
     assert by_hand == pytest.approx(10.94, abs=0.01)

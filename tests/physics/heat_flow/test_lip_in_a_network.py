@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from tvimdesign.physics.heat_flow.lip import Lip, warm_lip
+from tvimdesign.physics.heat_flow.lip import Arm, Lip, warm_lip
 from tvimdesign.physics.heat_flow.lumps import Place
-from tvimdesign.physics.heat_flow.star import Arm
 
 Array = NDArray[np.float64]
 AIR, PLATE = ("air", 0), ("plate", 0)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import eye, kron
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import lumps, rows, shape_factors
+from tvimdesign.physics.heat_flow import columns, lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import Link, Slope
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ def test_a_row_is_below_the_mean_by_what_conduction_in_two_dimensions_says(slend
     depths = (np.arange(deep) + 0.5) / deep
     for row, place in enumerate((np.arange(high) + 0.5) / high * 2.0 - 1.0):
         if abs(place) < 0.93:
-            ours = rows.below_mean(float(place), depths, slenderness, lost)
+            ours = columns.row_below_mean(float(place), depths, slenderness, lost)
             assert ours == pytest.approx(below[:, row], abs=0.025)
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import spreader
+from tvimdesign.physics.heat_flow import peltier
 
 
 @pytest.mark.parametrize("conductance", [20.0, 200.0])
@@ -14,8 +14,8 @@ def test_it_is_what_a_fins_efficiency_leaves_out_where_the_layer_conducts_little
     k, thickness, width = 167.0, 1e-3, 2e-3
     mw = width * np.sqrt(conductance / (k * thickness))
     exact = 1.0 / (conductance * (0.5 + 0.5 * np.tanh(mw) / mw)) - 1.0 / conductance
-    found = spreader.spreading_resistance(2.0 * width, width, 1.0, k, thickness)  # per metre along the edge
-    around_the_corner = 0.5 * width / k * spreader.CORNER
+    found = peltier.spreading_resistance(2.0 * width, width, 1.0, k, thickness)  # per metre along the edge
+    around_the_corner = 0.5 * width / k * peltier.AROUND_CORNER
     assert found - around_the_corner == pytest.approx(exact, rel=0.02)
 
 
@@ -44,16 +44,16 @@ def in_two_dimensions(fed: float, beside: float, thickness: float, k: float, acr
 def test_a_plate_in_two_dimensions_falls_as_far(beside: float) -> None:
     # What the plate adds across its thickness, t/k, is counted apart (`contact_resistance`).
     fed, thickness, k = 4e-3, 0.8e-3, 167.0
-    found = spreader.spreading_resistance(fed + beside, fed, 1.0, k, thickness)
+    found = peltier.spreading_resistance(fed + beside, fed, 1.0, k, thickness)
     through = thickness / k
     assert found + through == pytest.approx(in_two_dimensions(fed, beside, thickness, k), rel=0.05)
 
 
 def test_joints_and_plate_are_in_series() -> None:
     # 1e-4 + 1e-3/167 + 1/(0.5 * 2e4) by hand
-    found = spreader.contact_resistance(1e4, 167.0, 1e-3, 0.5, 2e4)
+    found = peltier.spreader_contact_resistance(1e4, 167.0, 1e-3, 0.5, 2e4)
     assert found == pytest.approx(1e-4 + 5.988e-6 + 1e-4, rel=1e-6)
 
 
 def test_a_plate_that_is_all_fed_spreads_nothing() -> None:
-    assert spreader.spreading_resistance(1e-3, 1e-3, 0.1, 167.0, 1e-3) == 0.0
+    assert peltier.spreading_resistance(1e-3, 1e-3, 0.1, 167.0, 1e-3) == 0.0

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, diags
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.heat_flow import shape_factors, stepped_sheet
+from tvimdesign.physics.heat_flow import shape_factors
 
 Array = NDArray[np.float64]
 
@@ -104,7 +104,7 @@ def test_a_step_in_a_sheet_resists_what_conduction_in_two_dimensions_says(share:
     kept[0], kept[-1] = 1.0, 0.0
     found = conducted(inside, kept, np.zeros(inside.shape))
     passed = np.nansum(2.0 * (1.0 - found[1]))
-    assert stepped_sheet.step(share) == pytest.approx(1.0 / passed - long / low - long / deep, rel=0.02)
+    assert shape_factors.step(share) == pytest.approx(1.0 / passed - long / low - long / deep, rel=0.02)
 
 
 @pytest.mark.parametrize(("plate", "lip", "wide"), [(20, 8, 26), (40, 6, 15), (30, 6, 12)])

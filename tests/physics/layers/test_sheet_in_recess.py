@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import diags_array, eye_array, kron
 from scipy.sparse.linalg import spsolve
 
-from tvimdesign.physics.layers import sheet_in_recess
+from tvimdesign.physics.layers import shear_lag
 
 FINE, LONG = 40, 5.0
 """Cells over the sheet's thickness; length of the strip in thicknesses."""
@@ -42,17 +42,17 @@ def test_the_rim_is_that_of_finite_differences(held: float) -> None:
     places, tau = traction(held)
     for reach in (0.25, 0.5, 1.0):
         near = tau[places < reach].mean()
-        assert sheet_in_recess.rim_rise(held, reach) == pytest.approx(near, rel=4e-3)
-    assert sheet_in_recess.rim_width(held) == pytest.approx((tau - 1.0).sum() / FINE, rel=0.02)
+        assert shear_lag.rim_rise(held, reach) == pytest.approx(near, rel=4e-3)
+    assert shear_lag.rim_width(held) == pytest.approx((tau - 1.0).sum() / FINE, rel=0.02)
 
 
 def test_at_the_wall_itself_the_sheet_gives_nothing() -> None:
     for held in (0.2, 1.0):
-        assert sheet_in_recess.rim_rise(held, 1e-4) == pytest.approx(1.0 + held, rel=0.02)
-        assert sheet_in_recess.rim_rise(held, 100.0) == pytest.approx(1.0 + sheet_in_recess.rim_width(held) / 100.0)
+        assert shear_lag.rim_rise(held, 1e-4) == pytest.approx(1.0 + held, rel=0.02)
+        assert shear_lag.rim_rise(held, 100.0) == pytest.approx(1.0 + shear_lag.rim_width(held) / 100.0)
 
 
 def test_symbols_give_what_floats_do() -> None:
     held, reach = casadi.SX.sym("h"), casadi.SX.sym("s")
-    rise = casadi.Function("rise", [held, reach], [sheet_in_recess.rim_rise(held, reach)])
-    assert float(rise(0.44, 0.33)) == pytest.approx(sheet_in_recess.rim_rise(0.44, 0.33), rel=1e-12)
+    rise = casadi.Function("rise", [held, reach], [shear_lag.rim_rise(held, reach)])
+    assert float(rise(0.44, 0.33)) == pytest.approx(shear_lag.rim_rise(0.44, 0.33), rel=1e-12)

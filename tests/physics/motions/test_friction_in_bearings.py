@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tvimdesign.physics.motions.friction import equivalent_damping, journal_torque, loaded_damping
+from tvimdesign.physics.motions.contacts import equivalent_damping, journal_torque, loaded_damping
 
 
 def test_the_makers_estimate_for_a_ball_bearing() -> None:

@@ -3,7 +3,7 @@
 import pytest
 from scipy.integrate import quad
 
-from tvimdesign.physics.motions.friction import disc_torque
+from tvimdesign.physics.motions.contacts import disc_torque
 
 
 def test_a_clamped_ring_slips_at_what_its_thin_rings_bear() -> None:

@@ -6,9 +6,15 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize
 
-from tvimdesign.physics.motions.friction import bolted_torque, sliding_torque, tightened_force
-from tvimdesign.physics.motions.rigid_play import joint_play, overhung_shift, spring_play
-from tvimdesign.physics.solids import peg
+from tvimdesign.physics.motions.contacts import (
+    bolted_torque,
+    joint_play,
+    overhung_shift,
+    sliding_torque,
+    spring_play,
+    tightened_force,
+)
+from tvimdesign.physics.solids import fasteners
 from tvimdesign.physics.springs.transmission import leg_ratio, pin_slip
 
 # The optimum of paper_shear.yaml as it was read and measured from outside: a coil of 8 mm of wire of 1.81 mm.
@@ -113,4 +119,4 @@ def test_a_loose_shaft_leans_between_its_supports_and_no_further_than_it_may() -
 def test_a_bonded_peg_turns_when_its_surface_shears() -> None:
     angles = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
     pieces = 24e6 * (0.9e-3 * 3.5e-3 * 2.0 * np.pi / angles.size) * 0.9e-3 * np.ones_like(angles)
-    assert peg.twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)
+    assert fasteners.peg_twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)

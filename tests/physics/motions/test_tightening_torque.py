@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tvimdesign.physics.motions.friction import tightened_force, tightening_torque
+from tvimdesign.physics.motions.contacts import tightened_force, tightening_torque
 
 
 @pytest.mark.parametrize(("diameter", "pitch"), [(2.0, 0.4), (3.0, 0.5), (4.0, 0.7), (5.0, 0.8)])

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from tvimdesign.physics.polymers import large_strain, polymer
+from tvimdesign.physics.polymers import melt, polymer
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 LIMIT = 0.3
@@ -35,18 +35,18 @@ def by_brute_force(strain: float, angular: float) -> tuple[float, float]:
 @pytest.mark.parametrize("strain", [0.3, 1.0, 4.13])
 def test_moduli_are_the_first_harmonics_of_wagners_integral(strain: float, hertz: float) -> None:
     angular = 2.0 * np.pi * hertz
-    found = large_strain.wagner_moduli(strain, angular, MELT, LIMIT)
+    found = melt.wagner_moduli(strain, angular, MELT, LIMIT)
     assert found == pytest.approx(by_brute_force(strain, angular), rel=2e-3)
 
 
 def test_slow_motion_is_linear_however_large() -> None:
     linear = polymer.maxwell_moduli(0.01, MELT)
-    assert large_strain.wagner_moduli(4.0, 0.01, MELT, LIMIT) == pytest.approx(linear, rel=1e-3)
-    assert large_strain.unrelaxed_moduli(4.0, 0.01, MELT, LIMIT)[1] < 0.1 * linear[1]
+    assert melt.wagner_moduli(4.0, 0.01, MELT, LIMIT) == pytest.approx(linear, rel=1e-3)
+    assert melt.unrelaxed_moduli(4.0, 0.01, MELT, LIMIT)[1] < 0.1 * linear[1]
 
 
 def test_small_motion_is_linear_however_fast() -> None:
-    found = large_strain.wagner_moduli(1e-4, 600.0, MELT, LIMIT)
+    found = melt.wagner_moduli(1e-4, 600.0, MELT, LIMIT)
     assert found == pytest.approx(polymer.maxwell_moduli(600.0, MELT), rel=1e-6)
 
 
@@ -54,42 +54,42 @@ def test_small_motion_is_linear_however_fast() -> None:
 def test_strain_only_softens_and_never_below_none(strain: float, hertz: float) -> None:
     angular = 2.0 * np.pi * hertz
     linear = polymer.maxwell_moduli(angular, MELT)
-    for found, most in zip(large_strain.wagner_moduli(strain, angular, MELT, LIMIT), linear, strict=True):
+    for found, most in zip(melt.wagner_moduli(strain, angular, MELT, LIMIT), linear, strict=True):
         assert 0.0 < found <= most * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize("strain", [1e-5, 0.3, 3.0])
 def test_softening_is_the_first_harmonic_of_the_strain_law(strain: float) -> None:
     share, _ = quad(lambda p: kept(strain * np.cos(p)) * np.cos(p) ** 2 / np.pi, 0.0, 2.0 * np.pi)
-    assert large_strain.softening(strain, LIMIT) == pytest.approx(1.0 - share, rel=1e-6, abs=1e-12)
+    assert melt.softening(strain, LIMIT) == pytest.approx(1.0 - share, rel=1e-6, abs=1e-12)
 
 
 def test_torque_of_a_ring_is_shared_as_its_radius_cubed() -> None:
     inner, rim = 0.6, 4.0
     share, _ = quad(lambda r: kept(rim * r) * r**3, inner, 1.0)
     whole, _ = quad(lambda r: r**3, inner, 1.0)
-    nodes = large_strain.ring(inner)
+    nodes = melt.ring(inner)
     assert sum(weight for _, weight in nodes) == pytest.approx(1.0, rel=1e-12)
     assert sum(w * float(kept(rim * reach)) for reach, w in nodes) == pytest.approx(share / whole, rel=1e-4)
 
 
 def test_edge_gives_where_the_second_normal_stress_passes_surface_tension() -> None:
     # 2 0.035/(3 1 mm) = 23.3 Pa; a fifth of 1 kPa times the strain squared passes it at 34 %.
-    strain = large_strain.edge_strain(1e-3, 0.035, 0.2, 1000.0)
+    strain = melt.edge_strain(1e-3, 0.035, 0.2, 1000.0)
     assert 0.2 * 1000.0 * strain**2 == pytest.approx(23.333, rel=1e-3)
     assert strain == pytest.approx(0.3416, rel=1e-3)
 
 
 def test_stress_is_strain_times_complex_modulus() -> None:
-    assert large_strain.shear_stress(4.0, 3e3, 4e3) == pytest.approx(20e3, rel=1e-12)
+    assert melt.shear_stress(4.0, 3e3, 4e3) == pytest.approx(20e3, rel=1e-12)
 
 
 def test_symbols_give_the_numbers_with_finite_derivatives() -> None:
     strain, angular = ca.SX.sym("g"), ca.SX.sym("w")
-    storage, loss = large_strain.wagner_moduli(strain, angular, MELT, LIMIT)
+    storage, loss = melt.wagner_moduli(strain, angular, MELT, LIMIT)
     both = ca.vertcat(storage, loss)
     look = ca.Function("look", [strain, angular], [both, ca.jacobian(both, ca.vertcat(strain, angular))])
     for at in ((1e-3, 0.1), (0.5, 6.0), (8.0, 600.0)):
         numbers, slopes = (np.asarray(part) for part in look(*at))
-        assert numbers.ravel() == pytest.approx(large_strain.wagner_moduli(*at, MELT, LIMIT), rel=1e-9)
+        assert numbers.ravel() == pytest.approx(melt.wagner_moduli(*at, MELT, LIMIT), rel=1e-9)
         assert np.all(np.isfinite(slopes))

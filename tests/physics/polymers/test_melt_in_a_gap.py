@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tvimdesign.physics.polymers import melt_flow
+from tvimdesign.physics.polymers import melt
 
 
 def profile_mean(gradient: float, gap: float, viscosity: float, cells: int = 400) -> float:
@@ -20,12 +20,12 @@ def profile_mean(gradient: float, gap: float, viscosity: float, cells: int = 400
 
 def test_the_speed_in_a_gap_is_that_of_stokes() -> None:
     expected = profile_mean(1.05e4, 1e-3, 2825.0)
-    assert melt_flow.gap_speed(1.05e4, 1e-3, 2825.0) == pytest.approx(expected, rel=1e-4)
+    assert melt.gap_speed(1.05e4, 1e-3, 2825.0) == pytest.approx(expected, rel=1e-4)
 
 
 def test_two_gaps_in_series_pass_the_same_flow() -> None:
     length, gap, lip, narrow, viscosity, pressure = 14e-3, 1e-3, 1.5e-3, 0.4e-3, 2825.0, 150.0
-    speed = melt_flow.gap_speed(pressure / melt_flow.gaps_in_series(length, gap, lip, narrow), gap, viscosity)
+    speed = melt.gap_speed(pressure / melt.gaps_in_series(length, gap, lip, narrow), gap, viscosity)
     inside = 12.0 * viscosity * speed / gap**2 * length
     below = 12.0 * viscosity * (speed * gap / narrow) / narrow**2 * lip  # the same volume through a narrower gap
     assert inside + below == pytest.approx(pressure, rel=1e-12)
@@ -47,10 +47,10 @@ def test_a_strip_is_squeezed_as_long_as_reynolds_equation_says() -> None:
 
     done.terminal = True
     run = solve_ivp(closing, (0.0, 1e4), [start], events=done, rtol=1e-7, atol=1e-12)
-    found = melt_flow.squeeze_time(force, viscosity, length, width, end, start)
+    found = melt.squeeze_time(force, viscosity, length, width, end, start)
     assert found == pytest.approx(run.t_events[0][0], rel=1e-3)
 
 
 def test_a_surface_holds_what_it_lifts_between_plates() -> None:
     # Water at 20 degC, 72.8 mN/m and 998 kg/m3, wets glass plates a millimetre apart and rises 14.9 mm (handbook).
-    assert melt_flow.meniscus_pressure(0.0728, 1e-3) / (998.0 * 9.807) == pytest.approx(14.9e-3, rel=0.005)
+    assert melt.meniscus_pressure(0.0728, 1e-3) / (998.0 * 9.807) == pytest.approx(14.9e-3, rel=0.005)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from tvimdesign.physics.solids.peg import bearing_force, shear_force
+from tvimdesign.physics.solids.fasteners import peg_bearing_force as bearing_force
+from tvimdesign.physics.solids.fasteners import peg_shear_force as shear_force
 
 
 def test_a_peg_of_20_mm_in_single_shear_bears_what_the_textbook_says() -> None:

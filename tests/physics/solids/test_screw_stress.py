@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tvimdesign.physics.solids import screw_stress
+from tvimdesign.physics.solids import fasteners
 
 # Makers of screws print the tables of VDI 2230 (Mastik, catalogue, page 685: fine threads, edition of 2001): most
 # force of a screw of class 8.8 that uses 90 % of its yield strength, 640 MPa up to M16, and the torque for it.
@@ -22,22 +22,22 @@ def test_the_force_that_uses_nine_tenths_of_the_yield(
     diameter: float, pitch: float, friction: float, force: float, torque: float, head: float
 ) -> None:
     d, p, F = 1e-3 * diameter, 1e-3 * pitch, 1e3 * force
-    twist = screw_stress.twist_stress(screw_stress.thread_torque(F, d, p, friction), d, p)
+    twist = fasteners.twist_stress(fasteners.thread_torque(F, d, p, friction), d, p)
     # The tables take the section as yielding all over: its torque is 4/3 of the elastic one.
-    tension = F / screw_stress.stress_area(d, p)
+    tension = F / fasteners.stress_area(d, p)
     assert np.sqrt(tension**2 + 3.0 * (0.75 * twist) ** 2) == pytest.approx(0.9 * 640e6, rel=0.01)
-    whole = screw_stress.thread_torque(F, d, p, friction) + 0.5e-3 * head * friction * F
+    whole = fasteners.thread_torque(F, d, p, friction) + 0.5e-3 * head * friction * F
     assert whole == pytest.approx(torque, rel=0.02)
-    assert screw_stress.thread_friction(whole / (F * d), d, p, 1e-3 * head) == pytest.approx(friction, rel=1e-9)
+    assert fasteners.thread_friction(whole / (F * d), d, p, 1e-3 * head) == pytest.approx(friction, rel=1e-9)
 
 
 @pytest.mark.parametrize(("diameter", "pitch", "area"), [(3.0, 0.5, 5.03), (4.0, 0.7, 8.78), (5.0, 0.8, 14.2)])
 def test_stress_area_of_iso_898(diameter: float, pitch: float, area: float) -> None:
-    assert screw_stress.stress_area(1e-3 * diameter, 1e-3 * pitch) == pytest.approx(1e-6 * area, rel=3e-3)
+    assert fasteners.stress_area(1e-3 * diameter, 1e-3 * pitch) == pytest.approx(1e-6 * area, rel=3e-3)
 
 
 def test_shear_alone_and_tension_alone() -> None:
     d, p = 3e-3, 0.5e-3
-    area = float(screw_stress.stress_area(d, p))
-    assert screw_stress.combined_stress(100.0, 0.0, 0.0, d, p) == pytest.approx(100.0 / area)
-    assert screw_stress.combined_stress(0.0, 100.0, 0.0, d, p) == pytest.approx(np.sqrt(3.0) * 100.0 / area)
+    area = float(fasteners.stress_area(d, p))
+    assert fasteners.combined_stress(100.0, 0.0, 0.0, d, p) == pytest.approx(100.0 / area)
+    assert fasteners.combined_stress(0.0, 100.0, 0.0, d, p) == pytest.approx(np.sqrt(3.0) * 100.0 / area)

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from support import ROOT
 
-from tvimdesign.physics.layers import annular_lap, shear_lag, sheet_in_recess
+from tvimdesign.physics.layers import annular_lap, shear_lag
 from tvimdesign.physics.solids import structure, vane, wedge
 
 FOLDER = ROOT / "validation"
@@ -313,8 +313,8 @@ def beside_walls(case: dict[str, Any], mm: dict[str, float], polar: float) -> fl
     give = mm["liner_thickness"] / case["liner_shear_modulus"]
     held = give * case["frozen_shear_modulus"] / mm["pcl_thickness"]
     rims = mm["arc_count"] * (span * (inner**3 + outer**3) + 2.0 / 3.0 * (outer**3 - inner**3))
-    more = mm["liner_thickness"] * sheet_in_recess.rim_width(held) * rims / polar
-    return float(sheet_in_recess.rim_rise(held, mm["pcl_thickness"] / mm["liner_thickness"]) / (1.0 + more))
+    more = mm["liner_thickness"] * shear_lag.rim_width(held) * rims / polar
+    return float(shear_lag.rim_rise(held, mm["pcl_thickness"] / mm["liner_thickness"]) / (1.0 + more))
 
 
 def test_a_liner_in_the_walls_of_its_recess_makes_the_edges_bear_what_they_do_in_fe() -> None:

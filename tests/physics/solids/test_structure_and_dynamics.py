@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from tvimdesign.physics.motions import dynamics
+from tvimdesign.physics.motions import motion
 from tvimdesign.physics.solids import structure
 
 INERTIA = 4.156e-4  # kg*m^2, Exley et al., table I (there as kg/mm^2)
@@ -13,12 +13,12 @@ STIFFNESS = 5.61  # N*m/rad, four springs of 1.4023
 
 def test_springs_alone_ring_at_18_5_hertz() -> None:
     # sqrt(5.61/4.156e-4)/(2 pi) = 116.2/6.2832.
-    assert dynamics.natural_frequency(STIFFNESS, INERTIA) == pytest.approx(18.5, rel=5e-3)
+    assert motion.natural_frequency(STIFFNESS, INERTIA) == pytest.approx(18.5, rel=5e-3)
 
 
 def test_damping_of_0_0966_is_critical() -> None:
     # 2 sqrt(5.61 * 4.156e-4) = 0.0966 N*m*s/rad.
-    assert dynamics.damping_ratio(0.0966, STIFFNESS, INERTIA) == pytest.approx(1.0, rel=5e-3)
+    assert motion.damping_ratio(0.0966, STIFFNESS, INERTIA) == pytest.approx(1.0, rel=5e-3)
 
 
 @pytest.mark.parametrize("ratio", [0.05, 0.2])
@@ -33,8 +33,8 @@ def test_free_swing_rings_and_decays_as_frequency_and_damping_ratio_say(ratio: f
     )
     times = swing.t_events[0][swing.t_events[0] > 1e-9]
     # Half a period apart; the logarithmic decrement of half a period is pi zeta/sqrt(1 - zeta^2).
-    zeta = dynamics.damping_ratio(damping, STIFFNESS, INERTIA)
-    frequency = dynamics.natural_frequency(STIFFNESS, INERTIA)
+    zeta = motion.damping_ratio(damping, STIFFNESS, INERTIA)
+    frequency = motion.natural_frequency(STIFFNESS, INERTIA)
     assert 0.5 / (times[1] - times[0]) == pytest.approx(frequency * np.sqrt(1.0 - zeta**2), rel=1e-6)
     assert np.log(abs(peaks[0] / peaks[1])) == pytest.approx(np.pi * zeta / np.sqrt(1.0 - zeta**2), rel=1e-6)
 

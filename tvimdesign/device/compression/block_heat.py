@@ -14,8 +14,8 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import columns, lumps, rows, strip
-from tvimdesign.physics.layers import film
+from tvimdesign.physics.heat_flow import columns, lumps
+from tvimdesign.physics.layers import block
 
 quantities = QuantityGroup(shared.group)
 
@@ -23,7 +23,7 @@ quantities = QuantityGroup(shared.group)
 @quantities.helper(instant=True)
 def moment_now(m: Module) -> Scalar:
     """The blocks' moment at an instant [m^4], 3 (1 + 2 (S/p)^2) N A r^2, p the share of them that is soft."""
-    share = film.soft_share(*m.slice_moduli)
+    share = block.soft_share(*m.slice_moduli)
     return blocks_moment(m.shape_factor / share, m.vane_count, m.block_area, m.pcl_mean_radius)
 
 
@@ -48,7 +48,7 @@ def layer_temperatures(m: Module) -> list[Scalar]:
     across = 0.5 * m.block_height / m.pcl_conductivity_melt
     return [
         m.stack_profile.cells
-        - across * rows.below_mean(2.0 * place - 1.0, depths, 2.0 * m.block_depth / m.block_height, lost)
+        - across * columns.row_below_mean(2.0 * place - 1.0, depths, 2.0 * m.block_depth / m.block_height, lost)
         for place in columns.EVEN.places
     ]
 
@@ -107,12 +107,12 @@ def rotor_beside(m: Module) -> tuple[lumps.Lump, ...]:
         * m.structure_specific_heat
     )
     vanes = lumps.Lump(m.vane_ways[0], above_vanes * capacity + upper, outside._replace(area=above_vanes))
-    first, *others = strip.bodies(heated, capacity, k * heated / m.rotor_thickness, lumps.Surface(1.0, 0.0))
+    first, *others = lumps.strip_bodies(heated, capacity, k * heated / m.rotor_thickness, lumps.Surface(1.0, 0.0))
     along = k * m.rotor_thickness * m.ring_width * m.ways_along[0]
-    others[-1] = others[-1]._replace(surface=outside._replace(area=heated, behind=strip.BEYOND * m.rotor_thickness / k))
+    others[-1] = others[-1]._replace(surface=outside._replace(area=heated, behind=lumps.BEYOND * m.rotor_thickness / k))
     # The lower tenth is divided in what is above blocks and above pads.
     blocks = 1.0 - m.pads_share
-    first = first._replace(conductance=strip.STRIP[0] * along, capacity=blocks * first.capacity)
+    first = first._replace(conductance=lumps.STRIP[0] * along, capacity=blocks * first.capacity)
     others[0] = others[0]._replace(conductance=blocks * others[0].conductance)
     return (vanes, first, *others)
 

@@ -11,8 +11,7 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.lip import Lip
-from tvimdesign.physics.heat_flow.lumps import Body, Link, Place
-from tvimdesign.physics.heat_flow.strip import STRIP, WAYS
+from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Body, Link, Place
 
 quantities = QuantityGroup(shared.group)
 

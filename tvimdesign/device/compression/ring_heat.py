@@ -18,8 +18,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, shape_factors
-from tvimdesign.physics.heat_flow.lumps import Body, Link, Place
-from tvimdesign.physics.heat_flow.strip import BEYOND, STRIP, WAYS
+from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link, Place
 
 quantities = QuantityGroup(shared.group)
 

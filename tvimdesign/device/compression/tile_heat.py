@@ -7,7 +7,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, spreader
+from tvimdesign.physics.heat_flow import lumps, peltier
 from tvimdesign.physics.heat_flow.lumps import Link
 
 quantities = QuantityGroup(shared.group)
@@ -42,9 +42,9 @@ def spreader_resistance(m: Module) -> Scalar:
     """
     k, t, row = m.spreader_conductivity, m.spreader_thickness, m.tiles_per_block * m.peltier_length
     upright, covered = row * m.block_height, row * m.peltier_width
-    upwards = spreader.spreading_resistance(upright, covered, row, k, t)
+    upwards = peltier.spreading_resistance(upright, covered, row, k, t)
     edges = 2.0 * m.tiles_per_block * m.block_height
-    sideways = spreader.spreading_resistance(m.block_width * m.block_height, upright, edges, k, t)
+    sideways = peltier.spreading_resistance(m.block_width * m.block_height, upright, edges, k, t)
     return upwards * m.block_width / row + sideways
 
 

@@ -12,7 +12,7 @@ from tvimdesign.device.core.impedance.joint_impedance import quantities as share
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import block, pressed_pad
+from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
@@ -26,7 +26,7 @@ def pad_press_stiffness(m: Module) -> Scalar:
     """Stiffness of what a block presses on before its vane [N/m]: the pad, or its tiles behind the spreader."""
     if m.heater_form == CUT:
         moduli, sides = (m.peltier_shear_modulus, m.peltier_bulk_modulus), (m.block_width, m.block_height)
-        return pressed_pad.stiffness(moduli, sides, m.peltier_thickness, (m.slot_width, m.slot_height))
+        return block.pad_stiffness(moduli, sides, m.peltier_thickness, (m.slot_width, m.slot_height))
     tiles = SHEET * m.peltier_shear_modulus * m.tiles_per_block * m.peltier_area / m.peltier_thickness
     return structure.series(tiles, m.spreader_youngs_modulus * m.block_area / m.spreader_thickness)
 

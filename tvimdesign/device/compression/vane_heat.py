@@ -12,8 +12,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, shape_factors
-from tvimdesign.physics.heat_flow.lumps import Link
-from tvimdesign.physics.heat_flow.strip import STRIP
+from tvimdesign.physics.heat_flow.lumps import STRIP, Link
 
 quantities = QuantityGroup(shared.group)
 

@@ -10,7 +10,7 @@ from tvimdesign.device.core.shrinkage import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.polymers import melt_flow, polymer, viscoelasticity
+from tvimdesign.physics.polymers import melt, polymer, viscoelasticity
 
 rheology, quantities = QuantityGroup(impedance.group), QuantityGroup(shared.group)
 groups = (rheology, quantities)
@@ -30,4 +30,4 @@ def pcl_viscosity(m: Module) -> Scalar:
 def melt_creep(m: Module) -> Scalar:
     """Way the free ends of the PCL creep in an hour at the hot point, the axis level; lips along an arc hold no end."""
     weight = m.pcl_melt_density * GRAVITY
-    return HOUR * melt_flow.gap_speed(weight, m.pcl_depth + m.freezing_travel, m.pcl_viscosity_at_hot)
+    return HOUR * melt.gap_speed(weight, m.pcl_depth + m.freezing_travel, m.pcl_viscosity_at_hot)

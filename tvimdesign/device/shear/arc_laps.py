@@ -15,7 +15,7 @@ from tvimdesign.device.core.impedance.joint_impedance import quantities as share
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import annular_lap, shear_lag, sheet_in_recess
+from tvimdesign.physics.layers import annular_lap, shear_lag
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
@@ -148,8 +148,8 @@ def liner_rim_rise(m: Module) -> Scalar:
     others = m.pcl_thickness / m.frozen_shear_modulus if on_tiles else 1.0 / m.lap_of_arcs[0] - m.liner_areal_compliance
     held, inner, outer = m.liner_areal_compliance / others, m.pcl_inner_radius, m.pcl_outer_radius
     rims = m.arc_count * (m.arc_span * (inner**3 + outer**3) + 2.0 / 3.0 * (outer**3 - inner**3))  # of r^2, all around
-    more = m.liner_thickness * sheet_in_recess.rim_width(held) * rims / m.layer_polar_moment
-    return sheet_in_recess.rim_rise(held, m.pcl_thickness / m.liner_thickness) / (1.0 + more)
+    more = m.liner_thickness * shear_lag.rim_width(held) * rims / m.layer_polar_moment
+    return shear_lag.rim_rise(held, m.pcl_thickness / m.liner_thickness) / (1.0 + more)
 
 
 @quantities.output("1")

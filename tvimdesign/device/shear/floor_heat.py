@@ -15,11 +15,10 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, shape_factors, slab_faces, strip
-from tvimdesign.physics.heat_flow.lumps import Body, Link
+from tvimdesign.physics.heat_flow import lumps, shape_factors, slab_faces
+from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
 from tvimdesign.physics.heat_flow.slab_faces import ACROSS
-from tvimdesign.physics.heat_flow.strip import BEYOND, STRIP, WAYS
 
 quantities = QuantityGroup(shared.group)
 
@@ -47,7 +46,7 @@ def floor_end(m: Module) -> tuple[lumps.Surface, Scalar, Scalar]:
     counts there."""
     along = m.structure_conductivity * m.floor_web * m.edge_length**2 / (BEYOND * m.beside_area)
     face = m.floor_in_air._replace(area=STRIP[-1] * m.beside_area, behind=m.floor_web / 3.0 / m.structure_conductivity)
-    return strip.end(face, along, m.housing_ring * m.floor_web / m.floor_thickness, m.ambient_temperature)
+    return lumps.strip_end(face, along, m.housing_ring * m.floor_web / m.floor_thickness, m.ambient_temperature)
 
 
 @quantities.helper()

@@ -19,8 +19,8 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import Section, disc_at
-from tvimdesign.physics.motions.rigid_play import joint_play
-from tvimdesign.physics.solids import peg, structure
+from tvimdesign.physics.motions.contacts import joint_play
+from tvimdesign.physics.solids import fasteners, structure
 
 places, strengths, play, weights, rules = (
     QuantityGroup(layout.group),
@@ -68,8 +68,8 @@ def key_holding_torque(m: Module) -> Scalar:
     Sheared off, or pressed into their pockets' walls, whichever comes first. It does not add to what the bond holds,
     which gives way at a smaller displacement.
     """
-    shear = peg.shear_force(structure.shear_yield(m.pcl_tensile_yield), m.key_diameter)
-    bearing = peg.bearing_force(m.pcl_tensile_yield, m.key_diameter, m.key_depth)
+    shear = fasteners.peg_shear_force(structure.shear_yield(m.pcl_tensile_yield), m.key_diameter)
+    bearing = fasteners.peg_bearing_force(m.pcl_tensile_yield, m.key_diameter, m.key_depth)
     return m.arc_count * m.key_count * np.fmin(shear, bearing) * m.key_circle_radius
 
 

@@ -13,7 +13,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, shape_factors, strip
+from tvimdesign.physics.heat_flow import lumps, shape_factors
 
 quantities = QuantityGroup(shared.group)
 
@@ -86,7 +86,7 @@ def beside_area(m: Module) -> Scalar:
 def core_share(m: Module) -> Scalar:
     """What of the conductance to the core is left from the plate's last body on."""
     across = m.structure_conductivity * m.rotor_thickness * m.edge_length**2 / m.beside_area
-    onward = strip.BEYOND * m.core_and_link.conductance / across
+    onward = lumps.BEYOND * m.core_and_link.conductance / across
     return 1.0 / (1.0 + onward)
 
 
@@ -97,7 +97,7 @@ def rotor_beside(m: Module) -> tuple[lumps.Lump, ...]:
     Heat goes along it through plate and lip, beside one another.
     """
     capacity = m.structure_density * m.structure_specific_heat
-    chain = strip.bodies(
+    chain = lumps.strip_bodies(
         m.beside_area,
         m.rotor_thickness * capacity,
         m.structure_conductivity * m.rotor_thickness * m.edge_length**2 / m.beside_area,

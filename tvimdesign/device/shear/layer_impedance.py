@@ -15,7 +15,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import hold, layer, shear_lag
-from tvimdesign.physics.polymers import large_strain
+from tvimdesign.physics.polymers import melt
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
@@ -154,7 +154,7 @@ def largest_melt_strain(m: Module) -> Scalar:
 @quantities.helper()
 def stroke_strains(m: Module) -> list[tuple[Scalar, Scalar]]:
     """Shear strains of the layer at full stroke, and the share of the small-motion torque borne at each [1]."""
-    nodes = large_strain.ring(m.pcl_inner_radius / m.pcl_outer_radius)
+    nodes = melt.ring(m.pcl_inner_radius / m.pcl_outer_radius)
     return [(m.layer_strain * reach, share) for reach, share in nodes]
 
 

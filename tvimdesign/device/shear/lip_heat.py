@@ -15,11 +15,9 @@ from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import shape_factors, slab_faces, stepped_sheet, still_air
-from tvimdesign.physics.heat_flow.lip import Lip
-from tvimdesign.physics.heat_flow.lumps import Place
-from tvimdesign.physics.heat_flow.star import Arm
-from tvimdesign.physics.heat_flow.strip import STRIP, WAYS
+from tvimdesign.physics.heat_flow import shape_factors, slab_faces, still_air
+from tvimdesign.physics.heat_flow.lip import Arm, Lip
+from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Place
 
 quantities = QuantityGroup(shared.group)
 
@@ -44,7 +42,7 @@ def lip_over(m: Module) -> tuple[Scalar, ...]:
     """
     if m.melt_lip == NO_LIP:
         return (0.0,) * len(STRIP)
-    return stepped_sheet.reaches(m.rotor_rim, [share * m.beside_area / m.edge_length for share in STRIP])
+    return shape_factors.reaches(m.rotor_rim, [share * m.beside_area / m.edge_length for share in STRIP])
 
 
 @quantities.helper()
@@ -57,11 +55,11 @@ def lip_ways(m: Module) -> tuple[Scalar, ...]:
         return (0.0,) * len(STRIP)
     share = m.rotor_thickness / (m.rotor_thickness + m.lip_height)
     ways = [way * m.beside_area / m.edge_length for way in WAYS]
-    covered = stepped_sheet.reaches(m.rotor_rim, ways)
+    covered = shape_factors.reaches(m.rotor_rim, ways)
     within = [1.0, *(one / way for one, way in zip(covered, ways, strict=True)), 0.0]
     ends = [within[i + 1] - within[i + 2] for i in range(len(ways))]
     ends[0] = ends[0] + 1.0
-    step = stepped_sheet.step(share)
+    step = shape_factors.step(share)
     return tuple(step * end - one * (1.0 - share) / m.rotor_thickness for one, end in zip(covered, ends, strict=True))
 
 

@@ -17,7 +17,7 @@ from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.polymers import melt_flow
+from tvimdesign.physics.polymers import melt
 
 quantities = QuantityGroup(shared.group)
 DRAWN = 1.1
@@ -35,7 +35,7 @@ def melt_hold(m: Module) -> Scalar:
     """Pressure that the melt's surface holds below a lip; zero between flat faces, on which it may creep."""
     if m.melt_lip == NO_LIP:
         return 0.0 * m.pcl_surface_tension
-    return melt_flow.meniscus_pressure(m.pcl_surface_tension, m.running_clearance + m.freezing_travel)
+    return melt.meniscus_pressure(m.pcl_surface_tension, m.running_clearance + m.freezing_travel)
 
 
 _CREEPS = "so much of the molten layer creeps out in an hour with the axis level (assumed, 0.5 to 5 %)"
@@ -46,9 +46,9 @@ def melt_loss(m: Module) -> Scalar:
     """Share of the layer that gravity moves out past an edge in an hour at the hot point, the axis level."""
     gap, length = m.pcl_thickness + m.freezing_travel, m.arc_width
     if m.melt_lip != NO_LIP:
-        length = melt_flow.gaps_in_series(m.arc_width, gap, m.rotor_rim, m.running_clearance + m.freezing_travel)
+        length = melt.gaps_in_series(m.arc_width, gap, m.rotor_rim, m.running_clearance + m.freezing_travel)
     head = np.fmax(m.melt_head - m.melt_hold, 0.0)
-    return HOUR * melt_flow.gap_speed(head / length, gap, m.pcl_viscosity_at_hot) / m.arc_width
+    return HOUR * melt.gap_speed(head / length, gap, m.pcl_viscosity_at_hot) / m.arc_width
 
 
 @quantities.output("s")
@@ -56,4 +56,4 @@ def layer_drawing_time(m: Module) -> Scalar:
     """Time in which rotor, link and retainer, hanging on the molten layer alone, draw it a tenth thicker."""
     length, weight = m.arc_count * m.arc_span * m.pcl_mean_radius, GRAVITY * m.turning_mass
     ends = (m.pcl_thickness, DRAWN * m.pcl_thickness)
-    return melt_flow.squeeze_time(weight, m.pcl_viscosity_at_hot, length, m.arc_width, *ends)
+    return melt.squeeze_time(weight, m.pcl_viscosity_at_hot, length, m.arc_width, *ends)

@@ -8,7 +8,7 @@ from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import spreader
+from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup(shared.group)
@@ -27,7 +27,7 @@ def heater_strings(m: Module) -> Scalar:
 def spreader_resistance(m: Module) -> Scalar:
     """Resistance of the way along the spreader to what its modules do not cover, times the layer's area."""
     outlines = 2.0 * m.heater_count * (m.peltier_length + m.peltier_width)
-    return spreader.spreading_resistance(
+    return peltier.spreading_resistance(
         m.pcl_area, m.heated_area, outlines, m.spreader_conductivity, m.spreader_thickness
     )
 

@@ -1,9 +1,12 @@
-"""A layer in columns from the middle of a strip to its edge: how much colder or warmer than its mean each of them is.
+"""A layer in columns from a strip's middle to its edge, and a block in rows: how far each is from its mean temperature.
 
 The stack has one temperature at each depth, the mean over the strip's width. Over the width the layer settles within
 seconds, so that its profile follows from what sheets and layer lose at the edge: fins below and above it (Incropera,
 Fundamentals of Heat and Mass Transfer, ch. 3), and sines over its depth (Carslaw and Jaeger, ch. V).
-"""
+
+A block's rows go from its lower face to its upper one. Both faces lose heat to what is below and above; the block's two
+ends, at the pads and at the vane, are each of one temperature. By separation of variables (Carslaw and Jaeger,
+Conduction of Heat in Solids, ch. V)."""
 
 from __future__ import annotations
 
@@ -148,3 +151,33 @@ def below_wall(cooled: Sequence[Any]) -> list[Any]:
 def _mean(values: Sequence[Any]) -> Any:
     """Mean over the width of what dense columns have."""
     return sum(share * one for share, one in zip(DENSE.shares, values, strict=True))
+
+
+ROW_TERMS = 6
+
+
+def row_below_mean(place: float, depths: Any, slenderness: Any, lost: Sequence[Any]) -> Any:
+    """How far a row of a block is below the mean of its height there, over half its height and conductivity [W/m^2].
+
+    `place` goes from -1 at the lower face to 1 at the upper one, `depths` from 0 to 1 from end to end, D over half the
+    height is the `slenderness`. What both faces lose is cosines over the height, what one of them loses more is sines:
+
+        q (2 (-1)^n/(n pi)^2 cos(n pi p)),  dq (4 (-1)^n/((2 n + 1) pi)^2 sin((n + 1/2) pi p)),
+
+    each less by cosh(a (x - D/2))/cosh(a D/2) next to the ends, a its wave number.
+    """
+    both, more = 0.5 * (lost[0] + lost[1]), lost[1] - lost[0]
+    found = 0.0
+    for n in range(ROW_TERMS):
+        even, odd = (n + 1.0) * np.pi, (n + 0.5) * np.pi
+        found = found - both * 2.0 * (-1.0) ** n / even**2 * np.cos(even * place) * _share_inside(
+            even * slenderness, depths
+        )
+        found = found + more * (-1.0) ** n / odd**2 * np.sin(odd * place) * _share_inside(odd * slenderness, depths)
+    return found
+
+
+def _share_inside(waves: Any, depths: Any) -> Any:
+    """Share [1] of what is far from both ends."""
+    near = np.exp(-waves * depths) + np.exp(-waves * (1.0 - depths))
+    return 1.0 - near / (1.0 + np.exp(-waves))

@@ -1,20 +1,22 @@
-"""A lip of the plate at the end of the layer: a body without heat capacity that layer, pads and air heat at its side.
+"""A lip of the plate at the end of the layer, and the star: bodies without heat capacity that arms heat.
 
 Heat comes to it through the polymer, from slices at their height and from the pads, and through its other arms
-(`star`). Between two temperatures the polymer passes as much as the mean of its conductivity between them says
+(a star). Between two temperatures the polymer passes as much as the mean of its conductivity between them says
 (Kirchhoff's transform, `conduction`), whatever its shape: molten it gives less than frozen.
-"""
+
+A star is a body that arms join to places of the stack. Each arm ends at a mean of places (`Arm.ends`), as a body may
+lean on an edge that has a temperature between two, and at a `share` of the body, as what the arm touches may have only
+that much of its temperature. Each end gives or takes its weight of the arm's heat g (m - s T), as that comes from g (m
+- s T)^2/2: what heats one place from another heats back as well."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow import star
 from tvimdesign.physics.heat_flow.lumps import Place
-from tvimdesign.physics.heat_flow.star import Arm
 
 HOT, LAYER = ("hot", 0), ("layer", 0)
 
@@ -62,7 +64,7 @@ def warm_lip(
     found = _temperature(lip, cells, at, of_cells, of_pads)
     residuals = (0.0, 0.0) if given is None else (follows - alike, found - given[1])
     warm = found if given is None else given[1]
-    from_places = star.taken((_pads(lip, of_pads), *lip.arms), warm, at)
+    from_places = star_heat((_pads(lip, of_pads), *lip.arms), warm, at)
     return WarmLip(warm, lip.slices / len(cells) * of_cells * (cells - warm), from_places, residuals)
 
 
@@ -75,4 +77,36 @@ def _temperature(lip: Lip, cells: Any, at: Callable[[Place], Any], of_cells: Any
     layer = Arm(lip.slices * mean, ((LAYER, 1.0),))
     seen = np.mean(of_cells * cells) / mean
     arms = (layer, _pads(lip, of_pads), *lip.arms)
-    return star.temperature(arms, lambda place: seen if place == LAYER else at(place))
+    return star_temperature(arms, lambda place: seen if place == LAYER else at(place))
+
+
+class Arm(NamedTuple):
+    """What conducts between the body and a mean of places."""
+
+    conductance: Any
+    """[W/K]"""
+    ends: tuple[tuple[Place, Any], ...]
+    """Places and their weights, which sum to the `share`."""
+    share: Any = 1.0
+    """Of the body's temperature that the mean is held against."""
+
+
+def arm_mean(arm: Arm, at: Callable[[Place], Any]) -> Any:
+    """Mean of the places that an arm ends at [K], its share of a temperature."""
+    return sum(weight * at(place) for place, weight in arm.ends)
+
+
+def star_temperature(arms: Sequence[Arm], at: Callable[[Place], Any]) -> Any:
+    """Temperature of the body [K], by that of the places its arms end at."""
+    given = sum(arm.conductance * arm.share * arm_mean(arm, at) for arm in arms)
+    return given / sum(arm.conductance * arm.share**2 for arm in arms)
+
+
+def star_heat(arms: Sequence[Arm], body: Any, at: Callable[[Place], Any]) -> dict[Place, Any]:
+    """Heat [W] that arms of a body of a temperature [K] take from each place."""
+    found: dict[Place, Any] = {}
+    for arm in arms:
+        heat = arm.conductance * (arm_mean(arm, at) - arm.share * body)
+        for place, weight in arm.ends:
+            found[place] = found.get(place, 0.0) + weight * heat
+    return found

@@ -1,11 +1,17 @@
-"""Shape factors of heat at edges, in ledges, fins and slabs, and how far a mean is from a face; all without units.
+"""Shape factors of heat at edges, steps, ledges, fins and slabs, and of current under a comb of electrodes.
 
 By separation of variables and maps of the plane (Carslaw and Jaeger, Conduction of Heat in Solids, ch. V; Incropera,
 Fundamentals of Heat and Mass Transfer, ch. 3 and 4).
-"""
+
+A heater's current passes a layer from finger to finger of a comb on one of its faces. Fingers of either pole alternate.
+Beside its feet the current fills the depth, where the fingers are a depth apart or more. What a foot adds is found by
+conformal mapping: zeta = cosh(pi z/t) takes half a finger's end of the layer to a half-plane, in which the finger is
+the interval from 1 to cosh(pi b/t) and the far layer is infinity; the logarithmic capacity of an interval, a quarter of
+its length, gives the resistance."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -135,3 +141,41 @@ def uneven_way(slenderness: Any) -> Any:
     heat passes (by separation of variables, Carslaw and Jaeger, ch. V).
     """
     return 1.0 / (np.pi * np.tanh(np.pi * slenderness))
+
+
+def step(share: Any) -> Any:
+    """What a sheet resists more where its depth steps down to a `share` of it on one side, times k and length [1].
+
+    With the shares a and 1 the map of a strip with a step (Schwarz-Christoffel; Carslaw and Jaeger, ch. XVI) gives
+
+        ((a + 1/a) ln((1 + a)/(1 - a)) - 2 ln(4 a/(1 - a^2)))/pi
+
+    beyond what both depths resist up to the step.
+    """
+    rise = np.log((1.0 + share) / (1.0 - share))
+    return ((share + 1.0 / share) * rise - 2.0 * np.log(4.0 * share / (1.0 - share**2))) / np.pi
+
+
+def reaches(width: Any, parts: Sequence[Any]) -> tuple[Any, ...]:
+    """What of each of several parts in a row something of a `width` lies over, smoothly as it gets wider than one."""
+    found: list[Any] = []
+    for part in parts:
+        found.append(part * np.tanh((width - sum(found)) / part))
+    return tuple(found)
+
+
+def electrode_foot(half_width: Any, depth: Any) -> Any:
+    """Length [m] by which the way through the depth t is longer for a foot b wide: b - 2 t/pi ln(sinh(pi b/(2 t))).
+
+    From the middle of a finger to its edge; 2 ln 2/pi of the depth for a wide one. Lengths in metres.
+    """
+    return half_width - 2.0 * depth / np.pi * np.log(np.sinh(0.5 * np.pi * half_width / depth))
+
+
+def comb_resistance(resistivity: Any, depth: Any, area: Any, gap: Any, width: Any) -> Any:
+    """Resistance [ohm] of a layer over a comb of fingers `width` wide and a `gap` apart, r (g + 2 f) (g + w)/(t A).
+
+    Gaps of the length A/(g + w) lie side by side; f is what a foot adds. Resistivity [ohm*m], lengths [m], area [m^2].
+    """
+    way = gap + 2.0 * electrode_foot(0.5 * width, depth)
+    return resistivity * way * (gap + width) / (depth * area)

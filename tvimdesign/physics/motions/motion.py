@@ -4,12 +4,15 @@ I theta'' + K_s theta + M = T, with M the torque of the branch: the structure's 
 generalised Maxwell body of modes (relaxation time tau_m, stiffness k_m). phi is the angle across the layer, q_m that
 of mode m's dashpot: M = S (theta - phi) = sum k_m (phi - q_m), q_m' = (phi - q_m)/tau_m.
 Source: Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 1 and 3 (Maxwell elements and their internal states).
+Natural frequency and damping are those of I theta'' + b theta' + K theta = T, one degree of freedom.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
+
+import numpy as np
 
 Modes = Sequence[tuple[Any, Any]]
 """(relaxation time [s], stiffness [N*m/rad]) of each Maxwell element of the layer."""
@@ -96,3 +99,18 @@ def kelvin_voigt_rates(angle: Any, speed: Any, inertia: Any, damping: Any, stiff
 def kelvin_voigt_torque(angle: Any, speed: Any, damping: Any, stiffness: Any) -> Any:
     """Torque of a spring and a dashpot side by side on the link [N*m], -(b theta' + K theta)."""
     return -(damping * speed + stiffness * angle)
+
+
+def natural_frequency(stiffness: Any, inertia: Any) -> Any:
+    """Undamped natural frequency, sqrt(K/I)/(2 pi) [Hz]."""
+    return np.sqrt(stiffness / inertia) / (2.0 * np.pi)
+
+
+def critical_damping(stiffness: Any, inertia: Any) -> Any:
+    """Damping above which nothing rings, 2 sqrt(K I) [N*m*s/rad]."""
+    return 2.0 * np.sqrt(stiffness * inertia)
+
+
+def damping_ratio(damping: Any, stiffness: Any, inertia: Any) -> Any:
+    """Damping over the critical one [1]."""
+    return damping / critical_damping(stiffness, inertia)

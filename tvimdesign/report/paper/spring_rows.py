@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from tvimdesign.base.units import from_si, to_si
 from tvimdesign.physics.layers import layer
-from tvimdesign.physics.motions import dynamics
+from tvimdesign.physics.motions import motion
 from tvimdesign.physics.springs import spring, transmission
 from tvimdesign.report.paper.paper_claims import from_paper
 from tvimdesign.report.paper.published_module import published_module, published_rate, published_values, spring_rate
@@ -52,8 +52,8 @@ def _implied() -> str:
     )
     return (
         f"K_s = 4 k = {implied:.1f} N·m/rad, {implied / computed:.2f} times the {computed:.2f} of the formula: the "
-        f"link would ring at {dynamics.natural_frequency(implied, inertia):.1f} Hz, not "
-        f"{dynamics.natural_frequency(computed, inertia):.1f}; {stated * angle:.1f} N·m at {angle:g} rad would stress "
+        f"link would ring at {motion.natural_frequency(implied, inertia):.1f} Hz, not "
+        f"{motion.natural_frequency(computed, inertia):.1f}; {stated * angle:.1f} N·m at {angle:g} rad would stress "
         f"this wire to {stress / 1e6:.0f} MPa, its tensile strength is {strength / 1e6:.0f} MPa"
     )
 
@@ -152,7 +152,7 @@ def _inertia() -> str:
     stiffness = 4.0 * published_rate()
     return (
         f"{inertia:.3e} kg·m² as kg·mm²; on springs of {stiffness:.2f} N·m/rad that rings at "
-        f"{dynamics.natural_frequency(stiffness, inertia):.1f} Hz"
+        f"{motion.natural_frequency(stiffness, inertia):.1f} Hz"
     )
 
 
@@ -162,7 +162,7 @@ def _motion() -> str:
     return (
         f"with K on the wrong side the springs push away from rest: a deflection would grow as exp({growth:.0f} t/s); "
         f"I theta'' + b theta' + K theta = T rings, and is critically damped at b = "
-        f"{dynamics.critical_damping(stiffness, inertia):.4f} N·m·s/rad"
+        f"{motion.critical_damping(stiffness, inertia):.4f} N·m·s/rad"
     )
 
 

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from tvimdesign.base.record import Record
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
-from tvimdesign.physics.motions.friction import tightened_force
-from tvimdesign.physics.solids import screw_stress
+from tvimdesign.physics.motions.contacts import tightened_force
+from tvimdesign.physics.solids import fasteners
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 _MPA = 1e-6
@@ -40,7 +40,7 @@ class _Tightened(NamedTuple):
 
     def stress(self, along: float, across: float) -> float:
         """Equivalent stress [MPa] with forces along and across it [N]."""
-        found = screw_stress.combined_stress(self.force + along, across, self.twist, self.diameter, self.pitch)
+        found = fasteners.combined_stress(self.force + along, across, self.twist, self.diameter, self.pitch)
         return float(found) * _MPA
 
 
@@ -72,6 +72,6 @@ def _tightened(module: ResolvedModule, choice: str) -> _Tightened:
     head = 0.5 * float(screw.value("head_diameter") + screw.value("clearance_hole"))
     pitch = diameter - drill
     force = float(tightened_force(module.values["link_clamp_stress"], diameter))
-    friction = screw_stress.thread_friction(module.values["nut_factor"], diameter, pitch, head)
-    torque = screw_stress.thread_torque(force, diameter, pitch, friction)
-    return _Tightened(diameter, pitch, force, float(screw_stress.twist_stress(torque, diameter, pitch)))
+    friction = fasteners.thread_friction(module.values["nut_factor"], diameter, pitch, head)
+    torque = fasteners.thread_torque(force, diameter, pitch, friction)
+    return _Tightened(diameter, pitch, force, float(fasteners.twist_stress(torque, diameter, pitch)))

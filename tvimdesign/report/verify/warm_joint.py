@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from tvimdesign.device import Table
 from tvimdesign.device.core.impedance.warm_structure import WAY_OUT, PartTemperatures, in_series
-from tvimdesign.physics.layers import film
+from tvimdesign.physics.layers import block
 from tvimdesign.physics.polymers import polymer
 
 Array = NDArray[np.float64]
@@ -61,7 +61,7 @@ class WarmJoint:
         storage, loss = polymer.moduli(celsius + 273.15, 1.0 - self.molten(celsius), self.omega, q["pcl_rheology"])
         moments = np.full(len(celsius), q["pcl_moment"])
         if not self.sheared:
-            soft = np.array([film.soft_share(*pair) for pair in zip(storage, loss, strict=True)])
+            soft = np.array([block.soft_share(*pair) for pair in zip(storage, loss, strict=True)])
             shape = q["shape_factor"]
             moments = moments * (1.0 + 2.0 * (shape / soft) ** 2) / (1.0 + 2.0 * shape**2)
         layer = np.sum(shares * moments / ((1.0 / (storage + 1j * loss)) @ slices)) / q["pcl_depth"]

@@ -4,7 +4,7 @@ import pytest
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
-from tvimdesign.physics.heat_flow import electrodes
+from tvimdesign.physics.heat_flow import shape_factors
 from tvimdesign.study import given, read_study_text
 from tvimdesign.study.study import Study
 
@@ -21,7 +21,7 @@ def test_layers_in_series_have_the_square_of_their_number_times_the_whole_layer_
     values = given(study(mode, f"{COMB}, electrode_gap: 12 mm"))
     found = table_for(mode).evaluate(values, [*WANTED, "heater_count"])
     assert found["heater_count"] == count
-    one = electrodes.comb_resistance(0.15, found["pcl_depth"], found["pcl_area"] / count, 12e-3, 1e-3)
+    one = shape_factors.comb_resistance(0.15, found["pcl_depth"], found["pcl_area"] / count, 12e-3, 1e-3)
     assert found["layer_resistance"] == pytest.approx(count * one, rel=1e-12)
     halves = table_for(mode).evaluate({**values, "heater_strings": 2.0}, WANTED)
     assert halves["layer_resistance"] == pytest.approx(found["layer_resistance"] / 4.0, rel=1e-12)

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.device import table_for
-from tvimdesign.physics.polymers import large_strain, polymer
+from tvimdesign.physics.polymers import melt, polymer
 from tvimdesign.study import given, read_study_text
 
 ROWS = ["hot_stiffness_at_stroke", "hot_damping_at_stroke", "hot_damping_at_stroke_least", "melt_stress",
@@ -32,7 +32,7 @@ def module(mode: str = "shear", **changes: Any) -> dict[str, Any]:
     return {**found, **table_for(mode).evaluate(found, ROWS)}
 
 
-def melt(viscosity: float) -> list[tuple[float, float]]:
+def melt_modes(viscosity: float) -> list[tuple[float, float]]:
     """Six modes, two a decade, moduli as time to the power -0.2, with the sums of viscosity and 0.95 MPa."""
     times = 10.0 ** (-0.5 * np.arange(6))
     moduli = times**-0.2 / np.sum(times**-0.2) * 0.95e6
@@ -42,10 +42,10 @@ def melt(viscosity: float) -> list[tuple[float, float]]:
 @pytest.mark.parametrize(("hertz", "kilopascal"), [(1.0, 73.0), (3.0, 208.0), (5.0, 321.0)])
 def test_stress_at_full_stroke_is_what_an_independent_reading_found(hertz: float, kilopascal: float) -> None:
     angular = 2.0 * np.pi * hertz
-    star = sum(g * 1j * angular * t / (1.0 + 1j * angular * t) for t, g in melt(2824.889))
+    star = sum(g * 1j * angular * t / (1.0 + 1j * angular * t) for t, g in melt_modes(2824.889))
     assert 4.133 * abs(star) / 1e3 == pytest.approx(kilopascal, rel=5e-3)
     storage, loss = polymer.maxwell_moduli(angular, polymer.melt_spectrum(2824.889, 0.95e6, 6))
-    assert large_strain.shear_stress(4.133, storage, loss) / 1e3 == pytest.approx(kilopascal, rel=5e-3)
+    assert melt.shear_stress(4.133, storage, loss) / 1e3 == pytest.approx(kilopascal, rel=5e-3)
 
 
 def test_damping_falls_to_a_seventh_if_the_melt_remembers_the_whole_stroke() -> None:
@@ -60,10 +60,10 @@ def test_damping_falls_to_a_seventh_if_the_melt_remembers_the_whole_stroke() -> 
 
 def test_damping_at_stroke_is_wagners_over_the_ring() -> None:
     found = module(**OPTIMUM)
-    angular, modes = 2.0 * np.pi, melt(4200.0)
+    angular, modes = 2.0 * np.pi, melt_modes(4200.0)
 
     def share(radius: float, part: int) -> float:
-        return large_strain.wagner_moduli(4.133 * radius, angular, modes, 0.3)[part] * radius**3
+        return melt.wagner_moduli(4.133 * radius, angular, modes, 0.3)[part] * radius**3
 
     whole, _ = quad(lambda r: r**3, INNER, 1.0)
     storage, loss = (quad(share, INNER, 1.0, args=(part,))[0] / whole for part in (0, 1))

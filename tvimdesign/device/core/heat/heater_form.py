@@ -16,7 +16,7 @@ from tvimdesign.device.core.materials import quantities as materials
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import spreader
+from tvimdesign.physics.heat_flow import peltier
 
 CUT = "flexible"
 WITH_TILES = (Feature("heater_form", CUT),)
@@ -103,7 +103,7 @@ def pad_contact(m: Module) -> Scalar:
     """Conductance from the modules' hot side to the layer [W/m^2 K]: contact, and the spreader where there is one."""
     if m.heater_form == CUT:
         return m.hot_contact
-    through = spreader.contact_resistance(
+    through = peltier.spreader_contact_resistance(
         m.hot_contact, m.spreader_conductivity, m.spreader_thickness, m.heater_coverage, m.spreader_contact
     )
     return 1.0 / (through + m.spreader_resistance)

@@ -17,7 +17,7 @@ from tvimdesign.device.core.materials import quantities as materials
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import electrodes
+from tvimdesign.physics.heat_flow import shape_factors
 
 PADS = "pads"
 LAYER_HEATED = (Feature("heat_source", PADS),)
@@ -47,7 +47,9 @@ def layer_resistance(m: Module) -> Scalar:
     """Resistance of the whole layer between its combs, wired as the heaters are."""
     if m.heater_form != CUT:
         raise InputError(f"heat_source: layer needs a heater that lies on the layer; {m.peltier_module.name} is rigid")
-    whole = electrodes.comb_resistance(m.pcl_resistivity, m.pcl_depth, m.pcl_area, m.electrode_gap, m.electrode_width)
+    whole = shape_factors.comb_resistance(
+        m.pcl_resistivity, m.pcl_depth, m.pcl_area, m.electrode_gap, m.electrode_width
+    )
     return whole * (m.heater_count / m.heater_strings) ** 2
 
 

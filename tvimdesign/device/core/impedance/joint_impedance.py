@@ -14,7 +14,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
-from tvimdesign.physics.motions import dynamics, motion
+from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import crystallization, glass, polymer
 from tvimdesign.physics.solids import structure
 
@@ -189,25 +189,25 @@ def joint_damping(m: Module) -> Scalar:
 @quantities.output("Hz", per_point=True, headline=True)
 def natural_frequency(m: Module) -> Scalar:
     """Undamped natural frequency of the joint with its load."""
-    return dynamics.natural_frequency(m.joint_stiffness, m.moving_inertia)
+    return motion.natural_frequency(m.joint_stiffness, m.moving_inertia)
 
 
 @quantities.output("1", per_point=True, headline=True)
 def damping_ratio(m: Module) -> Scalar:
     """Damping ratio of the joint with its load; above one it creeps back without ringing."""
-    return dynamics.damping_ratio(m.joint_damping, m.joint_stiffness, m.moving_inertia)
+    return motion.damping_ratio(m.joint_damping, m.joint_stiffness, m.moving_inertia)
 
 
 @quantities.output("Hz")
 def spring_natural_frequency(m: Module) -> Scalar:
     """Undamped natural frequency on the springs alone."""
-    return dynamics.natural_frequency(m.spring_stiffness, m.moving_inertia)
+    return motion.natural_frequency(m.spring_stiffness, m.moving_inertia)
 
 
 @quantities.output("N*m*s/rad")
 def critical_damping(m: Module) -> Scalar:
     """Damping above which the joint on its springs no longer rings."""
-    return dynamics.critical_damping(m.spring_stiffness, m.moving_inertia)
+    return motion.critical_damping(m.spring_stiffness, m.moving_inertia)
 
 
 @quantities.output("1", headline=True)

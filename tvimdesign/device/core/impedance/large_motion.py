@@ -1,7 +1,7 @@
 """The molten joint over its whole stroke, not only in small motions: stiffness, damping, and the stress in the melt.
 
 An oscillation to the full stroke at the hot point's temperature and frequency. The melt remembers a fraction of a
-second, so it is strained less than the stroke says (Wagner's equation, `physics/polymers/large_strain.py`). Each mode
+second, so it is strained less than the stroke says (Wagner's equation, `physics/polymers/melt.py`). Each mode
 says in its own room what its strains are: `stroke_strains`, (strain [1], share of the small-motion torque [1]) at
 nodes, and `largest_melt_strain`.
 The springs count as at rest; their change over the stroke is `stiffness_over_stroke`.
@@ -19,8 +19,8 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
-from tvimdesign.physics.motions import friction
-from tvimdesign.physics.polymers import large_strain
+from tvimdesign.physics.motions import contacts
+from tvimdesign.physics.polymers import melt
 
 quantities = QuantityGroup(shared.group)
 
@@ -32,7 +32,7 @@ def stroke_branch(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness [N*m/rad] of the molten PCL and what is in series, at full stroke."""
     angular = 2.0 * np.pi * m.frequency_at_hot
     softened = [
-        (share, large_strain.wagner_moduli(strain, angular, m.pcl_modes_at_hot, m.linear_strain_at_hot))
+        (share, melt.wagner_moduli(strain, angular, m.pcl_modes_at_hot, m.linear_strain_at_hot))
         for strain, share in m.stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
@@ -53,9 +53,9 @@ def hot_friction_damping(m: Module) -> Scalar:
     end loads them.
     """
     angular = 2.0 * np.pi * m.frequency_at_hot
-    constant = friction.equivalent_damping(m.pin_friction_torque + m.preload_friction_torque, angular, m.stroke)
+    constant = contacts.equivalent_damping(m.pin_friction_torque + m.preload_friction_torque, angular, m.stroke)
     stiffness = m.spring_stiffness + m.stroke_branch[0]
-    loaded = friction.loaded_damping(m.bearing_friction_share, stiffness, m.stroke_branch[1], angular)
+    loaded = contacts.loaded_damping(m.bearing_friction_share, stiffness, m.stroke_branch[1], angular)
     return constant + loaded
 
 
@@ -81,7 +81,7 @@ def cold_friction_damping(m: Module) -> Scalar:
     The wave spring does not rub while the PCL is frozen and the rotor off its stop.
     """
     angular = 2.0 * np.pi * m.frequency_at_cold
-    return friction.equivalent_damping(m.pin_friction_torque, angular, m.cold_stroke) + m.bearing_damping_at_cold
+    return contacts.equivalent_damping(m.pin_friction_torque, angular, m.cold_stroke) + m.bearing_damping_at_cold
 
 
 @quantities.output("N*m*s/rad")
@@ -98,7 +98,7 @@ def hot_damping_at_stroke_least(m: Module) -> Scalar:
     """
     angular = 2.0 * np.pi * m.frequency_at_hot
     softened = [
-        (share, large_strain.unrelaxed_moduli(strain, angular, m.pcl_modes_at_hot, m.linear_strain_at_hot))
+        (share, melt.unrelaxed_moduli(strain, angular, m.pcl_modes_at_hot, m.linear_strain_at_hot))
         for strain, share in m.stroke_strains
     ]
     storage, loss = (sum(share * moduli[part] for share, moduli in softened) for part in (0, 1))
@@ -111,7 +111,7 @@ def melt_stress(m: Module) -> Scalar:
 
     So it is the most the melt can resist with.
     """
-    return large_strain.shear_stress(m.largest_melt_strain, m.storage_modulus_at_hot, m.loss_modulus_at_hot)
+    return melt.shear_stress(m.largest_melt_strain, m.storage_modulus_at_hot, m.loss_modulus_at_hot)
 
 
 @quantities.output(
@@ -130,7 +130,7 @@ def edge_fracture_angle(m: Module) -> Scalar:
 
     In order of magnitude. A layer that goes on to the stroke needs walls or time to close again.
     """
-    largest = large_strain.edge_strain(
+    largest = melt.edge_strain(
         m.pcl_depth, m.pcl_melt_surface_tension, m.pcl_normal_stress_ratio, m.storage_modulus_at_hot
     )
     return m.stroke * largest / m.largest_melt_strain

@@ -16,8 +16,7 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.motions.friction import sliding_torque
-from tvimdesign.physics.motions.rigid_play import joint_play, overhung_shift
+from tvimdesign.physics.motions.contacts import joint_play, overhung_shift, sliding_torque
 from tvimdesign.physics.springs.transmission import pin_slip
 
 quantities = QuantityGroup("Lost motion")

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.motions import dynamics, motion
+from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import (
     Channel,
@@ -121,9 +121,9 @@ def _derived(known: Values) -> list[Derived]:
 
     return [
         Derived("natural_frequency", "Hz", "Undamped natural frequency",
-                of(lambda inertia, _, stiffness: dynamics.natural_frequency(stiffness, inertia))),
+                of(lambda inertia, _, stiffness: motion.natural_frequency(stiffness, inertia))),
         Derived("damping_ratio", "1", "Damping over the critical one",
-                of(lambda inertia, damping, stiffness: dynamics.damping_ratio(damping, stiffness, inertia))),
+                of(lambda inertia, damping, stiffness: motion.damping_ratio(damping, stiffness, inertia))),
     ]  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""A melt sheared to and fro beyond its linear range: moduli by Wagner's equation, stress, and when a free edge gives.
+"""A melt sheared to and fro beyond its linear range, and its slow flow in a thin gap.
 
 Wagner's equation is the stress sigma(t) = integral over the past of m(s) h(g) g ds, with the relative strain
 g = gamma(t) - gamma(t - s), the memory m(s) = sum (G/tau) exp(-s/tau) of the relaxation spectrum, and the damping
@@ -8,6 +8,11 @@ Sources: [W] Wagner, Rheol. Acta 15 (1976) 136 (the equation); [S] Soskey and Wi
 [N] Noroozi, thesis, University of British Columbia (cIRcle 1.0073545), abstract; [F] Ferry, Viscoelastic Properties of
 Polymers, 3rd ed., ch. 1 and 3; [L] Lodge, Elastic Liquids (1964) (normal stresses of a rubberlike liquid); [T] Tanner
 and Keentok, J. Rheol. 27 (1983) 47 (edge fracture).
+
+Slow flow of a viscous liquid between plates that it does not slip on, in a gap much thinner than it is wide
+(Hele-Shaw). Sources: White, Viscous Fluid Flow, sec. 3-3 (flow between plates); Bird, Armstrong and Hassager,
+Dynamics of Polymeric Liquids, vol. 1, sec. 1.3 (squeeze film); de Gennes, Brochard-Wyart and Quere, Capillarity and
+Wetting Phenomena, ch. 1.
 """
 
 from __future__ import annotations
@@ -89,3 +94,27 @@ def edge_strain(gap: Any, tension: Any, normal_ratio: Any, storage: Any) -> Any:
     tension Gamma [N/m]; |N2| = psi N1, and N1 = G' gamma^2 on the mean of an oscillation [L]. An order of magnitude.
     """
     return np.sqrt(2.0 * tension / (3.0 * gap * normal_ratio * storage))
+
+
+def gap_speed(gradient: Any, gap: Any, viscosity: Any) -> Any:
+    """Mean speed [m/s] in a gap [m] under a pressure gradient [Pa/m], h^2 g/(12 eta); viscosity [Pa s]."""
+    return gap**2 * gradient / (12.0 * viscosity)
+
+
+def gaps_in_series(length: Any, gap: Any, lip_length: Any, lip_gap: Any) -> Any:
+    """Length [m] of a gap that resists the flow as that gap and a narrower one after it do: l + l_2 (h/h_2)^3."""
+    return length + lip_length * (gap / lip_gap) ** 3
+
+
+def meniscus_pressure(surface_tension: Any, gap: Any) -> Any:
+    """Pressure [Pa] that a surface between two edges a gap apart holds, 2 gamma/h; surface tension [N/m], gap [m]."""
+    return 2.0 * surface_tension / gap
+
+
+def squeeze_time(force: Any, viscosity: Any, length: Any, width: Any, thin: Any, thick: Any) -> Any:
+    """Time [s] in which a force [N] takes a strip from one thickness to another [m], pressed thinner or pulled thicker.
+
+    t = eta L w^3/(2 F) (1/h_1^2 - 1/h_2^2), of a strip of the width w that is much narrower than its length L [m] and
+    keeps its width.
+    """
+    return viscosity * length * width**3 / (2.0 * force) * (1.0 / thin**2 - 1.0 / thick**2)

@@ -1,7 +1,7 @@
-"""Stress of a screw that is tightened and loaded along and across: VDI 2230-1:2015, by its stress section.
+"""Stress of tightened screws, and forces of round pegs across a joint.
 
-A screw's pitch follows from its tapping drill, P = d - d_t (ISO 2306).
-"""
+A screw is loaded along and across (VDI 2230-1:2015), by its stress section. A screw's pitch follows from its tapping
+drill, P = d - d_t (ISO 2306)."""
 
 from __future__ import annotations
 
@@ -54,3 +54,27 @@ def combined_stress(force: Any, across: Any, twist: Any, diameter: Any, pitch: A
     area = stress_area(diameter, pitch)
     shear = LEFT_TWIST * twist + across / area
     return np.sqrt((force / area) ** 2 + 3.0 * shear**2)
+
+
+def peg_shear_force(shear_strength: Any, diameter: Any) -> Any:
+    """Force [N] at which a peg shears off in one plane: F = tau pi d^2/4, strength [Pa] evenly over the section.
+
+    Shigley, Mechanical Engineering Design, section 8-12, fasteners loaded in shear.
+    """
+    return shear_strength * 0.25 * np.pi * diameter**2
+
+
+def peg_bearing_force(pressure: Any, diameter: Any, depth: Any) -> Any:
+    """Force [N] at which a peg presses into its hole: F = p d h, pressure [Pa] on the projected area.
+
+    Shigley, Mechanical Engineering Design, section 8-12, bearing of members.
+    """
+    return pressure * diameter * depth
+
+
+def peg_twist_torque(shear_strength: Any, diameter: Any, depth: Any) -> Any:
+    """Torque [N*m] about its own axis at which a bonded peg turns in its hole: T = tau pi d^2 h/2.
+
+    Shear stress [Pa] evenly over the peg's surface (textbook; as a shaft's bonded sleeve in Shigley, section 9-9).
+    """
+    return shear_strength * 0.5 * np.pi * diameter**2 * depth
