@@ -8,8 +8,7 @@ from typing import Any
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity
 from tvimdesign.catalog.inherited_laws import inherited_law_warnings
-from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.heat.peltier_ratings import contradiction
+from tvimdesign.device.core.heat.heater_form import CUT, contradiction
 from tvimdesign.study.resolve import given
 from tvimdesign.study.study import Study
 

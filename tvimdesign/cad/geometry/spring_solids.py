@@ -13,7 +13,7 @@ import cadquery as cq
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.device.core.springs.leg_on_pin import leg_azimuth
+from tvimdesign.device.core.springs.spring_as_drawn import leg_azimuth
 
 VOLUME_TOLERANCE = 1e-3
 

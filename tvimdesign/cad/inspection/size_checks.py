@@ -25,7 +25,7 @@ from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.kinds import CHANGING, KINDS, SPRINGS, TURNING, is_of_structure, kind_of
 from tvimdesign.cad.geometry.spring_solids import installed_coil
-from tvimdesign.device.core.springs.leg_on_pin import pin_distance
+from tvimdesign.device.core.springs.spring_as_drawn import pin_distance
 from tvimdesign.study.design import Design
 
 ROOM = 3.0 * CHORD

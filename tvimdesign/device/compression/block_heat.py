@@ -10,14 +10,13 @@ import numpy as np
 
 from tvimdesign.device.compression.block_impedance import blocks_moment
 from tvimdesign.device.compression.ring_heat import ABOVE, FLOOR
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import columns, lumps
 from tvimdesign.physics.layers import block
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 
 @quantities.helper(instant=True)

@@ -13,7 +13,6 @@ from tvimdesign.device.components.bearing import with_bearings
 from tvimdesign.device.components.dowels import LINK_PARTS
 from tvimdesign.device.components.liner import traction_with_liner
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.table.module import Module
@@ -22,7 +21,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block, hold, layer
 from tvimdesign.physics.solids import structure, wedge
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Impedance")
 
 
 @quantities.output("1")

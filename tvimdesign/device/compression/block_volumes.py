@@ -1,9 +1,15 @@
-"""Volumes of what only the compression module has: blocks, vanes on rotor and housing, and slots."""
+"""Volumes of what only the compression module has: blocks, vanes on rotor and housing, and slots.
+
+The gap a freezing block opens beside its vane, and the angle over which none touches because of it.
+
+A block has free sides, so it shrinks alike in each direction. It stays on its pad and leaves the
+rotor's vane; what the springs press into the gap while it is soft is not taken off, so the gap is an upper bound. The
+rotor need not come down with the blocks: a running clearance is below and above them.
+"""
 
 from __future__ import annotations
 
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
-from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -18,8 +24,9 @@ from tvimdesign.physics.bodies.shapes import (
     wedge,
     wedge_corners,
 )
+from tvimdesign.physics.polymers import shrinkage
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Size and weight")
 
 
 @quantities.output("mm^2")
@@ -142,3 +149,24 @@ def rotor_vanes(m: Module) -> Section:
 def rotor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the rotor with its vanes, less the recesses for liners."""
     return m.bare_rotor_moments.plus(m.rotor_vanes.times(m.vane_height)) - m.liner_recess
+
+
+places, shrinkages = QuantityGroup("Layout"), QuantityGroup("Axial play")
+
+
+@places.output("mm")
+def freezing_travel(m: Module) -> Scalar:
+    """How far the rotor comes down as the PCL freezes: not at all, blocks have clearance above and below."""
+    return 0.0 * m.melting_growth
+
+
+@shrinkages.output("mm")
+def freezing_gap(m: Module) -> Scalar:
+    """What a freezing block loses of its depth, and leaves beside its vane."""
+    return m.block_depth * shrinkage.linear_share(m.freezing_shrinkage)
+
+
+@shrinkages.output("deg")
+def freezing_backlash(m: Module) -> Scalar:
+    """Angle between a block's touch on either side of a rotor vane, after freezing at rest without load."""
+    return 2.0 * m.freezing_gap / m.pcl_mean_radius

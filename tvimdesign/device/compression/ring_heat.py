@@ -13,14 +13,13 @@ import itertools
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link, Place
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 FLOOR = (0, 1, 2)
 """Places of the floor's bodies below the blocks, from its upper face on."""

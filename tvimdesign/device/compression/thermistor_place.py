@@ -9,17 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at
 
-places, weights, rules = QuantityGroup(layout.group), QuantityGroup(bodies.group), QuantityGroup(gaps.group)
-groups = (places, weights, rules)
+places, weights, rules = QuantityGroup("Layout"), QuantityGroup("Size and weight"), QuantityGroup("Gaps")
 
 
 @places.output("1")

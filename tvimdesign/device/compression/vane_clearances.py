@@ -6,7 +6,6 @@ import numpy as np
 
 from tvimdesign.device.components.cutout import WITH_CUTOUT
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
-from tvimdesign.device.core.clearances import quantities as shared
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
@@ -14,7 +13,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import between_planes
 from tvimdesign.physics.layers import block
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Gaps")
 
 
 @quantities.output("mm", at_least(0.0, "blocks and vanes must clear the hub"))

@@ -1,20 +1,116 @@
-"""What the vanes of rotor and housing pass to floor and rotor plate: through their roots, and through the clearance at
+"""What the rotor plate passes along the ring above blocks, pads and vanes, and from there inwards and outwards.
+
+What the vanes of rotor and housing pass to floor and rotor plate: through their roots, and through the clearance at
 their other end.
 
 A vane meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
+
+What rigid Peltier modules and their spreaders pass to the blocks and lose beside them; how all modules are wired.
 """
 
 from __future__ import annotations
 
-from tvimdesign.device.compression.ring_heat import ABOVE_VANES, ABOVE_WALLS, BELOW_VANES, BELOW_WALLS, WALLS
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
+import numpy as np
+
+from tvimdesign.device.compression.ring_heat import (
+    ABOVE,
+    ABOVE_PADS,
+    ABOVE_VANES,
+    ABOVE_WALLS,
+    BELOW_VANES,
+    BELOW_WALLS,
+    RIM,
+    WALLS,
+    WITHIN,
+)
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, shape_factors
-from tvimdesign.physics.heat_flow.lumps import STRIP, Link
+from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
+from tvimdesign.physics.heat_flow.lip import Lip
+from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Body, Link, Place
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
+
+
+@quantities.helper()
+def shares_above(m: Module) -> tuple[tuple[Place, Scalar], ...]:
+    """Bodies of the rotor plate above the ring, and each one's share of it."""
+    ring = m.heated_length + m.plate_depth + m.wall_depth
+    heated = [(("beside", i), share * m.heated_length / ring) for i, share in zip(ABOVE, STRIP, strict=True)]
+    walls = [(("around", i), share * m.wall_depth / ring) for i, share in zip(ABOVE_WALLS, STRIP, strict=True)]
+    return (("beside", ABOVE_VANES), m.plate_depth / ring), *heated, *walls
+
+
+@quantities.helper()
+def plate_links(m: Module) -> tuple[Link, ...]:
+    """From the rotor plate above the rotor's vanes to what is beside it, but its lowest tenth, which is next in the
+    chain; and to the core from all but the upper one above blocks and pads, after which the core is next."""
+    to_heated = m.structure_conductivity * m.rotor_thickness * m.ring_width * m.ways_along[0]
+    vanes, core = ("beside", ABOVE_VANES), ("beside", ABOVE[-1] + 1)
+    along = [Link(vanes, ("beside", i), share * to_heated) for i, share in zip(ABOVE[1:], STRIP[1:], strict=True)]
+    inwards = [
+        Link(place, core, share * m.core_and_link.conductance)
+        for place, share in m.shares_above
+        if place != ("beside", ABOVE[-1])
+    ]
+    upwards = m.structure_conductivity * m.ring_width * m.pads_share * m.heated_length / (WAYS[1] * m.rotor_thickness)
+    beyond = m.structure_conductivity * m.rotor_thickness * m.ring_width / m.wall_depth
+    walls = [
+        Link(("around", i - 1), ("around", i), beyond / way) for i, way in zip(ABOVE_WALLS[1:], WAYS[1:], strict=True)
+    ]
+    return (*along, *inwards, *walls, Link(("around", ABOVE_PADS), ("beside", ABOVE[1]), upwards))
+
+
+@quantities.helper()
+def core_share(m: Module) -> Scalar:
+    """What of the conductance to the core begins at the last body of the rotor plate."""
+    return dict(m.shares_above)["beside", ABOVE[-1]]
+
+
+@quantities.helper()
+def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
+    """From the rotor plate above blocks and pads to what is above the housing's vanes, and from all of it above the
+    ring to what is without and within; and the air there.
+
+    What ends free has its mean temperature a third of the way to its end.
+    """
+    sheet = m.structure_conductivity * m.rotor_thickness * m.ring_width
+    along = sheet / (0.25 * m.heated_length + WAYS[0] * m.wall_depth)
+    walls = [m.around_pads[i].surface for i in ABOVE_WALLS]
+    air = sum(one.area * lumps.surface_coefficient(one, m.ambient_temperature, m.ambient_temperature) for one in walls)
+    onward = lumps.in_series(sheet / ((1.0 / 3.0 - WAYS[0]) * m.wall_depth), air)
+    found = [
+        lumps.Loss(Link(("beside", i), ("around", ABOVE_WALLS[0]), share * along), share * onward)
+        for i, share in zip(ABOVE, STRIP, strict=True)
+    ]
+    around = 2.0 * np.pi * m.structure_conductivity * m.rotor_thickness
+    without = around / np.log(1.0 + (m.rotor_radius - m.pcl_outer_radius) / (3.0 * m.pcl_outer_radius))
+    within = -around / np.log(1.0 - (m.pcl_inner_radius - m.core_radius) / (3.0 * m.pcl_inner_radius))
+    for beyond, conductance in ((RIM, without), (WITHIN, within)):
+        for place, share in m.shares_above:
+            link = Link(place, ("around", beyond), share * conductance)
+            found.append(_onward(link, m.around_pads, m.ambient_temperature, share))
+    return tuple(found)
+
+
+@quantities.helper()
+def loss_links(m: Module) -> tuple[Link, ...]:
+    """What passes heat from the plate to bodies around it."""
+    return tuple(loss.link for loss in m.plate_losses)
+
+
+@quantities.helper()
+def lip(_: Module) -> Lip | None:
+    """No lip stands at a block."""
+    return None
+
+
+def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar) -> lumps.Loss:
+    """A link to a body that loses a share of its heat to the air behind it."""
+    surface = bodies[link.second[1]].surface
+    return lumps.Loss(link, share * surface.area * lumps.surface_coefficient(surface, ambient, ambient))
 
 
 @quantities.helper()
@@ -57,3 +153,58 @@ def vane_links(m: Module) -> tuple[Link, ...]:
 def _into(sheet: Scalar, width: Scalar, depth: Scalar) -> Scalar:
     """Conductance [W/K] from a strip of a face to the mean of what lies before it, k L of its length."""
     return sheet / shape_factors.ledge_ways(width / depth)[0]
+
+
+@quantities.output("1")
+def heater_strings(m: Module) -> Scalar:
+    """Strings of Peltier modules in parallel, which share the current."""
+    return {"series": 1.0, "vanes_parallel": m.vane_count, "all_parallel": m.heater_count}[m.heater_wiring]
+
+
+@quantities.helper()
+def cold_to_sink(_: Module) -> Scalar:
+    """Resistance along the cold sides to a sink [K/W]: not counted, as the slots leave most of them open."""
+    return 0.0
+
+
+@quantities.helper()
+def cold_area(m: Module) -> Scalar:
+    """Open area of the modules' cold sides [m^2]: what of them the slots show, rounds of their corners not counted."""
+    if m.heater_form == CUT:
+        return 2.0 * m.vane_count * m.slot_width * m.slot_height
+    return m.heater_count * m.tile_window * m.slot_height
+
+
+@quantities.output("K*mm^2/W", requires=WITH_TILES)
+def spreader_resistance(m: Module) -> Scalar:
+    """Resistance of the way along the spreader to what its modules do not cover, times the layer's area.
+
+    First upwards from the tiles' upper edges, as they stand at the spreader's lower one; then along the radius, from
+    both sides of each tile. A thin plate solved in two dimensions resists 5 to 18 % less: heat takes both ways at once.
+    """
+    k, t, row = m.spreader_conductivity, m.spreader_thickness, m.tiles_per_block * m.peltier_length
+    upright, covered = row * m.block_height, row * m.peltier_width
+    upwards = peltier.spreading_resistance(upright, covered, row, k, t)
+    edges = 2.0 * m.tiles_per_block * m.block_height
+    sideways = peltier.spreading_resistance(m.block_width * m.block_height, upright, edges, k, t)
+    return upwards * m.block_width / row + sideways
+
+
+@quantities.helper(requires=WITH_TILES, default=())
+def spreader_links(m: Module) -> tuple[Link, ...]:
+    """From the spreaders' edges to floor, rotor plate and housing; from what tiles leave free of them into the vanes.
+
+    The spreaders have the temperature of the modules' hot side. Beside the tiles their backs face the vane through the
+    tiles' thickness of still air.
+    """
+    hot, (floor, above, walls, housing) = ("hot", 0), m.ring_places
+    edges = [
+        lumps.air_gap(
+            m.ring_width * m.spreader_depth, m.running_clearance, m.air_conductivity, m.surface_emissivity, hot, face
+        )
+        for face in (floor, above)
+    ]
+    backs = lumps.air_gap(
+        m.pcl_area - m.heated_area, m.peltier_thickness, m.air_conductivity, m.surface_emissivity, hot, walls
+    )
+    return (*edges, backs, Link(hot, housing, m.open_sides * m.spreader_depth))

@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.layout import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import between_planes
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Layout")
 
 
 @quantities.output("mm", hidden=True)

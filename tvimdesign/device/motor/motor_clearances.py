@@ -5,15 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.components.bearing import BEARINGS, load_per_torque
-from tvimdesign.device.core.clearances import quantities as gaps
-from tvimdesign.device.core.impedance.creep_under_hold import quantities as hold
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
-quantities, torques = QuantityGroup(gaps.group, WITH_MOTOR), QuantityGroup(hold.group, WITH_MOTOR)
-groups = (quantities, torques)
+quantities, torques = QuantityGroup("Gaps", WITH_MOTOR), QuantityGroup("Hold", WITH_MOTOR)
 
 
 @quantities.output("mm", at_least(0.0, "the module's retainer would rub on the motor's hub: more foot_height"))

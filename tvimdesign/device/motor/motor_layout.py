@@ -22,8 +22,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.components.drilled_holes import runout
-from tvimdesign.device.core.layout import quantities as layout
+from tvimdesign.device.components.process import runout
 from tvimdesign.device.core.motor_choice import WITH_ENCODER, WITH_MOTOR
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
@@ -32,7 +31,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 BASE_SCREWS = 4
 """Screws that fix the motor's housing from below."""
 
-quantities = QuantityGroup(layout.group, WITH_MOTOR)
+quantities = QuantityGroup("Layout", WITH_MOTOR)
 
 
 # --- radii: all zero without a motor ---------------------------------------------------------------------------------

@@ -7,13 +7,12 @@ import numpy as np
 from tvimdesign.device.components.cutout import WITH_CUTOUT
 from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
-from tvimdesign.device.core.clearances import quantities as shared
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Gaps")
 
 
 quantities.after("leg_reach_gap")

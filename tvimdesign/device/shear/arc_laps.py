@@ -11,14 +11,13 @@ import numpy as np
 
 from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
-from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import annular_lap, shear_lag
 from tvimdesign.physics.solids import structure
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Impedance")
 
 
 @quantities.helper()

@@ -6,7 +6,6 @@ from math import pi
 
 from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.mass_properties import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -20,7 +19,7 @@ from tvimdesign.physics.bodies.shapes import (
     stacked,
 )
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Size and weight")
 _SPANDREL = (5.0 / 6.0 - 0.25 * pi) / (1.0 - 0.25 * pi)
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -20,7 +19,7 @@ from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
 from tvimdesign.physics.heat_flow.slab_faces import ACROSS
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 UPPER, LOWER = (0, 1, 2), (3, 4, 5)
 """Places of the strips' bodies, from the pockets' walls on."""

@@ -10,11 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.clearances import quantities as gaps
-from tvimdesign.device.core.impedance.joint_impedance import quantities as impedance
-from tvimdesign.device.core.impedance.lost_motion import quantities as lost_motion
-from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -23,13 +18,12 @@ from tvimdesign.physics.motions.contacts import joint_play
 from tvimdesign.physics.solids import fasteners, structure
 
 places, strengths, play, weights, rules = (
-    QuantityGroup(layout.group),
-    QuantityGroup(impedance.group),
-    QuantityGroup(lost_motion.group),
-    QuantityGroup(bodies.group),
-    QuantityGroup(gaps.group),
+    QuantityGroup("Layout"),
+    QuantityGroup("Impedance"),
+    QuantityGroup("Lost motion"),
+    QuantityGroup("Size and weight"),
+    QuantityGroup("Gaps"),
 )
-groups = (places, strengths, play, weights, rules)
 
 
 @places.helper()

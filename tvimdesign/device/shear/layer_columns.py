@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER, SIDE
 from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.table.module import Module
@@ -15,7 +14,7 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import columns, conduction, heat, peltier, still_air
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 
 def across(cold_end: ColdEnd | None) -> columns.Columns:

@@ -3,6 +3,12 @@
 A lip touches the layer but for the running clearance below it; what else heats and cools it is in `lip_heat`. The arcs'
 ends have no lip; they are taken as having one, as an arc is a strip with as much edge. A liner and its film are as much
 more layer there, before the plate; the walls of its recess go on from the lip (`liner_rim`).
+
+What a liner gives sideways: through the film around it to the walls of its recess in the rotor plate.
+
+Layer and liner end at one cold wall (`layer_end.end_wall`): the walls of the recess, and below them a lip, if there is
+one. The liner's cells give by their own excess over the plate's edge what such a wall takes beside them of an even
+fall. The plate is that wall's for a share of its depth (`shape_factors.constriction`).
 """
 
 from __future__ import annotations
@@ -11,7 +17,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import CORNER
 from tvimdesign.device.shear.melt_lip import NO_LIP
 from tvimdesign.device.table.module import Module
@@ -22,7 +27,7 @@ from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.still_air import below_lip
 from tvimdesign.physics.heat_flow.walled_end import WalledEnd, sheet_end, sheeted_end, walled_end
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 HOT, BESIDE, FLOOR = ("hot", 0), ("beside", 0), ("around", CORNER)
 AT_CORNER = 4.0 / np.pi
@@ -143,3 +148,32 @@ def side_links(m: Module) -> tuple[Link, ...]:
     inside = shape_factors.FALLING * shape_factors.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
     return (*m.liner_rim, to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
+
+
+LINER, PLATE = ("liner", 0), ("plate", 0)
+
+
+@quantities.helper()
+def liner_to_wall(m: Module) -> Scalar:
+    """From a liner to the walls of its recess [W/m K], without the film around it, by its mean excess over them."""
+    if m.liner_sheet is None or m.end_wall is None:
+        return 0.0
+    above = 1.0 - m.end_wall.layer
+    excess = above - 0.5 * m.end_wall.sheet
+    return (
+        m.end_wall.conductivity
+        * m.end_wall.end.rim
+        / (excess - shape_factors.AT_WALL * m.end_wall.end.sheet_colder / m.end_wall.width)
+    )
+
+
+@quantities.helper()
+def liner_rim(m: Module) -> tuple[Link, ...]:
+    """Links from a liner to the plate's edge, which lies between plate and strip beside it; none without a liner."""
+    if m.liner_sheet is None:
+        return ()
+    film = m.liner_film_conductivity * m.liner_thickness / m.liner_film
+    onto = m.structure_conductivity / shape_factors.constriction(m.liner_depth / m.rotor_thickness)
+    whole = m.edge_length * lumps.in_series(m.liner_to_wall, film, onto)
+    beside = m.rotor_beside[0].conductance / m.plate_to_edge
+    return (Link(LINER, PLATE, (1.0 - beside) * whole), Link(LINER, BESIDE, beside * whole))

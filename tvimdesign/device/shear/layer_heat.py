@@ -9,13 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, shape_factors
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 
 @quantities.helper()

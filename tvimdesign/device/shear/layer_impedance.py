@@ -8,7 +8,6 @@ from tvimdesign.device.components.bearing import with_bearings
 from tvimdesign.device.components.dowels import LINK_PARTS
 from tvimdesign.device.components.liner import WITH_LINER, traction_with_liner
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.table.module import Module
@@ -18,7 +17,7 @@ from tvimdesign.physics.layers import hold, layer, shear_lag
 from tvimdesign.physics.polymers import melt
 from tvimdesign.physics.solids import structure
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Impedance")
 
 
 @quantities.output("m^4")

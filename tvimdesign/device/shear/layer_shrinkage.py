@@ -11,16 +11,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.shrinkage import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import shrinkage
 from tvimdesign.physics.solids import structure
 
-places, quantities = QuantityGroup(layout.group), QuantityGroup(shared.group)
-groups = (places, quantities)
+places, quantities = QuantityGroup("Layout"), QuantityGroup("Axial play")
 
 
 @places.output("mm")

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.shear.floor_heat import BELOW
 from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
 from tvimdesign.device.table.module import Module
@@ -19,7 +18,7 @@ from tvimdesign.physics.heat_flow import shape_factors, slab_faces, still_air
 from tvimdesign.physics.heat_flow.lip import Arm, Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Place
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 HOT, FACE, PLATE, BESIDE = ("hot", 0), ("face", 0), ("plate", 0), ("beside", 0)
 Means = tuple[tuple[Place, Scalar], ...]

@@ -1,6 +1,8 @@
 """Pockets of pads and spreaders in the floor, and of liners in the rotor plate: wider than what lies in them.
 
 A pocket has the outline of an arc, wider by `slip_clearance` on every side, so that what has that outline goes in.
+
+Where the rotor plate stands in the shear module: on the PCL layer, which lies on the floor.
 """
 
 from __future__ import annotations
@@ -8,17 +10,13 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.core.clearances import MM
-from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.impedance.joint_impedance import quantities as impedance
-from tvimdesign.device.core.layout import quantities as layout
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
-places, rules = QuantityGroup(layout.group), QuantityGroup(gaps.group)
-holds = QuantityGroup(impedance.group)
-groups = (places, rules, holds)
+places, rules = QuantityGroup("Layout"), QuantityGroup("Gaps")
+holds = QuantityGroup("Impedance")
 
 
 @places.output("mm")
@@ -65,3 +63,18 @@ def ledge_tension(m: Module) -> Scalar:
     The layer pulls with `freezing_traction`, its highest, over all of it, and with no more than its bond bears.
     """
     return np.fmin(m.freezing_traction, m.pcl_bond_strength) * m.pcl_area / m.ledge_area
+
+
+levels = QuantityGroup("Layout")
+
+
+@levels.output("mm", hidden=True)
+def rotor_bottom_level(m: Module) -> Scalar:
+    """Lower face of the rotor plate, which lies on the layer."""
+    return m.pcl_thickness
+
+
+@levels.helper()
+def pcl_depth(m: Module) -> Scalar:
+    """Way of heat and load through the PCL [m]."""
+    return m.pcl_thickness

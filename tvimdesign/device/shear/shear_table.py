@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from tvimdesign.device.shared import SHARED_GROUPS
+from tvimdesign.device.shared import ROOMS as SHARED
 from tvimdesign.device.shear import (
     arc_clearances,
     arc_laps,
     arc_volumes,
-    cold_sides,
     floor_heat,
     keys,
     layer_columns,
@@ -15,15 +14,11 @@ from tvimdesign.device.shear import (
     layer_heat,
     layer_impedance,
     layer_shrinkage,
-    liner_rim,
     lip_heat,
     melt_lip,
-    melt_retention,
+    pad_heat,
     pad_pockets,
-    rotor_level,
     thermistor_seat,
-    tile_heat,
-    tile_room,
     tiles,
 )
 from tvimdesign.device.table.phases import PHASES
@@ -31,12 +26,7 @@ from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 ROOMS = (
-    rotor_level, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, liner_rim, lip_heat, floor_heat,
-    arc_volumes, arc_clearances, melt_retention, tile_heat, tile_room,
-    cold_sides,
+    pad_pockets, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, lip_heat, floor_heat, arc_volumes,
+    arc_clearances, pad_heat, tiles, thermistor_seat, keys, layer_shrinkage, melt_lip,
 )  # fmt: skip
-GROUPS = (
-    *tiles.groups, *pad_pockets.groups, *thermistor_seat.groups, *keys.groups, *layer_shrinkage.groups,
-    *melt_lip.groups,
-)  # fmt: skip
-TABLE = Table(gather([*SHARED_GROUPS, *(room.quantities for room in ROOMS), *GROUPS], "shear"), PHASES)
+TABLE = Table(gather((*SHARED, *ROOMS), "shear"), PHASES)

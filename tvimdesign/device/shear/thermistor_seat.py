@@ -10,10 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.mass_properties import quantities as bodies
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -22,8 +19,7 @@ from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, stacked
 ROOM = 2.3
 """Diameter of the seat over that of the bead: twice the bead, which stands in half of it, and what it is glued in."""
 
-places, weights, rules = QuantityGroup(layout.group), QuantityGroup(bodies.group), QuantityGroup(gaps.group)
-groups = (places, weights, rules)
+places, weights, rules = QuantityGroup("Layout"), QuantityGroup("Size and weight"), QuantityGroup("Gaps")
 
 
 @places.output("1")

@@ -12,23 +12,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.clearances import quantities as gaps
 from tvimdesign.device.core.heat.heater_form import WITH_TILES
-from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.mass_properties import quantities as bodies
-from tvimdesign.device.core.materials import quantities as materials
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, rectangle_at
 
 places, weights, rules = (
-    QuantityGroup(layout.group, WITH_TILES),
-    QuantityGroup(bodies.group, WITH_TILES),
-    QuantityGroup(gaps.group, WITH_TILES),
+    QuantityGroup("Layout", WITH_TILES),
+    QuantityGroup("Size and weight", WITH_TILES),
+    QuantityGroup("Gaps", WITH_TILES),
 )
-kinds = QuantityGroup(materials.group)
-groups = (kinds, places, weights, rules)
+kinds = QuantityGroup("Materials")
 
 kinds.option(
     "heater_wiring",

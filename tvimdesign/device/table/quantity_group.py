@@ -3,9 +3,10 @@ description."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from importlib import resources
+from types import ModuleType
 from typing import Any, Literal, TypeVar
 
 import yaml
@@ -28,6 +29,12 @@ from tvimdesign.device.table.quantity import (
 )
 
 F = TypeVar("F", bound=Callable[[Module], Any])
+
+GROUPS = (
+    "Materials", "Process", "Layout", "Springs", "Impedance", "Lost motion", "Hold", "Switch", "Softening",
+    "Stiffening", "Size and weight", "Gaps", "Axial play",
+)  # fmt: skip
+"""The headings under which reports list quantities, in their order."""
 
 
 class QuantityGroup:
@@ -289,12 +296,11 @@ class QuantityGroup:
         return add
 
 
-def gather(groups: Iterable[QuantityGroup], mode: str) -> tuple[Quantity, ...]:
-    """Quantities of a mode from the groups of its rooms, those under one heading together where its first one
-    stands."""
-    headings: dict[str, list[Quantity]] = {}
-    for group in groups:
-        together = headings.setdefault(group.group, [])
+def gather(rooms: Iterable[ModuleType], mode: str) -> tuple[Quantity, ...]:
+    """Return the quantities of a mode that the rooms write, those of a group together."""
+    gathered: dict[str, list[Quantity]] = {group: [] for group in GROUPS}
+    for group in (group for room in rooms for group in _groups_of(room)):
+        together = gathered[group.group]
         place = len(together)
         for i, quantity in enumerate(group.quantities):
             if i in group.anchors:
@@ -302,7 +308,16 @@ def gather(groups: Iterable[QuantityGroup], mode: str) -> tuple[Quantity, ...]:
             if not (isinstance(quantity, Input) and quantity.mode not in {None, mode}):
                 together.insert(place, quantity)
                 place += 1
-    return tuple(quantity for together in headings.values() for quantity in together)
+    return tuple(quantity for together in gathered.values() for quantity in together)
+
+
+def _groups_of(room: ModuleType) -> Iterator[QuantityGroup]:
+    """Yield the groups that a room defines, alone or in tuples (`screwed_joint`)."""
+    for value in vars(room).values():
+        if isinstance(value, QuantityGroup):
+            yield value
+        elif isinstance(value, tuple):
+            yield from (group for group in value if isinstance(group, QuantityGroup))
 
 
 def _said(entry: Mapping[str, Any]) -> str:

@@ -4,15 +4,14 @@ A flexible module is cut to the face of the PCL. A rigid one is a rectangle: as 
 spreader of the PCL's outline lies on them, flush with the structure, and takes their heat to what they do not cover.
 Each mode says how many pockets there are (`pocket_count`), how many modules lie in each (`tiles_per_pocket`), and what
 the spreader resists (`spreader_resistance`).
+
+Whether the ratings of a Peltier module's data sheet agree with one another.
 """
 
 from __future__ import annotations
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.device.core.heat.thermal_stack import quantities as heat
-from tvimdesign.device.core.layout import quantities as layout
-from tvimdesign.device.core.mass_properties import quantities as bodies
-from tvimdesign.device.core.materials import quantities as materials
+from tvimdesign.base.record import Record
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -21,10 +20,9 @@ from tvimdesign.physics.heat_flow import peltier
 CUT = "flexible"
 WITH_TILES = (Feature("heater_form", CUT),)
 
-kinds = QuantityGroup(materials.group)
-places, weights = QuantityGroup(layout.group, WITH_TILES), QuantityGroup(bodies.group, WITH_TILES)
-flows = QuantityGroup(heat.group)
-groups = (kinds, places, weights, flows)
+kinds = QuantityGroup("Materials")
+places, weights = QuantityGroup("Layout", WITH_TILES), QuantityGroup("Size and weight", WITH_TILES)
+flows = QuantityGroup("Switch")
 
 kinds.option(
     "heater_form",
@@ -119,3 +117,22 @@ def to_spreader(m: Module) -> Scalar:
 def spreader_capacity(m: Module) -> Scalar:
     """Heat capacity of all spreaders [J/K], counted at the modules' hot side; zero without."""
     return m.spreader_mass * m.spreader_specific_heat
+
+
+RATINGS_ALIKE = 0.1
+"""Share by which ratings of a Peltier module may differ from what the others make of them: makers round that far."""
+_RATED = ("seebeck", "resistance", "conductance", "hot_side_temperature", "max_cooling_power")
+
+
+def contradiction(record: Record) -> str:
+    """What is wrong with a Peltier module's cooling power; nothing where it agrees or where the record has none."""
+    if not set(_RATED) <= record.entries.keys():
+        return ""
+    *parameters, hot, stated = (record.value(name) for name in _RATED)
+    computed = float(peltier.max_cooling_power(peltier.PeltierModule(*parameters), hot))
+    if abs(computed / stated - 1.0) <= RATINGS_ALIKE:
+        return ""
+    return (
+        f"{record.title}: Seebeck coefficient and resistance make a largest cooling power of {computed:.3g} W, the "
+        f"sheet says {stated:.3g} W; its cooling may be off by as much. Measure one, or take the lower."
+    )

@@ -12,8 +12,6 @@ import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device.core.heat.heater_form import CUT
-from tvimdesign.device.core.heat.thermal_stack import quantities as heat
-from tvimdesign.device.core.materials import quantities as materials
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -22,8 +20,7 @@ from tvimdesign.physics.heat_flow import shape_factors
 PADS = "pads"
 LAYER_HEATED = (Feature("heat_source", PADS),)
 
-kinds, flows = QuantityGroup(materials.group), QuantityGroup(heat.group)
-groups = (kinds, flows)
+kinds, flows = QuantityGroup("Materials"), QuantityGroup("Switch")
 
 kinds.option(
     "heat_source",

@@ -7,13 +7,12 @@ the melt does (`hot_damping_at_stroke` is less).
 
 from __future__ import annotations
 
-from tvimdesign.device.core.heat.thermal_stack import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Switch")
 
 quantities.option(
     "motion",

@@ -13,7 +13,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.materials import CRYSTALLIZING
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
@@ -22,7 +21,7 @@ from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import contacts
 from tvimdesign.physics.polymers import melt
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Impedance")
 
 Strains = Sequence[tuple[Scalar, Scalar]]
 

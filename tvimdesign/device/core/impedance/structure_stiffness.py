@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.core.mass_properties import LINK_SCREWS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
@@ -16,7 +15,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers.layer import series_stiffness
 from tvimdesign.physics.solids import structure, warm
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Impedance")
 
 
 @quantities.helper()

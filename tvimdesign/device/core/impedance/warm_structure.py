@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tvimdesign.device.core.impedance.joint_impedance import quantities as shared
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -23,7 +22,7 @@ from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
 from tvimdesign.physics.solids import warm
 from tvimdesign.physics.solids.warm import Softening
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Impedance")
 
 WAY_OUT = 1.0 / 3.0
 """Share of the way from the core's temperature to the plate's at which the plate beside the PCL gives."""

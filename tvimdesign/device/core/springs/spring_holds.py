@@ -2,19 +2,22 @@
 
 Both are as cold as the air here; the adhesive of a bonded tang counts as stiff as the structure. The coil bears the
 torque of `held_spring_rate`, which every force and stress in the module comes from.
+
+What the springs' preload loses as the plastic that holds it creeps, over months and hot hours.
+
+What gives at once is in `held_spring_rate`. The pin is as warm as the plate beside the PCL, the floor as the air.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.springs.torsion_springs import quantities as shared
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.polymers import creep
 
-quantities = QuantityGroup(shared.group)
+quantities = QuantityGroup("Springs")
 
 
 @quantities.helper()
@@ -47,3 +50,39 @@ def held_spring_rate(m: Module) -> Scalar:
 def preload_give(m: Module) -> Scalar:
     """Winding that the coil loses at once at rest as pin and floor give; none of the margin, as its torque stays."""
     return m.preload_angle * (1.0 - m.held_spring_rate / m.spring_rate)
+
+
+@quantities.helper()
+def structure_creep(m: Module) -> creep.Creep:
+    """How the structure creeps."""
+    return creep.Creep(m.structure_creep_share, m.structure_creep_exponent, m.structure_creep_energy)
+
+
+Holds = tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]]
+"""Elastic compliance [rad/(N*m)] of pin and tang, and the creep of each, of that [1]."""
+
+
+@quantities.helper()
+def spring_holds(m: Module) -> Holds:
+    """What holds a spring after `rest_time` in the air and `hot_time` at the hot point."""
+    rested = creep.aged(m.rest_time, m.ambient_temperature, m.structure_creep)
+    warm = (m.part_temperatures_at_hot.beside, m.part_temperatures_at_hot.floor)
+    times = (rested + creep.aged(m.hot_time, temperature, m.structure_creep) for temperature in warm)
+    on_pin, in_floor = (creep.growth(time, m.structure_creep) for time in times)
+    return (m.pin_give, on_pin), (m.tang_give, in_floor)
+
+
+@quantities.output("rad")
+def preload_loss(m: Module) -> Scalar:
+    """Winding that a spring loses at rest by creep of pin and floor, after `rest_time` and `hot_time`."""
+    at_once = creep.winding_left(m.spring_rate, *((compliance, 0.0) for compliance, _ in m.spring_holds))
+    return m.preload_angle * (at_once - creep.winding_left(m.spring_rate, *m.spring_holds))
+
+
+_CREPT = "a spring lifts off at full stroke once pins and floor have crept"
+
+
+@quantities.output("rad", advice=(Rule(sense=">=", value=0.0, reason=_CREPT),))
+def crept_preload_margin(m: Module) -> Scalar:
+    """Preload that is left at the end of the stroke, less what creep takes of it; adjusters can set it anew."""
+    return m.preload_margin - m.preload_loss
