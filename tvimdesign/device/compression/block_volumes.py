@@ -60,8 +60,7 @@ def spreader_volume(m: Module) -> Scalar:
     return m.pcl_area * m.spreader_depth
 
 
-@quantities.helper()
-def slot_section(m: Module) -> Section:
+def _slot_section(m: Module) -> Section:
     """Plan view of the slots beside the pads: sectors of the vanes, less the pads on either side and their corners.
 
     Behind tiles: what lies between the tiles of a vane, with flat ends.
@@ -104,27 +103,15 @@ def housing_vanes_moments(m: Module) -> Section:
     return stacked(
         (whole.times(m.vane_count), m.vane_height),
         (pads.times(m.vane_count), -m.block_height),
-        (m.slot_section, -m.slot_height),
+        (_slot_section(m), -m.slot_height),
         (m.slot_foot_section, m.block_height - m.vane_height),
     )
-
-
-@quantities.output("mm^3")
-def housing_vanes_volume(m: Module) -> Scalar:
-    """Volume of the housing's vanes, less the pads let into them and their slots."""
-    return m.housing_vanes_moments.area
 
 
 @quantities.helper()
 def floor_openings(m: Module) -> Section:
     """What the floor has not got, volume and its polar moment: the slots, and a hole for the thermistor."""
     return m.slot_foot_section.plus(m.thermistor_seat_section).times(m.floor_thickness)
-
-
-@quantities.output("mm^3")
-def floor_volume(m: Module) -> Scalar:
-    """Volume of the housing's floor around the hub, less slots, tang holes and mounting holes."""
-    return m.floor_moments.area
 
 
 @quantities.helper()

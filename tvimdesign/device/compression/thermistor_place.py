@@ -76,8 +76,7 @@ def thermistor_rim_gap(m: Module) -> Scalar:
     return m.rotor_rim - m.thermistor_diameter
 
 
-@rules.helper()
-def thermistor_azimuth(m: Module) -> Scalar:
+def _thermistor_azimuth(m: Module) -> Scalar:
     """Azimuth of the bead's axis [rad]: half a bead behind the face of the first vane that the first pad stands in."""
     half = 0.5 * m.thermistor_diameter
     return np.pi / m.vane_count + 0.5 * m.housing_vane_angle - np.arctan2(half, m.pcl_outer_radius + half)
@@ -90,7 +89,7 @@ def thermistor_hole_gap(m: Module) -> Scalar:
     Springs stand at azimuth 0 and evenly around, so the nearest is arccos(cos(n a))/n beside.
     """
     taken = np.fmax(m.spring_reach + m.tang_clearance, m.adjuster_radius + m.slip_clearance)
-    beside = np.arccos(np.fmin(np.cos(m.spring_count * m.thermistor_azimuth), 1.0 - 1e-12)) / m.spring_count
+    beside = np.arccos(np.fmin(np.cos(m.spring_count * _thermistor_azimuth(m)), 1.0 - 1e-12)) / m.spring_count
     across = m.placement_radius * np.sin(beside)
     away = np.sqrt((m.placement_radius * np.cos(beside) - m.thermistor_seat_radius) ** 2 + across**2)
     room = np.fmax(away - taken, 0.0)

@@ -82,8 +82,7 @@ def slot_top_level(m: Module) -> Scalar:
     return m.running_clearance + m.slot_height
 
 
-@quantities.helper()
-def slot_reach_below(m: Module) -> Scalar:
+def _slot_reach_below(m: Module) -> Scalar:
     """How far the slots reach under the pads [m]: by their rounded corners; under tiles to the leads between their
     plates.
 
@@ -164,7 +163,7 @@ _FALLS = "slots are wider below the pads, by the radius of their corners, and le
 @quantities.output("mm", at_least(0.2 * MM, _FALLS, 0.0))
 def pad_seat(m: Module) -> Scalar:
     """Width of what a pad, or a spreader with its tiles, stands on beside its slot."""
-    return m.pad_depth - m.slot_reach_below
+    return m.pad_depth - _slot_reach_below(m)
 
 
 _SEAT = "pads stand on too thin a wall beside their slots: a smaller slot_corner_offset or lead_hole_diameter"

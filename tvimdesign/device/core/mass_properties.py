@@ -43,24 +43,12 @@ def skirt_moments(m: Module) -> Section:
     return (skirt - notches).plus(foot.times(m.spring_count)).times(m.foot_height)
 
 
-@quantities.output("mm^3")
-def skirt_volume(m: Module) -> Scalar:
-    """Volume of the housing below its floor: the skirt with its notches, and the mounting feet."""
-    return m.skirt_moments.area
-
-
 @quantities.helper()
 def hub_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the hub from its lower to its upper end."""
     seats = m.upper_seat_depth + m.lower_seat_depth
     between = m.hub_top_level - m.hub_bottom_level - seats
     return stacked((ring(m.seat_radius, m.hub_radius), seats), (ring(m.lip_radius, m.hub_radius), between))
-
-
-@quantities.output("mm^3")
-def hub_volume(m: Module) -> Scalar:
-    """Volume of the hub from its lower to its upper end, the floor around it not counted."""
-    return m.hub_moments.area
 
 
 @quantities.helper()
@@ -95,21 +83,19 @@ def bare_rotor_moments(m: Module) -> Section:
         (disc_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS), -m.link_screw_depth),
         (ring(0.0, 0.5 * m.retainer_screw_hole), -m.retainer_screw_depth),
         (m.link_dowel_section, -m.link_dowel_depth),
-        (m.foot_fillets, 1.0),
-        (m.core_drill_points, -1.0),
+        (_foot_fillets(m), 1.0),
+        (_core_drill_points(m), -1.0),
     )
 
 
-@quantities.helper()
-def foot_fillets(m: Module) -> Section:
+def _foot_fillets(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the fillets at the feet of core and pins."""
     of_pin = fillet_at_foot(0.5 * m.pin_diameter, m.foot_fillet)
     beside = Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2)
     return fillet_at_foot(m.core_radius, m.foot_fillet).plus(beside.times(m.spring_count))
 
 
-@quantities.helper()
-def core_drill_points(m: Module) -> Section:
+def _core_drill_points(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the points of the core's blind holes; nothing where printed."""
     return stacked(
         (

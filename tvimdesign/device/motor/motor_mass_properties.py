@@ -242,9 +242,3 @@ def driven_inertia(m: Module) -> Scalar:
     carried = (m.springs_mass + m.adjusters_mass) * at_springs + on_arcs * at_pcl
     cover = m.cover_section.polar * m.cover_height * m.structure_density
     return m.drive_inertia + m.housing_inertia + cover + carried
-
-
-@inertias.output("rad/s^2", requires=WITH_MOTOR)
-def motor_acceleration(m: Module) -> Scalar:
-    """Acceleration of the housing by the motor's continuous torque while the link is free; zero without a motor."""
-    return m.drive_motor.continuous_torque / m.driven_inertia

@@ -86,17 +86,15 @@ def over_arcs_compliance(m: Module) -> Scalar:
     )
 
 
-@quantities.helper(requires=WITH_TILES)
-def ledge_radii(m: Module) -> tuple[Scalar, Scalar]:
+def _ledge_radii(m: Module) -> tuple[Scalar, Scalar]:
     """Radii of the middles of the ledges that a rigid module lies on, inner and outer [m]."""
     reach = 0.5 * (m.peltier_width - m.window_ledge)
     return m.tile_radius - reach, m.tile_radius + reach
 
 
-@quantities.helper(requires=WITH_TILES)
-def under_tiles_compliance(m: Module) -> Scalar:
+def _under_tiles_compliance(m: Module) -> Scalar:
     """What the floor gives between the ledges of rigid modules, and from their windows to the arcs' rim [rad/(N*m)]."""
-    inner, outer = m.ledge_radii
+    inner, outer = _ledge_radii(m)
     on_ledge = m.heater_count * m.peltier_length * m.window_ledge * m.peltier_shear_modulus / m.peltier_thickness
     seats = 1.0 / (on_ledge * inner**2), 1.0 / (on_ledge * outer**2)
     ribs = structure.ring_stiffness(m.structure_shear_modulus, (1.0 - m.windowed_share) * m.floor_web, inner, outer)
@@ -109,8 +107,7 @@ def under_tiles_compliance(m: Module) -> Scalar:
     return structure.under_ledges_compliance(seats, 1.0 / ribs + hoop, 1.0 / beyond)
 
 
-@quantities.helper()
-def under_pads_compliance(m: Module) -> Scalar:
+def _under_pads_compliance(m: Module) -> Scalar:
     """What the floor gives between the ledges of pads cut to the PCL, and from their windows to its rim [rad/(N*m)].
 
     The inner half of an arc hangs on the inner ledge, the outer half on the outer; between arcs the floor is whole.
@@ -133,7 +130,7 @@ def under_pads_compliance(m: Module) -> Scalar:
 @quantities.helper()
 def under_arcs_compliance(m: Module) -> Scalar:
     """What the floor gives below the arcs, out to their rim [rad/(N*m)]."""
-    return m.under_pads_compliance if m.heater_form == CUT else m.under_tiles_compliance
+    return _under_pads_compliance(m) if m.heater_form == CUT else _under_tiles_compliance(m)
 
 
 @quantities.helper(requires=WITH_LINER, default=1.0)

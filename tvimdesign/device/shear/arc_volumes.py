@@ -58,8 +58,7 @@ def pad_section(m: Module) -> Section:
     return _rounded_sector(m.arc_span, m.pcl_inner_radius, m.pcl_outer_radius, m.corner_radius).times(m.arc_count)
 
 
-@quantities.helper()
-def pocket_section(m: Module) -> Section:
+def _pocket_section(m: Module) -> Section:
     """Plan view of all pockets for pads."""
     return _rounded_sector(m.pocket_span, m.pocket_inner_radius, m.pocket_outer_radius, m.corner_radius).times(
         m.arc_count
@@ -86,15 +85,9 @@ def window_section(m: Module) -> Section:
 def floor_openings(m: Module) -> Section:
     """What the floor has not got, volume and its polar moment: pockets, windows, holes for leads, thermistor's seat."""
     opened = stacked(
-        (m.pocket_section, m.pad_depth), (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web)
+        (_pocket_section(m), m.pad_depth), (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web)
     )
     return opened.plus(m.thermistor_seat_moments)
-
-
-@quantities.output("mm^3")
-def floor_volume(m: Module) -> Scalar:
-    """Volume of the housing's floor around the hub, less pad pockets, windows, tang holes and mounting holes."""
-    return m.floor_moments.area
 
 
 @quantities.helper()

@@ -152,7 +152,7 @@ def open_gaps(m: Module) -> tuple[Link, ...]:
         gap = lumps.air_gap(
             area, m.pcl_thickness, m.air_conductivity, m.surface_emissivity, ("beside", above), ("around", floor)
         )
-        found.append(lumps.behind(gap, area / m.plate_faces, m.ambient_temperature))
+        found.append(lumps.behind(gap, area / _plate_faces(m), m.ambient_temperature))
     return tuple(found)
 
 
@@ -162,8 +162,7 @@ def loss_links(m: Module) -> tuple[Link, ...]:
     return m.open_gaps
 
 
-@quantities.helper()
-def plate_faces(m: Module) -> Scalar:
+def _plate_faces(m: Module) -> Scalar:
     """What lies behind both faces of that gap [m^2 K/W]: a third of the plate's depth and half of the upper strip's."""
     return (m.rotor_thickness / 3.0 + 0.5 * m.pad_depth) / m.structure_conductivity
 

@@ -26,16 +26,14 @@ def freezing_travel(m: Module) -> Scalar:
     return m.pcl_thickness * m.melting_growth
 
 
-@quantities.helper()
-def layer_foundation(m: Module) -> Scalar:
+def _layer_foundation(m: Module) -> Scalar:
     """Tension of the frozen layer over how far the middles of plate and floor part [Pa/m]."""
     layer = shrinkage.confined_modulus(m.pcl_flexural_modulus, m.pcl_poissons_ratio) / m.pcl_thickness
     halves = 2.0 * m.structure_youngs_modulus / (m.rotor_thickness + m.floor_thickness)
     return structure.series(layer, m.pad_foundation, halves)
 
 
-@quantities.helper()
-def plates_rigidity(m: Module) -> tuple[Scalar, Scalar]:
+def _plates_rigidity(m: Module) -> tuple[Scalar, Scalar]:
     """Rigidity of plate and floor in series, of all the circumference over that of the arcs: bending [N*m], shear
     [N/m]."""
     both, share = (m.rotor_thickness, m.floor_thickness), m.arc_count * m.arc_span / (2.0 * np.pi)
@@ -56,11 +54,11 @@ def freezing_traction(m: Module) -> Scalar:
     span = m.pcl_inner_radius - m.hub_radius
     if isinstance(m.axial_preload, str):
         lost = m.freezing_shrinkage * m.pcl_thickness
-        bending, shear = m.plates_rigidity
-        held = shrinkage.edge_traction(lost, m.layer_foundation, bending, shear, span)
+        bending, shear = _plates_rigidity(m)
+        held = shrinkage.edge_traction(lost, _layer_foundation(m), bending, shear, span)
         return np.fmin(held, m.pcl_tensile_yield)
     edge = m.arc_count * m.arc_span * m.pcl_inner_radius
-    return shrinkage.edge_traction_of_force(m.frozen_preload / edge, m.layer_foundation, m.plates_rigidity[0], span)
+    return shrinkage.edge_traction_of_force(m.frozen_preload / edge, _layer_foundation(m), _plates_rigidity(m)[0], span)
 
 
 _PARTS = "the freezing layer shrinks, the rotor cannot follow, and the bond may part at its inner edge"

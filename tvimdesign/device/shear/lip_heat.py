@@ -62,8 +62,7 @@ def lip_ways(m: Module) -> tuple[Scalar, ...]:
     return tuple(step * end - one * (1.0 - share) / m.rotor_thickness for one, end in zip(covered, ends, strict=True))
 
 
-@quantities.helper()
-def lip_faces(m: Module) -> tuple[Scalar, ...]:
+def _lip_faces(m: Module) -> tuple[Scalar, ...]:
     """How much warmer lips' lower faces are than the plate above them, over each body of the strip, over how much
     warmer their sides are than the plate's edge [1] (`slab_faces.beyond_constriction`); nothing without lips."""
     if m.melt_lip == NO_LIP:
@@ -104,7 +103,7 @@ def lip(m: Module) -> Lip | None:
 
     Layer and pads give heat to its side (`cold_end`), and to its lower edge through the clearance. From there it
     spreads as from a share of the end of a slab that is as deep as plate and lip together (`constriction`). Its
-    lower face meets the floor (`lip_faces`).
+    lower face meets the floor (`_lip_faces`).
     """
     if m.cold_end is None or m.lip_root is None:
         return None
@@ -115,7 +114,7 @@ def lip(m: Module) -> Lip | None:
         Arm(m.structure_conductivity / onto * m.edge_length, root),
         Arm(still_air.below_lip(slot)[0] * conductivity * m.edge_length, ((HOT, 1.0),)),
     ]
-    for i, (through, warmer, floor) in enumerate(zip(m.below_lips, m.lip_faces, BELOW, strict=True)):
+    for i, (through, warmer, floor) in enumerate(zip(m.below_lips, _lip_faces(m), BELOW, strict=True)):
         edge = tuple((place, weight * warmer) for place, weight in mean)
         arms.append(Arm(through, ((("around", floor), 1.0), (("beside", i), -1.0), *edge), warmer))
     return Lip(m.cold_end.of_layer * m.edge_length, m.cold_end.of_pads * m.edge_length, tuple(arms))

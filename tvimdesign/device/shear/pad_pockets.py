@@ -49,8 +49,7 @@ def pad_ledge(m: Module) -> Scalar:
     return m.window_ledge - (m.slip_clearance if m.heater_form == CUT else m.tile_clearance)
 
 
-@holds.helper()
-def ledge_area(m: Module) -> Scalar:
+def _ledge_area(m: Module) -> Scalar:
     """What all pads, or tiles, lie on beside their windows [m^2]."""
     lying = m.pad_section.area if m.heater_form == CUT else m.heater_count * m.peltier_length * m.peltier_width
     return lying - m.window_section.area
@@ -62,7 +61,7 @@ def ledge_tension(m: Module) -> Scalar:
 
     The layer pulls with `freezing_traction`, its highest, over all of it, and with no more than its bond bears.
     """
-    return np.fmin(m.freezing_traction, m.pcl_bond_strength) * m.pcl_area / m.ledge_area
+    return np.fmin(m.freezing_traction, m.pcl_bond_strength) * m.pcl_area / _ledge_area(m)
 
 
 levels = QuantityGroup("Layout")

@@ -90,18 +90,6 @@ def thresholds_apart(m: Module) -> Scalar:
     return np.log(m.stiff_threshold) - np.log(m.soft_threshold)
 
 
-@quantities.event(STIFFENING, headline=False)
-def near_face_cooling_time(m: Module) -> Scalar:
-    """Time from the end of the switch until the face at the pads is down to the cold point's temperature."""
-    return (m.temperature_at_cold - m.stack_profile.near) / heat.TEMPERATURE_SCALE
-
-
-@quantities.event(STIFFENING, headline=False)
-def mean_cooling_time(m: Module) -> Scalar:
-    """Time from the end of the switch until the layer's mean is down to the cold point's temperature."""
-    return (m.temperature_at_cold - m.mean_temperature) / heat.TEMPERATURE_SCALE
-
-
 @quantities.event(STIFFENING)
 def far_face_cooling_time(m: Module) -> Scalar:
     """Time from the end of the switch until the face at the rotor is down to the cold point's temperature."""

@@ -94,8 +94,7 @@ def sink(m: Module) -> lumps.Lump | None:
     return lumps.Lump(conductance=contact, capacity=m.sink_capacity, surface=surface)
 
 
-@quantities.helper()
-def heat_links(m: Module) -> tuple[lumps.Link, ...]:
+def _heat_links(m: Module) -> tuple[lumps.Link, ...]:
     """What passes heat between the stack and the bodies beside and around it, and among these."""
     return (*m.floor_links, *m.stack_links, *m.side_links, *m.loss_links)
 
@@ -130,7 +129,7 @@ def stack(m: Module) -> heat.Stack:
         uneven_conductance=m.uneven_sideways,
         sink=m.sink,
         around=m.around_pads,
-        links=m.heat_links,
+        links=_heat_links(m),
         lip=m.lip,
         to_spreader=m.to_spreader / m.pcl_area,
         layer_resistance=m.layer_resistance,

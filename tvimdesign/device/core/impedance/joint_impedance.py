@@ -216,12 +216,6 @@ def impedance_range(m: Module) -> Scalar:
     return m.joint_stiffness_at_cold / m.joint_stiffness_at_hot
 
 
-@quantities.output("1")
-def damping_range(m: Module) -> Scalar:
-    """Damping of the joint cold over hot."""
-    return m.joint_damping_at_cold / m.joint_damping_at_hot
-
-
 @quantities.output(
     "kg*mm^2", advice=(Rule(sense=">=", value=0.0, reason="the module's own parts have more inertia than that"),)
 )

@@ -118,12 +118,6 @@ def joint_stiffness_at_link(m: Module) -> Scalar:
     return m.stiffness_beyond_link[0]
 
 
-@quantities.output("N*m*s/rad", per_point=True)
-def joint_damping_at_link(m: Module) -> Scalar:
-    """Damping a force in the link's tool hole meets."""
-    return m.stiffness_beyond_link[1] / (2.0 * np.pi * m.frequency)
-
-
 @quantities.helper()
 def core_shear_yield(m: Module) -> Scalar:
     """Shear stress at which the core yields across its layers, cold [Pa]."""

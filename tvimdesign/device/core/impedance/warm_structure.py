@@ -82,8 +82,7 @@ def in_series(
 # --- at the operating points ------------------------------------------------------------------------------------------
 
 
-@quantities.helper()
-def behind_pcl(m: Module) -> BehindPolymer:
+def _behind_pcl(m: Module) -> BehindPolymer:
     """What the PCL heats, as in the stack; and both faces of the link lose heat, which a phase is too short to tell.
 
     What is beside the plate loses heat through `plate_losses` as well, such as the gap to the floor and the air there.
@@ -104,9 +103,9 @@ def behind_pcl(m: Module) -> BehindPolymer:
 @quantities.helper(per_point=True)
 def part_temperatures(m: Module) -> PartTemperatures:
     """Temperatures of the structure's parts with the PCL at the point's temperature for good."""
-    held = held_plate(m.behind_pcl, m.temperature)
-    walls = 0.5 * (m.temperature + m.behind_pcl.ambient)
-    return _parts(held.plate, held.beside, walls, m.behind_pcl.ambient)
+    held = held_plate(_behind_pcl(m), m.temperature)
+    walls = 0.5 * (m.temperature + _behind_pcl(m).ambient)
+    return _parts(held.plate, held.beside, walls, _behind_pcl(m).ambient)
 
 
 def _parts(plate: Sequence[Scalar], beside: Sequence[Scalar], walls: Scalar, floor: Scalar) -> PartTemperatures:

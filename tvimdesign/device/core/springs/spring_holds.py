@@ -52,8 +52,7 @@ def preload_give(m: Module) -> Scalar:
     return m.preload_angle * (1.0 - m.held_spring_rate / m.spring_rate)
 
 
-@quantities.helper()
-def structure_creep(m: Module) -> creep.Creep:
+def _structure_creep(m: Module) -> creep.Creep:
     """How the structure creeps."""
     return creep.Creep(m.structure_creep_share, m.structure_creep_exponent, m.structure_creep_energy)
 
@@ -62,21 +61,20 @@ Holds = tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]]
 """Elastic compliance [rad/(N*m)] of pin and tang, and the creep of each, of that [1]."""
 
 
-@quantities.helper()
-def spring_holds(m: Module) -> Holds:
+def _spring_holds(m: Module) -> Holds:
     """What holds a spring after `rest_time` in the air and `hot_time` at the hot point."""
-    rested = creep.aged(m.rest_time, m.ambient_temperature, m.structure_creep)
+    rested = creep.aged(m.rest_time, m.ambient_temperature, _structure_creep(m))
     warm = (m.part_temperatures_at_hot.beside, m.part_temperatures_at_hot.floor)
-    times = (rested + creep.aged(m.hot_time, temperature, m.structure_creep) for temperature in warm)
-    on_pin, in_floor = (creep.growth(time, m.structure_creep) for time in times)
+    times = (rested + creep.aged(m.hot_time, temperature, _structure_creep(m)) for temperature in warm)
+    on_pin, in_floor = (creep.growth(time, _structure_creep(m)) for time in times)
     return (m.pin_give, on_pin), (m.tang_give, in_floor)
 
 
 @quantities.output("rad")
 def preload_loss(m: Module) -> Scalar:
     """Winding that a spring loses at rest by creep of pin and floor, after `rest_time` and `hot_time`."""
-    at_once = creep.winding_left(m.spring_rate, *((compliance, 0.0) for compliance, _ in m.spring_holds))
-    return m.preload_angle * (at_once - creep.winding_left(m.spring_rate, *m.spring_holds))
+    at_once = creep.winding_left(m.spring_rate, *((compliance, 0.0) for compliance, _ in _spring_holds(m)))
+    return m.preload_angle * (at_once - creep.winding_left(m.spring_rate, *_spring_holds(m)))
 
 
 _CREPT = "a spring lifts off at full stroke once pins and floor have crept"

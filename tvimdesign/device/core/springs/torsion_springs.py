@@ -232,12 +232,6 @@ def free_angle_over_preload(m: Module) -> Scalar:
     return left / np.fmax(m.preload_margin, 1e-3)
 
 
-@quantities.output("1")
-def free_angle_over_stroke(m: Module) -> Scalar:
-    """Free-angle tolerance as a multiple of the stroke; above about one the preload must be adjustable."""
-    return m.free_angle_tolerance / np.abs(m.stroke)
-
-
 @quantities.output(
     "1", Rule(sense=">=", value=1.0, reason="the rotor's pins would break off between two layers of the print")
 )
