@@ -1,4 +1,4 @@
-"""Which modes a module can have, each with its table."""
+"""Modes that a module can have, each with its table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the heat passes in the compression module: along the blocks into half of a rotor vane, and up into the plate.
+"""Path of the heat in the compression module: along the blocks into half of a rotor vane, and up into the plate.
 
 By symmetry no heat passes the middle of a rotor vane, which a block heats from either side. What takes heat from the
 free sides of blocks, pads and vanes is in `ring_heat`.
@@ -28,7 +28,7 @@ def moment_now(m: Module) -> Scalar:
 
 @quantities.helper()
 def column_shares(_: Module) -> tuple[float, ...]:
-    """What of a block's height each row stands for [1]."""
+    """Share of a block's height that each row stands for [1]."""
     return columns.EVEN.shares
 
 
@@ -38,7 +38,7 @@ def layer_temperatures(m: Module) -> list[Scalar]:
     count, places = len(m.stack_profile.cells), m.stack_profile._asdict()
     lost = []
     for faced in (("around", FLOOR[0]), ("beside", ABOVE[0])):
-        (link,) = (one for one in m.stack.links if (one.first, one.second) == (("layer", 0), faced))
+        (link,) = (link for link in m.stack.links if (link.first, link.second) == (("layer", 0), faced))
         face = places[faced[0]][faced[1]]
         if link.slope is not None:
             face = face + lumps.risen(link.slope, places, count)

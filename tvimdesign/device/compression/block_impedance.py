@@ -31,13 +31,13 @@ def shape_factor(m: Module) -> Scalar:
 
 
 def blocks_moment(shape_factor: Scalar, vane_count: Scalar, block_area: Scalar, pcl_mean_radius: Scalar) -> Scalar:
-    """Stiffness of the pressed blocks over shear modulus, times depth [m^4]: 3 (1 + 2 S^2) N A r^2."""
+    """Return the stiffness of the pressed blocks over shear modulus, times depth [m^4]: 3 (1 + 2 S^2) N A r^2."""
     return block.stiffness(3.0 * block.shape_stiffening(shape_factor), vane_count, block_area, pcl_mean_radius, 1.0)
 
 
 @quantities.helper()
 def pcl_moment(m: Module) -> Scalar:
-    """What the PCL's shear modulus over its depth is multiplied with [m^4]."""
+    """Factor of the PCL's shear modulus over its depth in its stiffness [m^4]."""
     return blocks_moment(m.shape_factor, m.vane_count, m.block_area, m.pcl_mean_radius)
 
 
@@ -93,20 +93,20 @@ def driven_share(_: Module) -> Scalar:
 
 @quantities.helper()
 def over_arcs_compliance(m: Module) -> Scalar:
-    """What the rotor plate gives from the PCL's inner edge to its vanes' middle [rad/(N*m)]."""
+    """Compliance of the rotor plate from the PCL's inner edge to its vanes' middle [rad/(N*m)]."""
     ring = structure.ring_stiffness(m.structure_shear_modulus, m.rotor_thickness, m.pcl_inner_radius, m.pcl_mean_radius)
     return 1.0 / ring
 
 
 @quantities.helper()
 def under_arcs_compliance(_: Module) -> Scalar:
-    """What the floor gives below the PCL [rad/(N*m)]: nothing, it is counted with the vanes that stand on it."""
+    """Compliance of the floor below the PCL [rad/(N*m)]: zero, it is counted with the vanes that stand on it."""
     return 0.0
 
 
 @quantities.helper()
 def structure_compliances(m: Module) -> Compliances:
-    """What is in series with the blocks: core, plate, vanes, floor up to its feet or its flange, pads and liners."""
+    """Compliances in series with the blocks: core, plate, vanes, floor up to its feet or flange, pads and liners."""
     pads = m.vane_count * m.pad_press_stiffness * m.pcl_mean_radius**2
     return Compliances(
         1.0 / m.core_stiffness, 1.0 / m.plate_stiffness, 1.0 / m.rotor_vane_stiffness, 1.0 / m.housing_vane_stiffness,
@@ -131,7 +131,7 @@ def floor_ring(m: Module) -> Scalar:
 
 @quantities.helper()
 def lossless_compliance(m: Module) -> Scalar:
-    """What is in series with the PCL's shear modes and structure besides [rad/(N*m)]: the blocks' volume."""
+    """Compliance without loss in series with the PCL's shear modes [rad/(N*m)]: the blocks' volume."""
     return 1.0 / m.volume_stiffness
 
 

@@ -61,7 +61,8 @@ def spreader_volume(m: Module) -> Scalar:
 
 
 def _slot_section(m: Module) -> Section:
-    """Plan view of the slots beside the pads: sectors of the vanes, less the pads on either side and their corners.
+    """Return the plan view of the slots beside the pads: sectors of the vanes, less the pads on either side and their
+    corners.
 
     Behind tiles: what lies between the tiles of a vane, with flat ends.
     """
@@ -110,7 +111,7 @@ def housing_vanes_moments(m: Module) -> Section:
 
 @quantities.helper()
 def floor_openings(m: Module) -> Section:
-    """What the floor has not got, volume and its polar moment: the slots, and a hole for the thermistor."""
+    """Volume of the floor's openings and its polar moment: the slots, and a hole for the thermistor."""
     return m.slot_foot_section.plus(m.thermistor_seat_section).times(m.floor_thickness)
 
 
@@ -143,13 +144,13 @@ places, shrinkages = QuantityGroup("Layout"), QuantityGroup("Axial play")
 
 @places.output("mm")
 def freezing_travel(m: Module) -> Scalar:
-    """How far the rotor comes down as the PCL freezes: not at all, blocks have clearance above and below."""
+    """Axial travel of the rotor as the PCL freezes: zero, blocks have clearance above and below."""
     return 0.0 * m.melting_growth
 
 
 @shrinkages.output("mm")
 def freezing_gap(m: Module) -> Scalar:
-    """What a freezing block loses of its depth, and leaves beside its vane."""
+    """Depth that a freezing block loses, and leaves beside its vane."""
     return m.block_depth * shrinkage.linear_share(m.freezing_shrinkage)
 
 

@@ -1,4 +1,4 @@
-"""What stands around the blocks of the compression module as bodies of one temperature, and what passes heat to them.
+"""Bodies of one temperature around the blocks of the compression module, and the links that pass heat to them.
 
 Blocks, pads and rotor vanes face floor and rotor plate through the still air of the running clearances, and the housing
 through the chamber within and without. The pads lean against the housing's vanes. The floor below blocks and pads is
@@ -50,13 +50,13 @@ def ring_width(m: Module) -> Scalar:
 
 @quantities.helper()
 def ring_places(_: Module) -> tuple[Place, Place, Place, Place]:
-    """What pads face: floor, rotor plate and housing's vanes; and the housing."""
+    """Places that pads face: floor, rotor plate and housing's vanes; and the housing."""
     return ("around", BELOW_PADS[0]), ("around", ABOVE_PADS), ("around", WALLS[0]), ("around", HOUSING)
 
 
 @quantities.helper()
 def pads_share(m: Module) -> Scalar:
-    """What the pads have of the depth of a block and its pad."""
+    """Share of the pads in the depth of a block and its pad."""
     return 1.0 - m.block_depth / m.heated_length
 
 
@@ -93,7 +93,7 @@ def around_pads(m: Module) -> tuple[Body, ...]:
 
 
 def _divided(whole: Body) -> list[Body]:
-    """A strip that is heated at its edge, in three bodies from there on (`strip.STRIP`)."""
+    """Return a strip that is heated at its edge, in three bodies from there on (`strip.STRIP`)."""
     surface = whole.surface
     return [Body(share * whole.capacity, surface._replace(area=share * surface.area)) for share in STRIP]
 
@@ -140,27 +140,27 @@ def floor_links(m: Module) -> tuple[Link, ...]:
     uneven_walls = sheet / (0.25 * pads + turned)
     turned = shape_factors.uneven_way(m.plate_depth / m.floor_thickness) * m.floor_thickness
     uneven_vanes = lumps.heated_between(sheet / blocks, sheet / turned, 4.0 * sheet / pads)[0]
-    found = []
-    found += [*_evened(FLOOR, uneven_vanes - to_vanes), *_evened(BELOW_PADS, uneven_walls - to_walls)]
+    links = []
+    links += [*_evened(FLOOR, uneven_vanes - to_vanes), *_evened(BELOW_PADS, uneven_walls - to_walls)]
     first = BELOW_WALLS[0]
     for row, depth, end, along in ((FLOOR, blocks, BELOW_VANES, to_vanes), (BELOW_PADS, pads, first, to_walls)):
         down = m.structure_conductivity * depth * m.ring_width / m.floor_thickness
-        found += [_link(row[i - 1], row[i], down / way) for i, way in enumerate(WAYS[1:], 1)]
+        links += [_link(row[i - 1], row[i], down / way) for i, way in enumerate(WAYS[1:], 1)]
         for place, share in zip(row, STRIP, strict=True):
-            found += [_link(place, HOUSING, share * out * depth), _link(place, end, share * along)]
+            links += [_link(place, HOUSING, share * out * depth), _link(place, end, share * along)]
     for block, pad, share in zip(FLOOR, BELOW_PADS, STRIP, strict=True):
-        found += [_link(block, pad, share * to_pads), _link(pad, BELOW_VANES, share * across)]
-    found.append(_link(BELOW_VANES, HOUSING, out * m.plate_depth))
-    found += [_link(i, HOUSING, share * out * m.wall_depth) for i, share in zip(BELOW_WALLS, STRIP, strict=True)]
+        links += [_link(block, pad, share * to_pads), _link(pad, BELOW_VANES, share * across)]
+    links.append(_link(BELOW_VANES, HOUSING, out * m.plate_depth))
+    links += [_link(i, HOUSING, share * out * m.wall_depth) for i, share in zip(BELOW_WALLS, STRIP, strict=True)]
     inwards = m.structure_conductivity * (m.pcl_area - m.cold_area) / m.wall_depth
     for strip, across in ((WALLS, inwards), (BELOW_WALLS, sheet / m.wall_depth)):
-        found += [_link(i - 1, i, across / way) for i, way in zip(strip[1:], WAYS[1:], strict=True)]
-    return tuple(found)
+        links += [_link(i - 1, i, across / way) for i, way in zip(strip[1:], WAYS[1:], strict=True)]
+    return tuple(links)
 
 
 def _evened(row: tuple[int, ...], conductance: Scalar) -> list[Link]:
-    """Links among bodies of a row that leave what it gives by its mean, and take a conductance from what each gives by
-    its difference from that: c (T_mean - T_i) to each for its share."""
+    """Return the links among bodies of a row that leave what it gives by its mean, and take a conductance from what
+    each gives by its difference from that: c (T_mean - T_i) to each for its share."""
     shares = dict(zip(row, STRIP, strict=True))
     pairs = itertools.combinations(row, 2)
     return [_link(one, other, shares[one] * shares[other] * conductance) for one, other in pairs]
@@ -172,7 +172,7 @@ def _link(first: int, second: int, conductance: Scalar) -> Link:
 
 @quantities.helper()
 def slope_share(m: Module) -> Scalar:
-    """What lies below a block of the way from the floor below a pad to that below a vane, where heat passes on [1].
+    """Share that lies below a block of the way from the floor below a pad to that below a vane [1].
 
     Ways to their mean temperatures as in `floor_links`.
     """
@@ -187,7 +187,7 @@ def pad_height(m: Module) -> Scalar:
 
 @quantities.helper()
 def pad_rows(m: Module) -> Scalar:
-    """What pads or tiles have of the width of the blocks [1]."""
+    """Share of the blocks' width that pads or tiles cover [1]."""
     return m.heated_area / m.pcl_area * m.block_height / m.pad_height
 
 
@@ -206,7 +206,7 @@ def stack_links(m: Module) -> tuple[Link, ...]:
     to_faces = shape_factors.way_to_faces(2.0 * m.block_depth / m.block_height)
     below_pads = tuple((("around", i), share) for i, share in zip(BELOW_PADS, STRIP, strict=True))
     sloping = {blocks[0]: lumps.Slope(below_pads, ("around", BELOW_VANES), m.slope_share)}
-    found = []
+    links = []
     above = m.running_clearance + m.block_height - m.pad_height
     of_pads = (LEGS, m.pad_rows * m.peltier_thickness, pads, (m.running_clearance, above))
     for place, depth, faced, gaps in ((("layer", 0), m.block_depth, blocks, (m.running_clearance,) * 2), of_pads):
@@ -220,17 +220,17 @@ def stack_links(m: Module) -> tuple[Link, ...]:
             if place == ("layer", 0):
                 through = lumps.straightened(through, m.pcl_melting.end, m.ambient_temperature)
                 through = through._replace(slope=sloping.get(face))
-            found.append(through)
+            links.append(through)
     lost = sum(
-        lumps.link_conductance(one, m.pcl_melting.end, m.ambient_temperature) for one in found if one.first == LEGS
+        lumps.link_conductance(link, m.pcl_melting.end, m.ambient_temperature) for link in links if link.first == LEGS
     )
     along = m.air_conductivity * 2.0 / 3.0 * m.running_clearance * m.ring_width / m.peltier_thickness
-    return (*m.plate_links, *m.vane_links, *found, Link(("hot", 0), ("cold", 0), lost / 12.0 + along))
+    return (*m.plate_links, *m.vane_links, *links, Link(("hot", 0), ("cold", 0), lost / 12.0 + along))
 
 
 @quantities.helper()
 def open_sides(m: Module) -> Scalar:
-    """What the inner and outer sides of all blocks give to the chamber, by convection and radiation [W/m K].
+    """Heat from the inner and outer sides of all blocks to the chamber, by convection and radiation [W/m K].
 
     For a metre of their depth, or of the pads' or the rotor vanes'.
     """
@@ -240,7 +240,8 @@ def open_sides(m: Module) -> Scalar:
 
 @quantities.helper()
 def side_links(m: Module) -> tuple[Link, ...]:
-    """From inner and outer sides through the chamber to the housing; from the cold sides into the housing's vanes.
+    """Links from inner and outer sides through the chamber to the housing, and from cold sides into the housing's
+    vanes.
 
     Tiles heat a vane over their own height.
     """

@@ -39,7 +39,7 @@ def thermistor_seat_radius(m: Module) -> Scalar:
 
 @weights.helper(default=NOTHING)
 def thermistor_seat_section(m: Module) -> Section:
-    """What the floor has not got for the thermistor."""
+    """Plan view of the thermistor's hole in the floor."""
     return disc_at(0.5 * m.thermistor_seat_diameter, m.thermistor_seat_radius)
 
 
@@ -77,7 +77,8 @@ def thermistor_rim_gap(m: Module) -> Scalar:
 
 
 def _thermistor_azimuth(m: Module) -> Scalar:
-    """Azimuth of the bead's axis [rad]: half a bead behind the face of the first vane that the first pad stands in."""
+    """Return the azimuth of the bead's axis [rad]: half a bead behind the face of the first vane that the first pad
+    stands in."""
     half = 0.5 * m.thermistor_diameter
     return np.pi / m.vane_count + 0.5 * m.housing_vane_angle - np.arctan2(half, m.pcl_outer_radius + half)
 

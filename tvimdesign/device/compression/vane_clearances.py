@@ -1,4 +1,4 @@
-"""What must hold for the vanes, blocks, pads and slots of the compression module."""
+"""Rules for the vanes, blocks, pads and slots of the compression module."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def slot_top_level(m: Module) -> Scalar:
 
 
 def _slot_reach_below(m: Module) -> Scalar:
-    """How far the slots reach under the pads [m]: by their rounded corners; under tiles to the leads between their
+    """Return the reach of the slots under the pads [m]: their rounded corners; under tiles the leads between their
     plates.
 
     A corner that is rounded by q meets the slot's outer arc q a/r further behind the vane's face than its center lies,

@@ -1,4 +1,4 @@
-"""What the rotor plate passes along the ring above blocks, pads and vanes, and from there inwards and outwards.
+"""Heat of rotor plate, vanes and rigid Peltier modules around the blocks of the compression module.
 
 What the vanes of rotor and housing pass to floor and rotor plate: through their roots, and through the clearance at
 their other end.
@@ -45,8 +45,7 @@ def shares_above(m: Module) -> tuple[tuple[Place, Scalar], ...]:
 
 @quantities.helper()
 def plate_links(m: Module) -> tuple[Link, ...]:
-    """From the rotor plate above the rotor's vanes to what is beside it, but its lowest tenth, which is next in the
-    chain; and to the core from all but the upper one above blocks and pads, after which the core is next."""
+    """Links from the rotor plate above the rotor's vanes to what is beside it, and from the plate to the core."""
     to_heated = m.structure_conductivity * m.rotor_thickness * m.ring_width * m.ways_along[0]
     vanes, core = ("beside", ABOVE_VANES), ("beside", ABOVE[-1] + 1)
     along = [Link(vanes, ("beside", i), share * to_heated) for i, share in zip(ABOVE[1:], STRIP[1:], strict=True)]
@@ -65,23 +64,25 @@ def plate_links(m: Module) -> tuple[Link, ...]:
 
 @quantities.helper()
 def core_share(m: Module) -> Scalar:
-    """What of the conductance to the core begins at the last body of the rotor plate."""
+    """Share of the conductance to the core that begins at the last body of the rotor plate."""
     return dict(m.shares_above)["beside", ABOVE[-1]]
 
 
 @quantities.helper()
 def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
-    """From the rotor plate above blocks and pads to what is above the housing's vanes, and from all of it above the
-    ring to what is without and within; and the air there.
+    """Losses of the rotor plate above blocks and pads to the housing's vanes, and of all of it above the ring to the
+    air.
 
     What ends free has its mean temperature a third of the way to its end.
     """
     sheet = m.structure_conductivity * m.rotor_thickness * m.ring_width
     along = sheet / (0.25 * m.heated_length + WAYS[0] * m.wall_depth)
     walls = [m.around_pads[i].surface for i in ABOVE_WALLS]
-    air = sum(one.area * lumps.surface_coefficient(one, m.ambient_temperature, m.ambient_temperature) for one in walls)
+    air = sum(
+        wall.area * lumps.surface_coefficient(wall, m.ambient_temperature, m.ambient_temperature) for wall in walls
+    )
     onward = lumps.in_series(sheet / ((1.0 / 3.0 - WAYS[0]) * m.wall_depth), air)
-    found = [
+    losses = [
         lumps.Loss(Link(("beside", i), ("around", ABOVE_WALLS[0]), share * along), share * onward)
         for i, share in zip(ABOVE, STRIP, strict=True)
     ]
@@ -91,13 +92,13 @@ def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
     for beyond, conductance in ((RIM, without), (WITHIN, within)):
         for place, share in m.shares_above:
             link = Link(place, ("around", beyond), share * conductance)
-            found.append(_onward(link, m.around_pads, m.ambient_temperature, share))
-    return tuple(found)
+            losses.append(_onward(link, m.around_pads, m.ambient_temperature, share))
+    return tuple(losses)
 
 
 @quantities.helper()
 def loss_links(m: Module) -> tuple[Link, ...]:
-    """What passes heat from the plate to bodies around it."""
+    """Links from the plate to bodies around it."""
     return tuple(loss.link for loss in m.plate_losses)
 
 
@@ -108,14 +109,14 @@ def lip(_: Module) -> Lip | None:
 
 
 def _onward(link: Link, bodies: tuple[Body, ...], ambient: Scalar, share: Scalar) -> lumps.Loss:
-    """A link to a body that loses a share of its heat to the air behind it."""
+    """Return a link to a body that loses a share of its heat to the air behind it."""
     surface = bodies[link.second[1]].surface
     return lumps.Loss(link, share * surface.area * lumps.surface_coefficient(surface, ambient, ambient))
 
 
 @quantities.helper()
 def through_clearance(m: Module) -> Scalar:
-    """What passes a running clearance [W/m^2 K]; a tenth is radiation, taken as where the PCL is molten."""
+    """Conductance of a running clearance [W/m^2 K]; a tenth is radiation, taken as where the PCL is molten."""
     gap = lumps.air_gap(1.0, m.running_clearance, m.air_conductivity, m.surface_emissivity, ("plate", 0), ("plate", 0))
     return lumps.link_conductance(gap, m.pcl_melting.end, m.ambient_temperature)
 
@@ -133,9 +134,9 @@ def vane_ways(m: Module) -> tuple[Scalar, Scalar, Scalar]:
 
 @quantities.helper()
 def vane_links(m: Module) -> tuple[Link, ...]:
-    """From the rotor's vanes to the floor, from the housing's to floor and rotor plate, but for the rotor's roots."""
+    """Links from the rotor's vanes to the floor, and from the housing's to floor and rotor plate."""
     floor, plate = ("around", BELOW_VANES), ("beside", ABOVE_VANES)
-    found = [Link(("plate", 0), floor, m.vane_ways[1]), Link(plate, floor, m.vane_ways[2])]
+    links = [Link(("plate", 0), floor, m.vane_ways[1]), Link(plate, floor, m.vane_ways[2])]
     k, area = m.structure_conductivity, m.ring_width * m.wall_depth
     whole = (m.pcl_area - m.cold_area) / m.pcl_area
     below = whole * lumps.in_series(
@@ -146,12 +147,12 @@ def vane_links(m: Module) -> tuple[Link, ...]:
     for places in zip(WALLS, BELOW_WALLS, ABOVE_WALLS, STRIP, strict=True):
         wall, floor, plate = (("around", i) for i in places[:3])
         ways = ((wall, floor, to_floor), (wall, plate, to_plate), (floor, plate, across))
-        found += [Link(first, second, places[3] * conductance) for first, second, conductance in ways]
-    return tuple(found)
+        links += [Link(first, second, places[3] * conductance) for first, second, conductance in ways]
+    return tuple(links)
 
 
 def _into(sheet: Scalar, width: Scalar, depth: Scalar) -> Scalar:
-    """Conductance [W/K] from a strip of a face to the mean of what lies before it, k L of its length."""
+    """Return the conductance [W/K] from a strip of a face to the mean of what lies before it, k L of its length."""
     return sheet / shape_factors.ledge_ways(width / depth)[0]
 
 
@@ -192,7 +193,7 @@ def spreader_resistance(m: Module) -> Scalar:
 
 @quantities.helper(requires=WITH_TILES, default=())
 def spreader_links(m: Module) -> tuple[Link, ...]:
-    """From the spreaders' edges to floor, rotor plate and housing; from what tiles leave free of them into the vanes.
+    """Links from the spreaders' edges to floor, rotor plate and housing, and from their free backs into the vanes.
 
     The spreaders have the temperature of the modules' hot side. Beside the tiles their backs face the vane through the
     tiles' thickness of still air.

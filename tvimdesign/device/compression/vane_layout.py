@@ -1,4 +1,4 @@
-"""Where vanes, blocks, pads and slots of the compression module stand; drawn in words in this folder's docstring."""
+"""Layout of vanes, blocks, pads and slots of the compression module; the folder's docstring draws it in words."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""How far the vanes of rotor and housing give under a block that stands between them, bonded to both as FE has it.
+"""Compliance of the vanes of rotor and housing under a block bonded to both, as FE has it, and of liners on them.
 
 Liners in both faces of the rotor's vanes: sheets with the face of a block, which the blocks press on.
 
 A recess is open at both ends and below, where the liner slides in; above it ends with the block. What a pressed liner
-squeezes to its sides is free, so the compliance told is the highest.
+squeezes to its sides is free, so the compliance is the highest.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def vanes_plate(m: Module) -> wedge.PlateAround:
 
 @quantities.helper()
 def vane_sideways(m: Module) -> wedge.Sideways:
-    """How one vane of the rotor gives along its width and to a twist, with the plate."""
+    """Compliance of one vane of the rotor along its width and to a twist, with the plate."""
     moduli = m.structure_youngs_modulus, m.structure_shear_modulus
     return wedge.sideways(moduli, (m.block_width, m.vane_web), m.block_between, vane.ROTOR_SPREAD, m.vanes_plate)
 
@@ -57,7 +57,7 @@ def block_lean_out(m: Module) -> Scalar:
 
 @quantities.helper()
 def rotor_vane(m: Module) -> vane.Vane:
-    """How one vane of the rotor gives, and the plate under its root."""
+    """Compliance of one vane of the rotor, and of the plate under its root."""
     footing = vane.on_plate(
         m.rotor_thickness, vane.strip_beside(m.pcl_mean_radius, m.vane_count, m.vane_thickness), m.rotor_rim
     )
@@ -67,7 +67,7 @@ def rotor_vane(m: Module) -> vane.Vane:
 
 @quantities.helper()
 def housing_vane(m: Module) -> vane.Vane:
-    """How one vane of the housing gives, and the floor under its root: what stands on either side of its slots."""
+    """Compliance of one vane of the housing beside its slots, and of the floor under its root."""
     footing = vane.on_floor(
         m.floor_thickness, vane.strip_beside(m.pcl_mean_radius, m.vane_count, m.housing_vane_thickness)
     )
@@ -109,7 +109,7 @@ def liner_recess(m: Module) -> Section:
 
 @strengths.helper()
 def vane_web(m: Module) -> Scalar:
-    """What liners in both its faces leave of a rotor vane at the mean radius [m]."""
+    """Thickness of a rotor vane between the liners in both its faces, at the mean radius [m]."""
     return m.vane_thickness - 2.0 * m.liner_depth
 
 

@@ -1,4 +1,4 @@
-"""What must hold for the parts to go together, be made, and stay apart while they move: each quantity is a rule."""
+"""Rules for the parts to go together, be made, and stay apart while they move."""
 
 from __future__ import annotations
 

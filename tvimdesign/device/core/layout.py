@@ -1,4 +1,4 @@
-"""Where everything is that all modes have: the design variables, and the radii and levels that follow.
+"""Layout that all modes share: the design variables, and the radii and levels that follow.
 
 The rotor axis is z. The floor's upper face is z = 0; the rotor plate stands above it, the PCL between the two, the
 torsion springs around them with their axes parallel to z. Levels below the floor are negative.
@@ -153,7 +153,8 @@ the study in the README."""
 
 
 def evened_least(first: Scalar, second: Scalar) -> Scalar:
-    """The less of two lengths [m]; where these are within w, `EVENED`, of one another, less than that by up to w/6.
+    """Return the less of two lengths [m]; where these are within w, `EVENED`, of one another, less than that by up to
+    w/6.
 
     Two derivatives have no jump: min(a, b) - w/6 (1 - |a - b|/w)^3.
     """

@@ -89,14 +89,15 @@ def bare_rotor_moments(m: Module) -> Section:
 
 
 def _foot_fillets(m: Module) -> Section:
-    """Volume and its polar moment about the axis, of the fillets at the feet of core and pins."""
+    """Return the volume and its polar moment about the axis, of the fillets at the feet of core and pins."""
     of_pin = fillet_at_foot(0.5 * m.pin_diameter, m.foot_fillet)
     beside = Section(of_pin.area, of_pin.polar + of_pin.area * m.pin_radius**2)
     return fillet_at_foot(m.core_radius, m.foot_fillet).plus(beside.times(m.spring_count))
 
 
 def _core_drill_points(m: Module) -> Section:
-    """Volume and its polar moment about the axis, of the points of the core's blind holes; nothing where printed."""
+    """Return the volume and its polar moment about the axis, of the points of the core's blind holes; nothing where
+    printed."""
     return stacked(
         (
             point_at(0.5 * m.link_screw_hole, m.link_bolt_circle_radius).times(LINK_SCREWS),

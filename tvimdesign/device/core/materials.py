@@ -1,4 +1,4 @@
-"""What the module is made of: the chosen catalogue records and the numbers taken from them."""
+"""Materials of the module: the chosen catalogue records and the numbers taken from them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which frameless motor, bearings and encoder drive the module, if any, and the sizes they are bought in."""
+"""Frameless motor, bearings and encoder that drive the module, if any, and the sizes they are bought in."""
 
 from __future__ import annotations
 

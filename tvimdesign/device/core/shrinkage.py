@@ -1,4 +1,4 @@
-"""What the PCL loses in volume on freezing, and how far the rotor can move along its axis.
+"""Shrinkage of the PCL on freezing, flow of molten PCL under its own weight, and axial play of the rotor.
 
 How molten PCL flows of its own weight: its viscosity, and how far its free ends creep in a hot hour.
 
@@ -35,7 +35,7 @@ def freezing_volume(m: Module) -> Scalar:
 
 @quantities.output("mm")
 def axial_play(m: Module) -> Scalar:
-    """How far the rotor can rise from where it stands, beyond what the melting PCL needs.
+    """Distance that the rotor can rise from where it stands, beyond what the melting PCL needs.
 
     In a plain bore nothing but the layer keeps the retainer from its running clearance below the hub; bearings are
     clamped, and a wave spring holds the rotor on its stop.

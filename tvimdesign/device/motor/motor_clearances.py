@@ -1,4 +1,4 @@
-"""What must hold for the motor, its hub, housing, bearings and encoder; each quantity is zero without a motor."""
+"""Rules for the motor, its hub, housing, bearings and encoder; each quantity is zero without a motor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Volume, mass and inertia of the motor's parts, its hub and its housing; all zero without a motor.
+"""Volume, mass and inertia of the motor's parts, its hub and its housing, and of all that the motor turns.
 
 What a motor below the feet has to turn: the housing's moment of inertia, and that of all that goes with it.
 

@@ -1,4 +1,4 @@
-"""What must hold for the arcs of the shear module, the pads under them and the windows below those."""
+"""Rules for the arcs of the shear module, the pads under them and the windows below those."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the frozen layer takes the torque over along its arcs: what plate and floor give there, and the edges' traction.
+"""Transfer of the torque along the frozen arcs: compliance of plate and floor there, and traction at the edges.
 
 Pads cut to the PCL lie on the floor's ledges, so that plate and floor are the two sheets of the lap. On rigid modules
 lies a spreader of metal, stiffer than a printed plate, which is the lower sheet; the modules hand over to the ledges of
@@ -28,7 +28,7 @@ def driven_share(m: Module) -> Scalar:
 
 @quantities.helper(requires=WITH_LINER)
 def liner_areal_compliance(m: Module) -> Scalar:
-    """How far a liner shears under a traction [m/Pa]; zero without."""
+    """Shear of a liner under a traction [m/Pa]; zero without."""
     return m.liner_thickness / m.liner_shear_modulus
 
 
@@ -72,7 +72,7 @@ def lap_on_spreader(m: Module) -> annular_lap.AnnularLap:
 
 @quantities.helper()
 def over_arcs_compliance(m: Module) -> Scalar:
-    """What the rotor plate gives above the arcs [rad/(N*m)]: as it leads the torque on, and over its thickness.
+    """Compliance of the rotor plate above the arcs [rad/(N*m)]: as it leads the torque on, and over its thickness.
 
     The layer relieves it evenly, or as a spreader takes the torque over.
     """
@@ -87,13 +87,13 @@ def over_arcs_compliance(m: Module) -> Scalar:
 
 
 def _ledge_radii(m: Module) -> tuple[Scalar, Scalar]:
-    """Radii of the middles of the ledges that a rigid module lies on, inner and outer [m]."""
+    """Return the radii of the middles of the ledges that a rigid module lies on, inner and outer [m]."""
     reach = 0.5 * (m.peltier_width - m.window_ledge)
     return m.tile_radius - reach, m.tile_radius + reach
 
 
 def _under_tiles_compliance(m: Module) -> Scalar:
-    """What the floor gives between the ledges of rigid modules, and from their windows to the arcs' rim [rad/(N*m)]."""
+    """Return the compliance of the floor between the ledges of rigid modules, and up to the arcs' rim [rad/(N*m)]."""
     inner, outer = _ledge_radii(m)
     on_ledge = m.heater_count * m.peltier_length * m.window_ledge * m.peltier_shear_modulus / m.peltier_thickness
     seats = 1.0 / (on_ledge * inner**2), 1.0 / (on_ledge * outer**2)
@@ -108,7 +108,7 @@ def _under_tiles_compliance(m: Module) -> Scalar:
 
 
 def _under_pads_compliance(m: Module) -> Scalar:
-    """What the floor gives between the ledges of pads cut to the PCL, and from their windows to its rim [rad/(N*m)].
+    """Return the compliance of the floor between the ledges of pads cut to the PCL, and up to its rim [rad/(N*m)].
 
     The inner half of an arc hangs on the inner ledge, the outer half on the outer; between arcs the floor is whole.
     """
@@ -129,7 +129,7 @@ def _under_pads_compliance(m: Module) -> Scalar:
 
 @quantities.helper()
 def under_arcs_compliance(m: Module) -> Scalar:
-    """What the floor gives below the arcs, out to their rim [rad/(N*m)]."""
+    """Compliance of the floor below the arcs, out to their rim [rad/(N*m)]."""
     return _under_pads_compliance(m) if m.heater_form == CUT else _under_tiles_compliance(m)
 
 

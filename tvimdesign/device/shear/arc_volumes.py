@@ -42,7 +42,8 @@ def pcl_volume(m: Module) -> Scalar:
 
 
 def _rounded_sector(span: Scalar, inner_radius: Scalar, outer_radius: Scalar, corner_radius: Scalar) -> Section:
-    """Annular sector less what fillets take from its corners, which counts where its middle is in a square corner.
+    """Return the annular sector less what fillets take from its corners, which counts where its middle is in a square
+    corner.
 
     That is (5/6 - pi/4)/(1 - pi/4) of the fillet's radius from either side (a square less a quarter of a disc).
     """
@@ -59,7 +60,7 @@ def pad_section(m: Module) -> Section:
 
 
 def _pocket_section(m: Module) -> Section:
-    """Plan view of all pockets for pads."""
+    """Return the plan view of all pockets for pads."""
     return _rounded_sector(m.pocket_span, m.pocket_inner_radius, m.pocket_outer_radius, m.corner_radius).times(
         m.arc_count
     )
@@ -83,7 +84,7 @@ def window_section(m: Module) -> Section:
 
 @quantities.helper()
 def floor_openings(m: Module) -> Section:
-    """What the floor has not got, volume and its polar moment: pockets, windows, holes for leads, thermistor's seat."""
+    """Volume of the floor's openings and its polar moment: pockets, windows, holes for leads, thermistor's seat."""
     opened = stacked(
         (_pocket_section(m), m.pad_depth), (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web)
     )

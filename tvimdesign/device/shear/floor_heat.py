@@ -25,10 +25,10 @@ UPPER, LOWER = (0, 1, 2), (3, 4, 5)
 """Places of the strips' bodies, from the pockets' walls on."""
 LEDGES, CORNER, HOUSING = 6, 7, 8
 BELOW = (CORNER, *UPPER[1:])
-"""What of the floor is below each body of the plate's strip."""
+"""Body of the floor below each body of the plate's strip."""
 SPREADER = ("spreader", 0)
 SIDE = 2.0 * SIDE_SHARE
-"""What of half of a pad's height is its side, of one temperature; the rest is half of the legs."""
+"""Share of half of a pad's height that is its side, of one temperature; the rest is half of the legs."""
 GAP = (("beside", 0), ("around", CORNER))
 LEGS, UPPER_LEGS, LOWER_LEGS = (("legs", i) for i in range(3))
 
@@ -50,7 +50,7 @@ def floor_end(m: Module) -> tuple[lumps.Surface, Scalar, Scalar]:
 
 @quantities.helper()
 def around_pads(m: Module) -> tuple[Body, ...]:
-    """What the pads are set in: upper and lower strip of the floor, ledges, corner, and the rest of the housing."""
+    """Bodies around the pads: upper and lower strip of the floor, ledges, corner, and the rest of the housing."""
     volumetric = m.structure_heat_capacity
     areas = [share * m.beside_area for share in STRIP]
     corner = Body(0.5 * areas[0] * m.pad_depth * volumetric, lumps.NOWHERE)
@@ -68,23 +68,23 @@ def around_pads(m: Module) -> tuple[Body, ...]:
 
 @quantities.helper()
 def floor_links(m: Module) -> tuple[Link, ...]:
-    """What conducts within the floor, along the strips to the housing's wall and from the upper to the lower one."""
+    """Links within the floor, along the strips to the housing's wall and from the upper to the lower one."""
     per_depth = m.structure_conductivity * m.edge_length**2 / m.beside_area
-    found = []
+    links = []
     for row, depth in ((UPPER, m.pad_depth), (LOWER, m.floor_web)):
         first, *others = (per_depth * depth / way for way in WAYS[1:])
         if row is UPPER:
-            found.append(_link(CORNER, row[1], 0.5 * first))
+            links.append(_link(CORNER, row[1], 0.5 * first))
             first = 0.5 * first
-        found += [_link(row[i], row[i + 1], along) for i, along in enumerate((first, *others))]
+        links += [_link(row[i], row[i + 1], along) for i, along in enumerate((first, *others))]
     to_wall = lumps.in_series(per_depth * m.pad_depth / BEYOND, m.housing_ring * m.pad_depth / m.floor_thickness)
-    found += [_link(UPPER[-1], HOUSING, to_wall), _link(LOWER[-1], HOUSING, m.floor_end[1])]
+    links += [_link(UPPER[-1], HOUSING, to_wall), _link(LOWER[-1], HOUSING, m.floor_end[1])]
     down = [m.structure_conductivity * share * m.beside_area for share in STRIP]
-    found.append(_link(CORNER, UPPER[0], down[0] / (0.5 * m.pad_depth)))
+    links.append(_link(CORNER, UPPER[0], down[0] / (0.5 * m.pad_depth)))
     for i, area in enumerate(down):
         height = m.pad_depth if i else 0.5 * m.pad_depth
         onto, surface = (0.5 * height + m.floor_web / 3.0) / area, m.around_pads[LOWER[i]].surface
-        found += slab_faces.through_faces(
+        links += slab_faces.through_faces(
             ("around", UPPER[i]),
             ("around", LOWER[i]),
             surface,
@@ -92,7 +92,7 @@ def floor_links(m: Module) -> tuple[Link, ...]:
             onto,
             ACROSS * m.floor_web / area,
         )
-    return tuple(found)
+    return tuple(links)
 
 
 def _link(first: int, second: int, conductance: Scalar) -> Link:
@@ -115,7 +115,7 @@ def pad_wall(m: Module) -> Scalar:
 
 @quantities.helper()
 def stack_links(m: Module) -> tuple[Link, ...]:
-    """From the pads' edges into the walls of their pockets, and by their cold sides through the ledges.
+    """Links from the pads' edges into the walls of their pockets, and from their cold sides through the ledges.
 
     A pad's upper half meets the floor's corner, its lower half what is below. Tiles stand in air: of them the
     spreader's edge meets a wall, and its back beside them a room of air, which ends at the wall as well (`tile_room`).
@@ -146,31 +146,31 @@ def stack_links(m: Module) -> tuple[Link, ...]:
 @quantities.helper()
 def open_gaps(m: Module) -> tuple[Link, ...]:
     """Air between plate and floor beside the arcs where no lip stands, as thick as the layer."""
-    found = []
+    gaps = []
     for share, covered, above, floor in zip(STRIP, m.lip_over, range(len(STRIP)), BELOW, strict=True):
         area = share * m.beside_area - covered * m.edge_length
         gap = lumps.air_gap(
             area, m.pcl_thickness, m.air_conductivity, m.surface_emissivity, ("beside", above), ("around", floor)
         )
-        found.append(lumps.behind(gap, area / _plate_faces(m), m.ambient_temperature))
-    return tuple(found)
+        gaps.append(lumps.behind(gap, area / _plate_faces(m), m.ambient_temperature))
+    return tuple(gaps)
 
 
 @quantities.helper()
 def loss_links(m: Module) -> tuple[Link, ...]:
-    """What passes heat from the plate beside the arcs to the floor, its lips apart."""
+    """Links from the plate beside the arcs to the floor, its lips apart."""
     return m.open_gaps
 
 
 def _plate_faces(m: Module) -> Scalar:
-    """What lies behind both faces of that gap [m^2 K/W]: a third of the plate's depth and half of the upper strip's."""
+    """Return the resistance behind both faces of that gap [m^2 K/W]: a third of the plate, half of the upper strip."""
     return (m.rotor_thickness / 3.0 + 0.5 * m.pad_depth) / m.structure_conductivity
 
 
 @quantities.helper()
 def below_lips(m: Module) -> tuple[Scalar, ...]:
-    """What the clearance below the lips conducts between the floor and their lower face, over each body of the strip
-    [W/K]; its faces radiate as where the PCL is molten."""
+    """Conductance of the clearance below the lips to the floor, over each body of the strip [W/K]; radiation as at
+    melting."""
     gap = lumps.air_gap(1.0, m.running_clearance, m.air_conductivity, m.surface_emissivity, *GAP)
     across = lumps.link_conductance(gap, m.pcl_melting.end, m.ambient_temperature)
     each = lumps.in_series(across, m.structure_conductivity / (0.5 * m.pad_depth))
@@ -179,7 +179,7 @@ def below_lips(m: Module) -> tuple[Scalar, ...]:
 
 @quantities.helper()
 def plate_losses(m: Module) -> tuple[lumps.Loss, ...]:
-    """How the plate beside the arcs loses heat: through that gap, below lips through their clearance, and the floor."""
+    """Heat losses of the plate beside the arcs: through that gap, below lips through their clearance, and the floor."""
     open_below = lumps.Surface(1.0, m.housing_coefficient, m.surface_emissivity)
     below = lumps.surface_coefficient(open_below, m.ambient_temperature, m.ambient_temperature)
     onward = lumps.in_series(below, m.structure_conductivity / (m.floor_thickness - 0.5 * m.pad_depth))

@@ -69,7 +69,7 @@ def key_holding_torque(m: Module) -> Scalar:
 
 @strengths.output("1")
 def key_safety(m: Module) -> Scalar:
-    """What the frozen keys alone hold over what the layer bears in a hold at the cold point; zero without keys.
+    """Torque that the frozen keys alone hold over the layer's torque in a hold at the cold point; zero without keys.
 
     Of no other point: the strength is that of frozen PCL at room temperature.
     """

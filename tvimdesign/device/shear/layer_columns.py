@@ -18,19 +18,19 @@ quantities = QuantityGroup("Switch")
 
 
 def across(cold_end: ColdEnd | None) -> columns.Columns:
-    """Columns of the layer, with a lip at its end or without."""
+    """Return the columns of the layer, with a lip at its end or without."""
     return columns.EVEN if cold_end is None else columns.DENSE
 
 
 @quantities.helper()
 def column_shares(m: Module) -> tuple[float, ...]:
-    """What of the arcs' width each column stands for [1]."""
+    """Share of the arcs' width that each column stands for [1]."""
     return across(m.cold_end).shares
 
 
 @quantities.helper(instant=True)
 def edge_drops(m: Module) -> tuple[Scalar, Scalar]:
-    """How far the edges of the pads' hot side and of the plate's face are below their means [K], by what they lose."""
+    """Temperatures of the edges of the pads' hot side and of the plate's face below their means [K]."""
     now, corner = m.stack_profile, m.stack_profile.around[CORNER]
     side = now.spreader
     if m.heater_form == CUT:
@@ -53,11 +53,11 @@ class LayerSurroundings(NamedTuple):
     cells: Scalar
     """Mean temperature of each slice over the width [K], an array."""
     through: Scalar
-    """What leaves the layer's end into the air beside or below it, over the layer's conductivity [K]."""
+    """Heat from the layer's end into the air beside or below it, over the layer's conductivity [K]."""
     drops: tuple[Scalar, Scalar]
-    """How far the pads' edges and the plate's are below their means [K] (`edge_drops`)."""
+    """Temperatures of the pads' edges and the plate's below their means [K] (`edge_drops`)."""
     in_plate: Scalar
-    """How far the plate is below its mean in each column, over how far its edge is [1], an array."""
+    """Drop of the plate below its mean in each column, over that of its edge [1], an array."""
     share: Scalar
     """Share of the way from pads to plate that lies before each slice [1], an array."""
     lip: Scalar | None
@@ -66,7 +66,7 @@ class LayerSurroundings(NamedTuple):
 
 @quantities.helper(instant=True)
 def layer_surroundings(m: Module) -> LayerSurroundings:
-    """What surrounds the layer's slices at an instant."""
+    """Surroundings of the layer's slices at an instant."""
     now, (conductivity, slot) = m.stack_profile, m.air_beside
     to_floor, lip = now.hot - now.around[CORNER], None
     if m.cold_end is not None:
@@ -86,7 +86,7 @@ def layer_surroundings(m: Module) -> LayerSurroundings:
 
 @quantities.helper(instant=True)
 def end_places(m: Module) -> columns.EndPlaces:
-    """Where the layer's slices are, seen from its end: from a lip's wall, or from the gap."""
+    """Positions of the layer's slices from its end: from a lip's wall, or from the gap."""
     width, heights = m.pcl_area / m.edge_length / m.pcl_depth, heights_of(m.stack_profile)
     if m.cold_end is None:
         return columns.gap_places(heights, width, m.air_beside[1])
@@ -95,7 +95,7 @@ def end_places(m: Module) -> columns.EndPlaces:
 
 @quantities.helper(instant=True)
 def end_profile(m: Module) -> tuple[list[Scalar], ...]:
-    """What the layer's end does to its slices, column by column: a wall and the clearance below it, or a gap."""
+    """Effect of the layer's end on its slices, column by column: a wall and the clearance below it, or a gap."""
     return columns.gap_profile(m.end_places) if m.cold_end is None else columns.wall_profile(m.end_places)
 
 
@@ -107,24 +107,24 @@ def layer_temperatures(m: Module) -> list[Scalar]:
     heat to the gap or a lip.
     """
     (pads, plate), places = m.layer_surroundings.drops, across(m.cold_end).places
-    found = []
+    temperatures = []
     for i, (place, end) in enumerate(zip(places, _at_end(m.layer_surroundings, m.end_profile, m.stack), strict=True)):
         near, far = pads * columns.fed_evenly(place), plate * m.layer_surroundings.in_plate[i]
-        found.append(end - (near + (far - near) * m.layer_surroundings.share))
-    return found
+        temperatures.append(end - (near + (far - near) * m.layer_surroundings.share))
+    return temperatures
 
 
 def heights_of(now: heat.Profile) -> Any:
-    """Where the slices are over the layer's depth [1]."""
+    """Return where the slices are over the layer's depth [1]."""
     count = len(now.cells)
     return (np.arange(count) + 0.5) / count
 
 
 def _at_end(around: LayerSurroundings, profile: tuple[list[Scalar], ...], stack: heat.Stack) -> list[Scalar]:
-    """Temperatures of the slices in each column [K], by what leaves the layer at its end alone."""
+    """Return the temperatures of the slices in each column [K], by what leaves the layer at its end alone."""
     if around.lip is None:
         (cooled,) = profile
-        return [around.cells - around.through * one for one in cooled]
+        return [around.cells - around.through * drop for drop in cooled]
     phases = conduction.Conductivities(stack.conductivity_solid, stack.conductivity_melt)
     lost, cooled = profile
     return [

@@ -1,4 +1,4 @@
-"""The free side of the layer: what heat leaves there, into the air of the gap or into a lip of the rotor plate.
+"""Free side of the layer: heat that leaves into the air of the gap, a lip of the plate, or a liner's recess.
 
 A lip touches the layer but for the running clearance below it; what else heats and cools it is in `lip_heat`. The arcs'
 ends have no lip; they are taken as having one, as an arc is a strip with as much edge. A liner and its film are as much
@@ -44,7 +44,7 @@ class ColdEnd(NamedTuple):
     of_pads: Scalar
     """From the pads' hot side, by its excess; what crowds into the lip's tip beyond what the slices give."""
     near: Scalar
-    """What of that the pads give in the end, over their hot side's excess."""
+    """Part of that which the pads give in the end, over their hot side's excess."""
     contact: Scalar
     """Thickness of layer that conducts as a contact does, over that from pads to plate [1]."""
     free: Scalar
@@ -61,13 +61,13 @@ class EndWall(NamedTuple):
     height: Scalar
     """From pads to plate: the layer and, as much more layer as conducts alike, contacts, liner and film [m]."""
     layer: Scalar
-    """What of that the layer is with its contacts [1]."""
+    """Share of the layer with its contacts in that [1]."""
     sheet: Scalar
-    """What of it the liner is [1]."""
+    """Share of the liner in it [1]."""
     contacts: Scalar
-    """What of it both contacts of the layer are [1]."""
+    """Share of both contacts of the layer in it [1]."""
     free: Scalar
-    """What of it is free below the wall [1]."""
+    """Share of it that is free below the wall [1]."""
     width: Scalar
     """Of the layer, over that height without the contacts [1]."""
     end: WalledEnd
@@ -83,7 +83,9 @@ def end_wall(m: Module) -> EndWall | None:
     contacts = conductivity / m.hot_contact + conductivity / m.rotor_contact
     sheet, whole = 0.0, 0.0
     if m.liner_sheet is not None:
-        sheet, whole = (conductivity * m.pcl_area * one for one in (m.liner_sheet.resistance, m.liner_sheet.whole))
+        sheet, whole = (
+            conductivity * m.pcl_area * resistance for resistance in (m.liner_sheet.resistance, m.liner_sheet.whole)
+        )
     height = m.pcl_thickness + contacts + whole
     layer = (m.pcl_thickness + contacts) / height
     if m.melt_lip == NO_LIP:
@@ -98,7 +100,7 @@ def end_wall(m: Module) -> EndWall | None:
 
 @quantities.helper()
 def cold_end(m: Module) -> ColdEnd | None:
-    """What the layer gives to a lip at its end; none without lips."""
+    """Heat from the layer to a lip at its end; none without lips."""
     if m.melt_lip == NO_LIP or m.end_wall is None:
         return None
     k, end, layer, width = m.end_wall.conductivity, m.end_wall.end, m.end_wall.layer, m.end_wall.width
@@ -132,8 +134,7 @@ def air_beside(m: Module) -> tuple[Scalar, Scalar]:
 
 @quantities.helper()
 def side_links(m: Module) -> tuple[Link, ...]:
-    """From the liner's rim to the plate, and from the layer's free side through the air of the gap, to the floor's
-    corner and to the plate beside it.
+    """Links from the liner's rim to the plate, and from the layer's free side through the gap's air to floor and plate.
 
     `gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
     it comes from within the layer (`gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot
@@ -155,7 +156,7 @@ LINER, PLATE = ("liner", 0), ("plate", 0)
 
 @quantities.helper()
 def liner_to_wall(m: Module) -> Scalar:
-    """From a liner to the walls of its recess [W/m K], without the film around it, by its mean excess over them."""
+    """Conductance from a liner to the walls of its recess [W/m K], without the film around it, by its mean excess."""
     if m.liner_sheet is None or m.end_wall is None:
         return 0.0
     above = 1.0 - m.end_wall.layer

@@ -1,4 +1,4 @@
-"""What the heat passes in the shear module: arcs of the rotor plate behind the layer; plate and floor beside them.
+"""Path of the heat in the shear module: arcs of the rotor plate behind the layer; plate and floor beside them.
 
 Pads, layer and plate lose heat at the edges of the arcs, which are taken as a strip with as much edge for its area.
 The plate beside it is a strip that this heats; the floor is in `floor_heat`.
@@ -83,7 +83,7 @@ def beside_area(m: Module) -> Scalar:
 
 @quantities.helper()
 def core_share(m: Module) -> Scalar:
-    """What of the conductance to the core is left from the plate's last body on."""
+    """Share of the conductance to the core that is left from the plate's last body on."""
     across = m.structure_conductivity * m.rotor_thickness * m.edge_length**2 / m.beside_area
     onward = lumps.BEYOND * m.core_and_link.conductance / across
     return 1.0 / (1.0 + onward)

@@ -102,7 +102,7 @@ def core_foot_rise(m: Module) -> Scalar:
 
 @quantities.helper()
 def structure_compliances(m: Module) -> Compliances:
-    """What is in series with the layer: core, rotor plate inside the arcs and above them, floor, pads and liners."""
+    """Compliances in series with the layer: core, rotor plate inside and above the arcs, floor, pads and liners."""
     above, below = m.over_arcs_compliance, 1.0 / m.floor_stiffness
     sheets = m.pad_compliance + m.liner_compliance
     return Compliances(1.0 / m.core_stiffness, 1.0 / m.plate_stiffness - above, above, 0.0, below, sheets)
@@ -122,13 +122,13 @@ def floor_ring(m: Module) -> Scalar:
 
 @quantities.helper()
 def pcl_moment(m: Module) -> Scalar:
-    """What the PCL's shear modulus over its depth is multiplied with [m^4]: the layer's polar moment."""
+    """Factor of the PCL's shear modulus over its depth in its stiffness [m^4]: the layer's polar moment."""
     return m.layer_polar_moment
 
 
 @quantities.helper()
 def lossless_compliance(_: Module) -> Scalar:
-    """What is in series with the PCL's shear modes and structure besides [rad/(N*m)]: nothing."""
+    """Compliance without loss in series with the PCL's shear modes [rad/(N*m)]: zero."""
     return 0.0
 
 
@@ -201,7 +201,7 @@ def parting_share(_: Module) -> Scalar:
 
 @quantities.output("N*m", per_point=True)
 def layer_torque(m: Module) -> Scalar:
-    """What the layer bears in a hold when the load has just come on: the springs bear the rest."""
+    """Torque of the layer in a hold when the load has just come on; the springs bear the rest."""
     return hold.first_torque(m.hold_torque, m.spring_stiffness, m.elastic_support, m.pcl_modes)
 
 

@@ -1,4 +1,4 @@
-"""What the shrinking layer does to its bond, and to the joint where nothing holds the rotor on it.
+"""Load of the shrinking layer on its bond, and play of the joint where nothing holds the rotor on it.
 
 A rotor that is held, by the hub it stands on or by bearings, leaves a freezing layer two ways: plate and floor bend
 after it, and it pulls on its bond, most where it begins beside the hub. One that a wave spring carries comes down
@@ -22,20 +22,20 @@ places, quantities = QuantityGroup("Layout"), QuantityGroup("Axial play")
 
 @places.output("mm")
 def freezing_travel(m: Module) -> Scalar:
-    """What the layer loses of its thickness on freezing, its area held by its faces."""
+    """Thickness that the layer loses on freezing, its area held by its faces."""
     return m.pcl_thickness * m.melting_growth
 
 
 def _layer_foundation(m: Module) -> Scalar:
-    """Tension of the frozen layer over how far the middles of plate and floor part [Pa/m]."""
+    """Return the tension of the frozen layer over how far the middles of plate and floor part [Pa/m]."""
     layer = shrinkage.confined_modulus(m.pcl_flexural_modulus, m.pcl_poissons_ratio) / m.pcl_thickness
     halves = 2.0 * m.structure_youngs_modulus / (m.rotor_thickness + m.floor_thickness)
     return structure.series(layer, m.pad_foundation, halves)
 
 
 def _plates_rigidity(m: Module) -> tuple[Scalar, Scalar]:
-    """Rigidity of plate and floor in series, of all the circumference over that of the arcs: bending [N*m], shear
-    [N/m]."""
+    """Return the rigidity of plate and floor in series, of all the circumference over that of the arcs: bending [N*m],
+    shear [N/m]."""
     both, share = (m.rotor_thickness, m.floor_thickness), m.arc_count * m.arc_span / (2.0 * np.pi)
     bending = (
         shrinkage.flexural_rigidity(m.structure_youngs_modulus, m.structure_poissons_ratio, thickness)
@@ -66,7 +66,7 @@ _PARTS = "the freezing layer shrinks, the rotor cannot follow, and the bond may 
 
 @quantities.output("1", advice=(Rule(sense=">=", value=1.0, reason=_PARTS),))
 def freezing_safety(m: Module) -> Scalar:
-    """What the bond bears over the tension the freezing layer puts on it."""
+    """Strength of the bond over the tension that the freezing layer puts on it."""
     return m.pcl_bond_strength / m.freezing_traction
 
 
@@ -81,5 +81,5 @@ _FLOATS = "the rotor can rise by that share of the layer's thickness, and nothin
 
 @quantities.output("%", advice=(Rule(sense="<=", value=0.1, reason=_FLOATS),))
 def layer_play(m: Module) -> Scalar:
-    """How far the rotor can rise off the layer over the layer's thickness: by so much the melt may be thicker."""
+    """Distance that the rotor can rise off the layer over the layer's thickness: by so much the melt may be thicker."""
     return m.axial_play / m.pcl_thickness

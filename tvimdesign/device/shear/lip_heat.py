@@ -23,7 +23,7 @@ quantities = QuantityGroup("Switch")
 HOT, FACE, PLATE, BESIDE = ("hot", 0), ("face", 0), ("plate", 0), ("beside", 0)
 Means = tuple[tuple[Place, Scalar], ...]
 UNEVEN = 0.5
-"""What is left at the arcs' edge of how much warmer the plate's face is than its mean: half, as where a heated face
+"""Share that is left at the arcs' edge of the rise of the plate's face over its mean: half, as where a heated face
 ends."""
 
 
@@ -46,7 +46,7 @@ def lip_over(m: Module) -> tuple[Scalar, ...]:
 
 @quantities.helper()
 def lip_ways(m: Module) -> tuple[Scalar, ...]:
-    """What lips take off the ways along the plate beside the arcs, up to each body, over its depth [1]: below nothing.
+    """Length that lips take off the ways along the plate beside the arcs, up to each body, over its depth [1].
 
     Heat goes through plate and lip beside one another, after a step down to the lip's edge and before one up from it.
     """
@@ -63,18 +63,18 @@ def lip_ways(m: Module) -> tuple[Scalar, ...]:
 
 
 def _lip_faces(m: Module) -> tuple[Scalar, ...]:
-    """How much warmer lips' lower faces are than the plate above them, over each body of the strip, over how much
-    warmer their sides are than the plate's edge [1] (`slab_faces.beyond_constriction`); nothing without lips."""
+    """Return how much warmer lips' lower faces are than the plate above them, over each body of the strip, over how
+    much warmer their sides are than the plate's edge [1] (`slab_faces.beyond_constriction`); nothing without lips."""
     if m.melt_lip == NO_LIP:
         return (0.0,) * len(STRIP)
     depth = m.lip_height + m.rotor_thickness
-    share, begin, found = m.lip_height / depth, 0.0, []
+    share, begin, rises = m.lip_height / depth, 0.0, []
     for covered in m.lip_over:
-        found.append(
+        rises.append(
             slab_faces.beyond_constriction(share, begin / depth, covered / depth) / shape_factors.constriction(share)
         )
         begin = begin + covered
-    return tuple(found)
+    return tuple(rises)
 
 
 @quantities.helper()
@@ -99,7 +99,7 @@ def lip_root(m: Module) -> tuple[Means, Means] | None:
 
 @quantities.helper()
 def lip(m: Module) -> Lip | None:
-    """What heats and cools a lip; none without lips.
+    """Lip of the plate with what heats and cools it; none without lips.
 
     Layer and pads give heat to its side (`cold_end`), and to its lower edge through the clearance. From there it
     spreads as from a share of the end of a slab that is as deep as plate and lip together (`constriction`). Its

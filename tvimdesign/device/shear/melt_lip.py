@@ -1,5 +1,4 @@
-"""Lips of the rotor plate along the molten layer's inner and outer edge: rings that reach down to a running clearance
-above the floor, or none.
+"""Lips of the rotor plate along the molten layer's edges, and the melt that creeps out past them in a hot hour.
 
 They turn in their own track, so nothing rubs on them. The melt's surface is held between a lip's edge and the floor,
 and what leaves must go through the narrow gap below it. The plate is printed with that face up, so the lips need no

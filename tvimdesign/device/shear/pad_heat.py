@@ -1,5 +1,4 @@
-"""What Peltier modules and a spreader on them are to the layer in shear: strings, what spreading costs, how far they
-give.
+"""Peltier modules and a spreader on them in shear: strings, spreading resistance, compliance, air and cold sides.
 
 Air beside rigid modules, below their spreader: a room that tiles, ledge and the pocket's wall close.
 
@@ -72,7 +71,7 @@ WALL = (("around", CORNER), ("around", UPPER[0]))
 
 @quantities.helper()
 def tile_links(m: Module) -> tuple[Link, ...]:
-    """From the spreader's back and the tiles' sides through that room; none where pads are cut to the arcs.
+    """Links from the spreader's back and the tiles' sides through that room; none where pads are cut to the arcs.
 
     As wide as what the tiles leave of the strip, and as the slot beside the spreader. It conducts better up than along,
     as in `layer_end.air_beside`. The tiles' sides have the mean temperature of their legs.
@@ -86,13 +85,13 @@ def tile_links(m: Module) -> tuple[Link, ...]:
     up = m.peltier_thickness * lumps.link_conductance(across, m.pcl_melting.end, m.ambient_temperature)
     evenly, slot = np.sqrt(m.air_conductivity * up), m.air_conductivity / m.pad_edge_contact
     width = ((m.pcl_area - m.heated_area) / m.edge_length + slot) / m.peltier_thickness * up / evenly
-    found = room(width, evenly / (m.pad_edge_contact * m.peltier_thickness))
+    beside = room(width, evenly / (m.pad_edge_contact * m.peltier_thickness))
     through = evenly * m.edge_length
-    corner = m.structure_conductivity * m.edge_length * shape_factors.corner_shape(found.ceiling)
-    to_wall = lumps.in_series((found.ceiling + found.floor) * through, corner)
-    sides = [Link(LEGS, place, found.tile * through) for place in WALL]
+    corner = m.structure_conductivity * m.edge_length * shape_factors.corner_shape(beside.ceiling)
+    to_wall = lumps.in_series((beside.ceiling + beside.floor) * through, corner)
+    sides = [Link(LEGS, place, beside.tile * through) for place in WALL]
     return (
-        down._replace(conductance=down.conductance - found.floor * through),
+        down._replace(conductance=down.conductance - beside.floor * through),
         Link(SPREADER, WALL[0], to_wall),
         *sides,
     )

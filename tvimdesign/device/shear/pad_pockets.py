@@ -1,4 +1,4 @@
-"""Pockets of pads and spreaders in the floor, and of liners in the rotor plate: wider than what lies in them.
+"""Pockets of pads and spreaders in the floor, and of liners in the rotor plate, and the level of that plate.
 
 A pocket has the outline of an arc, wider by `slip_clearance` on every side, so that what has that outline goes in.
 
@@ -50,7 +50,7 @@ def pad_ledge(m: Module) -> Scalar:
 
 
 def _ledge_area(m: Module) -> Scalar:
-    """What all pads, or tiles, lie on beside their windows [m^2]."""
+    """Return what all pads, or tiles, lie on beside their windows [m^2]."""
     lying = m.pad_section.area if m.heater_form == CUT else m.heater_count * m.peltier_length * m.peltier_width
     return lying - m.window_section.area
 

@@ -42,7 +42,7 @@ def thermistor_seat_radius(m: Module) -> Scalar:
 
 @weights.helper(default=NOTHING)
 def thermistor_seat_moments(m: Module) -> Section:
-    """What the seat takes out of the floor: the half beside the pocket, and below the pocket all of it.
+    """Volume of the thermistor's seat in the floor, half of it beside the pocket, and its polar moment.
 
     The end of a pocket points to the axis, so either half of the hole has half of its polar moment.
     """

@@ -1,4 +1,4 @@
-"""What a quantity of the one table is: a number or a word that a study sets, or a result and how it follows.
+"""Quantities of the one table: numbers and words that a study sets, and results with the function each follows from.
 
 A table says what a module is. `Input` quantities are numbers that a study may set, `Choice` quantities are words (a
 catalogue record or an option), `Output` quantities are what follows. An output's function reads what it needs from the
@@ -38,7 +38,7 @@ class Rule:
 
 
 def at_least(value: float, reason: str, exists_above: float | None = None) -> Rule:
-    """A lower limit that belongs to the machine."""
+    """Return a lower limit that belongs to the machine."""
     return Rule(sense=">=", value=value, reason=reason, exists_above=exists_above)
 
 
@@ -53,7 +53,7 @@ class Feature:
 
 
 def have_features(features: Sequence[Feature], chosen: Mapping[str, Any]) -> bool:
-    """Whether a module has features, with some options chosen, by name; an option left open may be any."""
+    """Return whether a module has features, with some options chosen, by name; an option left open may be any."""
     return all(chosen.get(feature.choice) != feature.without for feature in features)
 
 
@@ -71,8 +71,8 @@ class Input:
     variable: bool = False
     integer: bool = False
     period: float | None = None
-    """What it may change by and leave alike what turns with it, as a coil leaves its legs; an optimum has neighbors
-    there, and the search tries them."""
+    """Step by which it may change without a change of what turns with it, as a coil leaves its legs; an optimum has
+    neighbors there, and the search tries them."""
     part: str = ""
     """The part that this number and others shape alone: the search takes them together from one optimum to another."""
     per_point: bool = False
@@ -92,22 +92,22 @@ class Input:
     mode: str | None = None
     """The one mode that has it, where not all have."""
     requires: tuple[Feature, ...] = ()
-    """What a module must have for it to be of any effect."""
+    """Features that a module needs for it to have an effect."""
     read_by: str = ""
     """The floor that reads it; may be empty if a quantity does."""
 
     @property
     def falls_back(self) -> bool:
-        """Whether records may lack it: then it has a default with a source of its own."""
+        """Return whether records may lack it: then it has a default with a source of its own."""
         return self.record is not None and not self.source.startswith("record: ")
 
     def exists(self, chosen: Mapping[str, Any]) -> bool:
-        """Whether it is of any effect with some options chosen, by name; an option left open may be any."""
+        """Return whether it is of any effect with some options chosen, by name; an option left open may be any."""
         return have_features(self.requires, chosen)
 
     @property
     def sizes_in(self) -> tuple[str, str, str]:
-        """Category, table and column where a record lists sizes of it."""
+        """Return the category, table and column where a record lists sizes of it."""
         return self.stock or ("wires", "sizes", self.name)
 
 
@@ -127,7 +127,7 @@ class Choice:
     stock_record: tuple[str, str] | None = None
     """(choice, word): where it comes from, and from nowhere else, in a study that chooses such a record before."""
     requires: tuple[Feature, ...] = ()
-    """What a module must have for it to be of any effect."""
+    """Features that a module needs for it to have an effect."""
     idealized: Mapping[str, str] = field(default_factory=dict)
     """The words that leave out something of the drawn part, and what they leave out. The default is none of them."""
 
@@ -151,13 +151,13 @@ class Output:
     hidden: bool = False
     """An intermediate result, of any type, that other quantities use and nobody asks for."""
     headline: bool = False
-    """Whether the quantity stands in a summary."""
+    """True for a quantity that the summary shows."""
     least_of: tuple[str, ...] = ()
     """The quantities this one is the least of; a lower limit on it is put on each of them, which have no kinks."""
     also_limited: tuple[str, ...] = ()
     """The quantities on which each limit on this one is put as well, from whichever side."""
     parts_differ_with: Feature | None = None
-    """What a module must have for those, or for what it is the least of, to differ from one another."""
+    """Feature without which those, or the quantities it is the least of, are equal."""
     rules: tuple[Rule, ...] = ()
     """Limits that hold in every study whose module has the quantity's features, unless it sets its own in the same
     sense."""
@@ -167,16 +167,17 @@ class Output:
     """Limits that a material or a bought part is rated for: a design beyond one is no optimum unless the study
     accepts it by the quantity's name, and a search keeps it only where a study requires it."""
     better: Literal["less", "more"] | None = None
-    """Which way it is better whatever the module is for; None where that depends."""
+    """Direction in which it is better for any use of the module; None where that depends."""
     of: str = ""
-    """What has the quantity, where several things have it alike: `template_` in the names it reads stands for that."""
+    """Name of the part that has the quantity, where several have it alike: `template_` in the names it reads stands for
+    that."""
     requires: tuple[Feature, ...] = ()
-    """What a module must have for the quantity to be of anything; in one that lacks it the quantity is `default`."""
+    """Features that a module needs to have the quantity; in one that lacks them it is `default`."""
     default: Any = 0.0
 
     @cached_property
     def reads(self) -> tuple[str, ...]:
-        """The attributes of the module that the function reads; raises ValueError if that cannot be told."""
+        """Return the attributes of the module that the function reads; raises ValueError if that cannot be told."""
         try:
             return names_read(self.function)
         except ValueError as error:
@@ -184,7 +185,7 @@ class Output:
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
-        """The quantities this one is computed from, `name@point` for the attribute `name_at_point`.
+        """Return the quantities this one is computed from, `name@point` for the attribute `name_at_point`.
 
         First those that say whether the module has the quantity's features.
         """
@@ -199,7 +200,8 @@ class Output:
         return self.function(Module(**dict(zip(self.reads, given, strict=True))))
 
     def exists(self, chosen: Mapping[str, Any]) -> bool:
-        """Whether there is anything to limit with some options chosen, by name; an option left open may be any."""
+        """Return whether there is anything to limit with some options chosen, by name; an option left open may be
+        any."""
         return have_features(self.requires, chosen)
 
 
@@ -212,7 +214,7 @@ class Event(Output):
 
 @dataclass(frozen=True, kw_only=True)
 class Path(Output):
-    """What `function` adds up to, or reaches, from the start of a phase to the event that ends it, or is at that."""
+    """Output that `function` adds up to or reaches over a phase, or is at the event that ends it."""
 
     phase: str
     reduce: Literal["integral", "maximum", "end"]
@@ -220,14 +222,14 @@ class Path(Output):
 
 @dataclass(frozen=True, kw_only=True)
 class Steady(Output):
-    """What `function` is in the steady state in which the event that ends a phase stays at zero."""
+    """Output that `function` is in the steady state in which the event that ends a phase stays at zero."""
 
     phase: str
 
 
 @dataclass(frozen=True, kw_only=True)
 class FirstOscillation(Output):
-    """What `function` is on average over the first oscillation of a released link.
+    """Output that is the mean of `function` over the first oscillation of a released link.
 
     Simulated once a design is found: it is reported, and can be neither required nor minimised.
     """
@@ -244,8 +246,8 @@ DRIVE = "drive_current"
 PHASE = "phase"
 """The `Phase` an instant belongs to."""
 TOUCHING = "touching"
-"""Which sides of the PCL are in contact at an instant of a first oscillation (`one_sided.Touching`). No quantity
-either."""
+"""Sides of the PCL that are in contact at an instant of a first oscillation (`one_sided.Touching`). No quantity either.
+"""
 NOT_QUANTITIES = frozenset({STATE, DRIVE, PHASE, TOUCHING})
 
 
@@ -266,4 +268,4 @@ class Phase:
     like: str | None = None
     """The phase whose current it has, where it is that phase under another assumption."""
     history: bool
-    """Whether the polymer's solid fraction has a history of its own, by the kinetics of freezing."""
+    """True if the polymer's solid fraction has a history of its own, by the kinetics of freezing."""

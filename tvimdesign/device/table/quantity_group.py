@@ -1,5 +1,4 @@
-"""How a room of the device writes its quantities: the function's name is the quantity's name, its docstring the
-description."""
+"""Collection of a room's quantities: a function's name is the quantity's name, its docstring the description."""
 
 from __future__ import annotations
 
@@ -321,41 +320,41 @@ def _groups_of(room: ModuleType) -> Iterator[QuantityGroup]:
 
 
 def _said(entry: Mapping[str, Any]) -> str:
-    """Source of an input that has a default of its own."""
+    """Return the source of an input that has a default of its own."""
     return f"{entry['status']}: {entry['source']}"
 
 
 def _of_record(record: tuple[str, str]) -> str:
-    """Source of an input whose value a chosen record gives."""
+    """Return the source of an input whose value a chosen record gives."""
     return f"record: {record[1]} of the chosen {record[0]}"
 
 
 def _listed_in(category: str, table: str, column: str) -> tuple[str, str, str]:
-    """Where a record lists the sizes of an input that one can buy."""
+    """Return where a record lists the sizes of an input that one can buy."""
     return category, table, column
 
 
 def _summary(function: Callable[..., Any]) -> str:
-    """First paragraph of the docstring, on one line."""
+    """Return the first paragraph of the docstring, on one line."""
     text = function.__doc__ or ""
     return " ".join(text.split("\n\n")[0].split()).rstrip(".")
 
 
 @cache
 def directions() -> dict[str, Literal["less", "more"]]:
-    """Which way an output is better, by name, of those for which that can be said of any module."""
+    """Return which way an output is better, by name, of those for which that can be said of any module."""
     listed: dict[Literal["less", "more"], list[str]] = _data("better.yaml")
     return {name: way for way, names in listed.items() for name in names}
 
 
 @cache
 def _all_inputs() -> dict[str, dict[str, dict[str, Any]]]:
-    """Inputs by group and name, as the data file has them."""
+    """Return the inputs by group and name, as the data file has them."""
     loaded: dict[str, dict[str, dict[str, Any]]] = _data("inputs.yaml")
     return loaded
 
 
 def _data(file: str) -> Any:
-    """What a data file of this floor holds."""
+    """Return what a data file of this floor holds."""
     text = resources.files("tvimdesign.device.table").joinpath(file).read_text(encoding="utf-8")
     return yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))

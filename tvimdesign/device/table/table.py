@@ -58,21 +58,22 @@ class Table:
 
     @cached_property
     def inputs(self) -> tuple[Input, ...]:
-        """The numbers a study may set."""
+        """Return the numbers a study may set."""
         return tuple(quantity for quantity in self.quantities if isinstance(quantity, Input))
 
     @cached_property
     def choices(self) -> tuple[Choice, ...]:
-        """The words a study may set."""
+        """Return the words a study may set."""
         return tuple(quantity for quantity in self.quantities if isinstance(quantity, Choice))
 
     @cached_property
     def outputs(self) -> tuple[Output, ...]:
-        """What follows from the inputs."""
+        """Return what follows from the inputs."""
         return tuple(quantity for quantity in self.quantities if isinstance(quantity, Output))
 
     def names(self, points: Iterable[str]) -> list[str]:
-        """Full name (`quantity` or `quantity@point`) of every output a study can limit, in the table's order."""
+        """Return the full name (`quantity` or `quantity@point`) of every output a study can limit, in the table's
+        order."""
         points = list(points)
         return [
             name
@@ -83,12 +84,12 @@ class Table:
 
     @cached_property
     def supplied(self) -> tuple[Event | Path | Steady, ...]:
-        """The outputs that a simulation or the optimiser supplies."""
+        """Return the outputs that a simulation or the optimiser supplies."""
         return tuple(quantity for quantity in self.outputs if isinstance(quantity, Supplied))
 
     @cached_property
     def behind_supplied(self) -> frozenset[str]:
-        """The supplied outputs and all that depends on them, by base name."""
+        """Return the supplied outputs and all that depends on them, by base name."""
         supplied = {quantity.name for quantity in self.supplied}
         return frozenset(
             quantity.name for quantity in self.outputs if supplied & {quantity.name, *self.ancestors(quantity.name)}
@@ -96,11 +97,11 @@ class Table:
 
     @cached_property
     def first_oscillations(self) -> tuple[FirstOscillation, ...]:
-        """The outputs that are seen in a simulated release."""
+        """Return the outputs that are seen in a simulated release."""
         return tuple(quantity for quantity in self.outputs if isinstance(quantity, FirstOscillation))
 
     def phase(self, name: str) -> Phase:
-        """The phase of that name."""
+        """Return the phase of that name."""
         return next(phase for phase in self.phases if phase.name == name)
 
     def quantity(self, name: str) -> Quantity:
@@ -118,7 +119,7 @@ class Table:
         return quantity
 
     def unit(self, name: str) -> str:
-        """Unit that people read and write a quantity's numbers in; raises InputError for a choice."""
+        """Return the unit that people read and write a quantity's numbers in; raises InputError for a choice."""
         quantity = self.quantity(name)
         if isinstance(quantity, Choice):
             raise InputError(f"{name!r} is a word, not a number")
@@ -133,7 +134,7 @@ class Table:
         return self.resolve(dict(given), wanted)
 
     def resolve(self, known: dict[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
-        """The same from quantities that are known, to which all that is computed on the way is added."""
+        """Compute the wanted outputs from known quantities, and add all that is computed on the way to these."""
         return {name: self._resolve(name, known) for name in wanted}
 
     def _resolve(self, name: str, known: dict[str, Any]) -> Any:
@@ -147,7 +148,7 @@ class Table:
         return known[name]
 
     def settled(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """The given quantities and all that follow from them alone: neither of an instant nor behind anything
+        """Return the given quantities and all that follow from them alone: neither of an instant nor behind anything
         supplied."""
         known = dict(given)
         for name in self._settled_names:
@@ -178,7 +179,7 @@ class Table:
         return self.resolve_instant(dict(given), wanted)
 
     def resolve_instant(self, known: dict[str, Any], wanted: Iterable[str]) -> dict[str, Scalar]:
-        """The same from quantities that are known, to which all that is computed on the way is added."""
+        """Compute quantities at an instant as `evaluate_instant` does, and add all that is computed to `known`."""
         values: dict[str, Scalar] = {}
         for name in wanted:
             quantity = self.quantity(name)
@@ -197,11 +198,12 @@ class Table:
 
     @cached_property
     def _ancestors(self) -> dict[str, frozenset[str]]:
-        """Those that were asked for."""
+        """Return those that were asked for."""
         return {}
 
     def ancestors(self, name: str) -> frozenset[str]:
-        """Every quantity, by base name, that the named one depends on; the input that is a phase's current included."""
+        """Return every quantity, by base name, that the named one depends on; the input that is a phase's current
+        included."""
         if name not in self._ancestors:
             quantity = self.by_name[name.partition("@")[0]]
             parents = self._parents(quantity) if isinstance(quantity, Output) else frozenset()
@@ -214,7 +216,7 @@ class Table:
         return frozenset(need.partition("@")[0] for need in needs) - NOT_QUANTITIES
 
     def _currents(self, quantity: Output) -> Iterator[str]:
-        """The inputs that are the current of a supplied quantity's phase, and of those before it."""
+        """Return the inputs that are the current of a supplied quantity's phase, and of those before it."""
         following = quantity.phase if isinstance(quantity, Supplied) else None
         while following:
             phase = self.phase(following)

@@ -14,15 +14,15 @@ class Section(NamedTuple):
     polar: Any
 
     def __sub__(self, other: Section) -> Section:
-        """The shape with another one cut out of it."""
+        """Return the shape with another one cut out of it."""
         return Section(self.area - other.area, self.polar - other.polar)
 
     def plus(self, *others: Section) -> Section:
-        """The shape and others together."""
+        """Return the shape and others together."""
         return Section(sum((o.area for o in others), self.area), sum((o.polar for o in others), self.polar))
 
     def times(self, count: Any) -> Section:
-        """Several of the shape, spread around the axis."""
+        """Return several of the shape, spread around the axis."""
         return Section(count * self.area, count * self.polar)
 
 
@@ -42,12 +42,12 @@ class HoleCircle(NamedTuple):
 
     @property
     def section(self) -> Section:
-        """What the holes take from a plate."""
+        """Return what the holes take from a plate."""
         return disc_at(self.radius, self.circle_radius).times(self.count)
 
 
 def stacked(*prisms: tuple[Section, Any]) -> Section:
-    """Volume [m^3] and polar moment of volume about the axis [m^5] of flat shapes, each with its height [m].
+    """Return the volume [m^3] and polar moment of volume about the axis [m^5] of flat shapes, each with its height [m].
 
     A negative height takes the shape away.
     """
@@ -58,23 +58,23 @@ def stacked(*prisms: tuple[Section, Any]) -> Section:
 
 
 def sector(span: Any, inner_radius: Any, outer_radius: Any) -> Section:
-    """Annular sector of the angle `span` [rad]; 2 pi makes it a ring."""
+    """Return the annular sector of the angle `span` [rad]; 2 pi makes it a ring."""
     return Section(0.5 * span * (outer_radius**2 - inner_radius**2), 0.25 * span * (outer_radius**4 - inner_radius**4))
 
 
 def ring(inner_radius: Any, outer_radius: Any) -> Section:
-    """Full ring about the axis; inner radius 0 makes it a disc."""
+    """Return the full ring about the axis; inner radius 0 makes it a disc."""
     return sector(2.0 * np.pi, inner_radius, outer_radius)
 
 
 def disc_at(radius: Any, distance: Any) -> Section:
-    """Disc whose centre lies `distance` from the axis (parallel-axis theorem)."""
+    """Return the disc whose centre lies `distance` from the axis (parallel-axis theorem)."""
     area = np.pi * radius**2
     return Section(area, area * (0.5 * radius**2 + distance**2))
 
 
 def point_at(radius: Any, distance: Any) -> Section:
-    """What a cone is as a prism of its height: its base a disc whose centre lies `distance` from the axis.
+    """Return what a cone is as a prism of its height: its base a disc whose centre lies `distance` from the axis.
 
     A cone has a third of the volume and 3/10 of the squared radius of gyration about its own axis.
     """
@@ -83,7 +83,8 @@ def point_at(radius: Any, distance: Any) -> Section:
 
 
 def fillet_at_foot(radius: Any, fillet: Any) -> Section:
-    """Volume [m^3] and its polar moment [m^5] of a fillet around the foot of an upright cylinder about the axis.
+    """Return the volume [m^3] and its polar moment [m^5] of a fillet around the foot of an upright cylinder about the
+    axis.
 
     At u inwards from its outer end, b = R + r from the axis, it is r - sqrt(r^2 - u^2) high; the moments of that,
     integral of u^k over 0 to r, are r^2 (1 - pi/4), r^3/6, r^4 (1/3 - pi/16) and 7 r^5/60.
@@ -96,7 +97,8 @@ def fillet_at_foot(radius: Any, fillet: Any) -> Section:
 
 
 def rectangle_at(radial: Any, along: Any, distance: Any, corner: Any = 0.0) -> Section:
-    """Rectangle whose middle lies `distance` from the axis, one side along the ray there, its corners rounded.
+    """Return the rectangle whose middle lies `distance` from the axis, one side along the ray there, its corners
+    rounded.
 
     Polar moment by the parallel-axis theorem; what the fillets take counts at the corners.
     """
@@ -107,7 +109,7 @@ def rectangle_at(radial: Any, along: Any, distance: Any, corner: Any = 0.0) -> S
 
 
 def lens(radius: Any, circle_radius: Any) -> Any:
-    """Area [m^2] that a disc whose centre lies on a circle has inside that circle.
+    """Return the area [m^2] that a disc whose centre lies on a circle has inside that circle.
 
     b^2 (pi/2 - a) + 2 R^2 a - (b/2) sqrt(4R^2 - b^2), sin a = b/2R: two circles a distance R apart (Weisstein,
     MathWorld, circle-circle intersection; acos(b/2R) is pi/2 - a and acos(1 - b^2/2R^2) is 2 a).
@@ -118,7 +120,8 @@ def lens(radius: Any, circle_radius: Any) -> Any:
 
 
 def lens_corner(radius: Any, circle_radius: Any, corner: Any) -> Any:
-    """Area [m^2] that a fillet fills in one of the two corners between such a disc and its circle, inside that circle.
+    """Return the area [m^2] that a fillet fills in one of the two corners between such a disc and its circle, inside
+    that circle.
 
     The fillet's centre F is b + r from the disc's B and R - r from the circle's O; the law of cosines gives the angles
     f at O and a at B of the triangle OBF. What lies between the rays OF and BF, both rims and F is a sector of the
@@ -137,7 +140,7 @@ def lens_corner(radius: Any, circle_radius: Any, corner: Any) -> Any:
 
 
 def _half_strip(half_width: Any, radius: Any) -> Section:
-    """The half strip |y| < b, x > 0 within a circle about the axis.
+    """Return the half strip |y| < b, x > 0 within a circle about the axis.
 
     Cut by the angle p = arcsin(b/R) into a sector and two triangles of height c = sqrt(R^2 - b^2): area R^2 p + b c,
     polar moment R^4 p/2 + (b^3 c + b c^3/3)/2 (integrals in polar coordinates).
@@ -148,18 +151,19 @@ def _half_strip(half_width: Any, radius: Any) -> Section:
 
 
 def spoke(half_width: Any, disc_radius: Any, length: Any) -> Section:
-    """What an obround from the axis to `length` adds to a disc about the axis: strip and half disc beyond its rim."""
+    """Return what an obround from the axis to `length` adds to a disc about the axis: strip and half disc beyond its
+    rim."""
     near_end = Section(0.5 * np.pi * half_width**2, 0.25 * np.pi * half_width**4)
     return slot(half_width, length) - near_end - _half_strip(half_width, disc_radius)
 
 
 def notch(half_width: Any, inner_radius: Any, outer_radius: Any) -> Section:
-    """What a straight opening of the given half width takes from one side of a ring about the axis."""
+    """Return what a straight opening of the given half width takes from one side of a ring about the axis."""
     return _half_strip(half_width, outer_radius) - _half_strip(half_width, inner_radius)
 
 
 def slot(half_width: Any, length: Any) -> Section:
-    """Obround: a strip of the given half width from the axis to `length` with a half disc at each end."""
+    """Return the obround: a strip of the given half width from the axis to `length` with a half disc at each end."""
     b, reach = half_width, length
     strip_area = 2.0 * b * reach
     strip_polar = 2.0 * b * reach**3 / 3.0 + 2.0 * reach * b**3 / 3.0
@@ -171,12 +175,12 @@ def slot(half_width: Any, length: Any) -> Section:
 
 
 def mean_square(inner_radius: Any, outer_radius: Any) -> Any:
-    """Mean of r^2 along a radial line [m^2]."""
+    """Return the mean of r^2 along a radial line [m^2]."""
     return (inner_radius**2 + inner_radius * outer_radius + outer_radius**2) / 3.0
 
 
 def radial_strip(thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
-    """Area [m^2] between two circles about the axis, a radial line and its parallel at the given distance.
+    """Return the area [m^2] between two circles about the axis, a radial line and its parallel at the given distance.
 
     Integral of r arcsin(t/r) dr = r^2/2 arcsin(t/r) + t/2 sqrt(r^2 - t^2): a plate of constant thickness let into the
     side of an annular sector.
@@ -190,7 +194,8 @@ def radial_strip(thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
 
 
 def between_planes(span: Any, offset: Any, distance: Any) -> Any:
-    """Distance [m] of two planes that lie `offset` within the sides of a sector, across its middle at `distance`.
+    """Return the distance [m] of two planes that lie `offset` within the sides of a sector, across its middle at
+    `distance`.
 
     2 (d tan(a/2) - t/cos(a/2)): times a length along the middle, the area of the trapezoid around `distance`.
     """
@@ -198,7 +203,8 @@ def between_planes(span: Any, offset: Any, distance: Any) -> Any:
 
 
 def wedge(span: Any, offset: Any, length: Any, distance: Any, count: Any = 1.0, pitch: Any = 0.0) -> Section:
-    """Trapezoids in a row along the middle of a sector, between planes `offset` within its sides, around `distance`.
+    """Return the trapezoids in a row along the middle of a sector, between planes `offset` within its sides, around
+    `distance`.
 
     `count` of them, each so long, from middle to middle the `pitch`.
 
@@ -214,7 +220,7 @@ def wedge(span: Any, offset: Any, length: Any, distance: Any, count: Any = 1.0, 
 
 
 def wedge_corners(fillet_radius: Any, span: Any) -> Any:
-    """Area [m^2] that fillets take from a trapezoid whose legs are inclined by `span` to each other.
+    """Return the area [m^2] that fillets take from a trapezoid whose legs are inclined by `span` to each other.
 
     In a corner of the angle b a fillet leaves r^2 (cot(b/2) - (pi - b)/2) empty; b is pi/2 plus and minus half of it.
     """
@@ -224,7 +230,8 @@ def wedge_corners(fillet_radius: Any, span: Any) -> Any:
 
 
 def outer_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
-    """Area [m^2] that a fillet takes from the corner inside a circle about the axis and beside a straight line.
+    """Return the area [m^2] that a fillet takes from the corner inside a circle about the axis and beside a straight
+    line.
 
     The line passes the axis at the distance `offset`; the shape lies on its far side. With its centre C at R - r from
     the axis and r beside the line, the fillet touches the line at T and the circle on the ray through C: the circle's
@@ -240,7 +247,8 @@ def outer_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
 
 
 def inner_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
-    """Area [m^2] that a fillet takes from the corner outside a circle about the axis and beside a straight line.
+    """Return the area [m^2] that a fillet takes from the corner outside a circle about the axis and beside a straight
+    line.
 
     As `outer_corner`, the fillet's centre at R + r from the axis.
     """
@@ -253,12 +261,14 @@ def inner_corner(fillet_radius: Any, circle_radius: Any, offset: Any) -> Any:
 
 
 def corners(fillet_radius: Any, inner_radius: Any, outer_radius: Any, offset: Any = 0.0) -> Any:
-    """Area [m^2] that fillets take from the four corners of an annular sector with sides at `offset` from radial."""
+    """Return the area [m^2] that fillets take from the four corners of an annular sector with sides at `offset` from
+    radial."""
     return 2.0 * (outer_corner(fillet_radius, outer_radius, offset) + inner_corner(fillet_radius, inner_radius, offset))
 
 
 def corners_beyond(fillet_radius: Any, inner_radius: Any, outer_radius: Any, offset: Any, depth: Any) -> Any:
-    """What of the area [m^2] of `corners` lies further than `depth` from the radial lines; none beyond the fillets.
+    """Return what of the area [m^2] of `corners` lies further than `depth` from the radial lines; none beyond the
+    fillets.
 
     With the fillet's centre at the height c along the line and y_c = r + t beside it, over the distance y from the
     line: the integral of |sqrt(R^2 - y^2) - (c +- sqrt(r^2 - (y - y_c)^2))| dy from the depth to where the fillet
@@ -277,10 +287,10 @@ def corners_beyond(fillet_radius: Any, inner_radius: Any, outer_radius: Any, off
 
 
 def _under_arc(distance: Any, radius: Any) -> Any:
-    """Integral of sqrt(r^2 - y^2) from zero to a distance [m^2]."""
+    """Return the integral of sqrt(r^2 - y^2) from zero to a distance [m^2]."""
     return 0.5 * (distance * np.sqrt(radius**2 - distance**2) + radius**2 * np.arcsin(distance / radius))
 
 
 def bar_across(half_width: Any, radius: Any) -> Any:
-    """Area [m^2] that a straight slot through the middle of a disc has in it."""
+    """Return the area [m^2] that a straight slot through the middle of a disc has in it."""
     return 2.0 * (half_width * np.sqrt(radius**2 - half_width**2) + radius**2 * np.arcsin(half_width / radius))

@@ -13,16 +13,16 @@ import numpy as np
 
 
 class Body(Protocol):
-    """What every body answers: complex modulus [Pa], relaxation modulus [Pa] and creep compliance [1/Pa]."""
+    """Moduli of a body: complex modulus [Pa], relaxation modulus [Pa] and creep compliance [1/Pa]."""
 
     def modulus(self, angular_frequency: Any) -> Any:
-        """Complex modulus G' + i G'' [Pa]."""
+        """Return the complex modulus G' + i G'' [Pa]."""
 
     def relaxation(self, time: Any) -> Any:
-        """Relaxation modulus [Pa]."""
+        """Return the relaxation modulus [Pa]."""
 
     def creep(self, time: Any) -> Any:
-        """Creep compliance [1/Pa]."""
+        """Return the creep compliance [1/Pa]."""
 
 
 @dataclass(frozen=True)
@@ -35,15 +35,15 @@ class KelvinVoigt:
     """[Pa s]"""
 
     def modulus(self, angular_frequency: Any) -> Any:
-        """G + i w eta."""
+        """Return G + i w eta."""
         return self.stiffness + 1j * angular_frequency * self.viscosity
 
     def relaxation(self, time: Any) -> Any:
-        """G, for ever, after an infinite stress in the instant of the step."""
+        """Return the G, for ever, after an infinite stress in the instant of the step."""
         return self.stiffness + 0.0 * time
 
     def creep(self, time: Any) -> Any:
-        """(1 - exp(-G t/eta))/G."""
+        """Return (1 - exp(-G t/eta))/G."""
         return -np.expm1(-self.stiffness / self.viscosity * time) / self.stiffness
 
 
@@ -57,15 +57,15 @@ class Maxwell:
     """[Pa s]"""
 
     def modulus(self, angular_frequency: Any) -> Any:
-        """1/(1/G + 1/(i w eta))."""
+        """Return 1/(1/G + 1/(i w eta))."""
         return 1.0 / (1.0 / self.stiffness + 1.0 / (1j * angular_frequency * self.viscosity))
 
     def relaxation(self, time: Any) -> Any:
-        """G exp(-G t/eta)."""
+        """Return G exp(-G t/eta)."""
         return self.stiffness * np.exp(-self.stiffness / self.viscosity * time)
 
     def creep(self, time: Any) -> Any:
-        """1/G + t/eta."""
+        """Return 1/G + t/eta."""
         return 1.0 / self.stiffness + time / self.viscosity
 
 
@@ -73,7 +73,7 @@ class Maxwell:
 class StandardLinearSolid:
     """A spring beside a Maxwell body (Zener's): stiff at once, softer later, and it never flows."""
 
-    rest: float
+    equilibrium: float
     """Modulus that is left [Pa]."""
     stiffness: float
     """Modulus that relaxes [Pa]."""
@@ -81,15 +81,15 @@ class StandardLinearSolid:
     """[Pa s]"""
 
     def modulus(self, angular_frequency: Any) -> Any:
-        """Modulus of the spring and of the Maxwell body together."""
-        return self.rest + Maxwell(self.stiffness, self.viscosity).modulus(angular_frequency)
+        """Return the modulus of the spring and of the Maxwell body together."""
+        return self.equilibrium + Maxwell(self.stiffness, self.viscosity).modulus(angular_frequency)
 
     def relaxation(self, time: Any) -> Any:
-        """Rest and what the Maxwell body has left."""
-        return self.rest + Maxwell(self.stiffness, self.viscosity).relaxation(time)
+        """Return the rest and what the Maxwell body has left."""
+        return self.equilibrium + Maxwell(self.stiffness, self.viscosity).relaxation(time)
 
     def creep(self, time: Any) -> Any:
-        """1/R - (1/R - 1/(R + G)) exp(-t/lambda), lambda = eta (R + G)/(R G), R the modulus that is left."""
-        whole = self.rest + self.stiffness
-        slow = self.viscosity * whole / (self.rest * self.stiffness)
-        return 1.0 / self.rest - (1.0 / self.rest - 1.0 / whole) * np.exp(-time / slow)
+        """Return 1/R - (1/R - 1/(R + G)) exp(-t/lambda), lambda = eta (R + G)/(R G), R the modulus that is left."""
+        whole = self.equilibrium + self.stiffness
+        slow = self.viscosity * whole / (self.equilibrium * self.stiffness)
+        return 1.0 / self.equilibrium - (1.0 / self.equilibrium - 1.0 / whole) * np.exp(-time / slow)

@@ -31,7 +31,7 @@ class Columns(NamedTuple):
 
 
 def _by_root(count: int, power: float) -> Columns:
-    """So many of Gauss's nodes in a root of the way from the edge."""
+    """Return a number of Gauss's nodes in a root of the way from the edge."""
     nodes, weights = np.polynomial.legendre.leggauss(count)
     root = 0.5 * (1.0 - nodes)
     return Columns(tuple(1.0 - root**power), tuple(0.5 * power * weights * root ** (power - 1.0)))
@@ -43,7 +43,7 @@ softening in milled modules change by 1 %, with four by up to 5 %."""
 
 
 def way_through(stack: Stack, heights: Any) -> Any:
-    """Share of the way of heat from the pads to the plate that lies before places of the layer [1].
+    """Return the share of the way of heat from the pads to the plate that lies before places of the layer [1].
 
     `heights` are the places' over its depth; contacts and a liner are parts of that way.
     """
@@ -55,12 +55,13 @@ def way_through(stack: Stack, heights: Any) -> Any:
 
 
 def fed_evenly(place: Any) -> Any:
-    """How far a place of a sheet that is heated evenly is below its mean temperature, over how far its edge is [1]."""
+    """Return how far a place of a sheet that is heated evenly is below its mean temperature, over how far its edge is
+    [1]."""
     return 0.5 * (3.0 * place**2 - 1.0)
 
 
 def in_sheet(place: Any, slenderness: Any) -> Any:
-    """How far a place of a fin is below its mean temperature, over how far its edge is [1].
+    """Return how far a place of a fin is below its mean temperature, over how far its edge is [1].
 
     The profile cosh(x p) over the place p from the middle (0) to the edge (1), x = w (h/k t)^(1/2) as in
     `shape_factors.way_in_fin`, nearly `fed_evenly` where that is small.
@@ -70,7 +71,7 @@ def in_sheet(place: Any, slenderness: Any) -> Any:
 
 
 def at_end(place: Any, heights: Any, width: Any, slot: Any) -> Any:
-    """How far a layer is below its mean over the width for the heat that its end loses, times k/k_gap [1].
+    """Return how far a layer is below its mean over the width for the heat that its end loses, times k/k_gap [1].
 
     Per excess of its near face at the end of a gap (`gap_end`), at the `heights` over its depth t and the width
     w/t. The end's flux is the sum of 2 sin(n pi y/t) over t, so that the layer is below what it would be by
@@ -79,16 +80,16 @@ def at_end(place: Any, heights: Any, width: Any, slot: Any) -> Any:
 
     of which the mean over the width is 2/(n pi)^2 sin(n pi y/t) t/w. A slot takes its share as in `gap_end_depth`.
     """
-    found = 0.0
+    total = 0.0
     for n in range(1, SINES + 1):
         whole = n * np.pi * width
         falls = np.exp(-(1.0 - place) * whole) * (1.0 + np.exp(-2.0 * place * whole)) / (1.0 - np.exp(-2.0 * whole))
-        found = found + 2.0 / (n * np.pi) * (falls - 1.0 / whole) * np.sin(n * np.pi * heights)
-    return found * gap_end_depth(slot) / gap_end_depth(0.0)
+        total = total + 2.0 / (n * np.pi) * (falls - 1.0 / whole) * np.sin(n * np.pi * heights)
+    return total * gap_end_depth(slot) / gap_end_depth(0.0)
 
 
 class EndPlaces(NamedTuple):
-    """Where the slices of a layer are, seen from its end, and what the end is like."""
+    """Positions of a layer's slices, seen from its end, and the kind of that end."""
 
     of_all: tuple[Any, ...]
     """Numbers of the end."""
@@ -99,17 +100,18 @@ class EndPlaces(NamedTuple):
 
 
 def gap_places(heights: Any, width: Any, slot: Any) -> EndPlaces:
-    """At the end of a gap, slices at the `heights` over the layer's depth: what `at_end` takes."""
+    """Return the places of slices at the `heights` over the layer's depth at the end of a gap, for `at_end`."""
     return EndPlaces((width, slot), list(EVEN.places), heights)
 
 
 def gap_profile(places: EndPlaces) -> tuple[list[Any], ...]:
-    """What the gap does to each column: `at_end` there."""
+    """Return what the gap does to each column: `at_end` there."""
     return ([at_end(place, places.of_slices, *places.of_all) for place in places.of_columns],)
 
 
 def wall_places(heights: Any, width: Any, contact: Any, layer: Any, free: Any) -> EndPlaces:
-    """Beside a wall that leaves the share `free` of the layer's height open: away from it, and above the pads.
+    """Return the beside a wall that leaves the share `free` of the layer's height open: away from it, and above the
+    pads.
 
     The slices are at the `heights` over the layer's depth t, its width is w/t. Lengths are over the thickness from pads
     to plate: contacts are as much more layer at its faces and its end, here each a share `contact` of the whole, and so
@@ -120,7 +122,8 @@ def wall_places(heights: Any, width: Any, contact: Any, layer: Any, free: Any) -
 
 
 def wall_profile(places: EndPlaces) -> tuple[list[Any], ...]:
-    """What the wall and the gap below it do to each column: `walled_end.fallen` and `walled_end.cooled_end` there."""
+    """Return what the wall and the gap below it do to each column: `walled_end.fallen` and `walled_end.cooled_end`
+    there."""
     (free,), above = places.of_all, places.of_slices
     return (
         [fallen(free, away, above) for away in places.of_columns],
@@ -129,35 +132,37 @@ def wall_profile(places: EndPlaces) -> tuple[list[Any], ...]:
 
 
 def beside_wall(lost: Sequence[Any]) -> list[Any]:
-    """How warm a layer is in each column over its mean over the width, both above the wall at its end [1].
+    """Return how warm a layer is in each column over its mean over the width, both above the wall at its end [1].
 
     By what of an even fall from face to face each column has `lost` (`walled_end.fallen`). Any other profile is taken
     to fall towards the wall by the same share at each height.
     """
-    left = [1.0 - one for one in lost]
+    left = [1.0 - share for share in lost]
     mean = _mean(left)
-    return [one / mean for one in left]
+    return [share / mean for share in left]
 
 
 def below_wall(cooled: Sequence[Any]) -> list[Any]:
-    """How far a layer is below its mean over the width for heat that leaves its end below that wall, in each column.
+    """Return how far a layer is below its mean over the width for heat that leaves its end below that wall, in each
+    column.
 
     Times k, over what of that heat the near face gives: by how far each column is `cooled` (`walled_end.cooled_end`).
     """
     mean = _mean(cooled)
-    return [one - mean for one in cooled]
+    return [drop - mean for drop in cooled]
 
 
 def _mean(values: Sequence[Any]) -> Any:
-    """Mean over the width of what dense columns have."""
-    return sum(share * one for share, one in zip(DENSE.shares, values, strict=True))
+    """Return the mean over the width of what dense columns have."""
+    return sum(share * value for share, value in zip(DENSE.shares, values, strict=True))
 
 
 ROW_TERMS = 6
 
 
 def row_below_mean(place: float, depths: Any, slenderness: Any, lost: Sequence[Any]) -> Any:
-    """How far a row of a block is below the mean of its height there, over half its height and conductivity [W/m^2].
+    """Return how far a row of a block is below the mean of its height there, over half its height and conductivity
+    [W/m^2].
 
     `place` goes from -1 at the lower face to 1 at the upper one, `depths` from 0 to 1 from end to end, D over half the
     height is the `slenderness`. What both faces lose is cosines over the height, what one of them loses more is sines:
@@ -167,17 +172,17 @@ def row_below_mean(place: float, depths: Any, slenderness: Any, lost: Sequence[A
     each less by cosh(a (x - D/2))/cosh(a D/2) next to the ends, a its wave number.
     """
     both, more = 0.5 * (lost[0] + lost[1]), lost[1] - lost[0]
-    found = 0.0
+    total = 0.0
     for n in range(ROW_TERMS):
         even, odd = (n + 1.0) * np.pi, (n + 0.5) * np.pi
-        found = found - both * 2.0 * (-1.0) ** n / even**2 * np.cos(even * place) * _share_inside(
+        total = total - both * 2.0 * (-1.0) ** n / even**2 * np.cos(even * place) * _share_inside(
             even * slenderness, depths
         )
-        found = found + more * (-1.0) ** n / odd**2 * np.sin(odd * place) * _share_inside(odd * slenderness, depths)
-    return found
+        total = total + more * (-1.0) ** n / odd**2 * np.sin(odd * place) * _share_inside(odd * slenderness, depths)
+    return total
 
 
 def _share_inside(waves: Any, depths: Any) -> Any:
-    """Share [1] of what is far from both ends."""
+    """Return the share [1] of what is far from both ends."""
     near = np.exp(-waves * depths) + np.exp(-waves * (1.0 - depths))
     return 1.0 - near / (1.0 + np.exp(-waves))

@@ -29,12 +29,12 @@ class Conductivities(NamedTuple):
     melt: Any
 
     def mixed(self, fraction: Any) -> Any:
-        """Conductivity at a solid fraction [W/m K], in proportion."""
+        """Return the conductivity at a solid fraction [W/m K], in proportion."""
         return self.melt + fraction * (self.solid - self.melt)
 
 
 def potential(temperature: Any, conductivities: Conductivities, melting: Melting) -> Any:
-    """Integral of the conductivity over temperature [W/m], zero where melting starts.
+    """Return the integral of the conductivity over temperature [W/m], zero where melting starts.
 
     k is that of the solid below the melting window, that of the melt above it, and straight within.
     """
@@ -46,7 +46,7 @@ def potential(temperature: Any, conductivities: Conductivities, melting: Melting
 
 
 def mean_conductivity(temperature: Any, at: Any, wall: Any, conductivities: Conductivities, melting: Melting) -> Any:
-    """Mean conductivity [W/m K] between a place and a wall [K], from the potential.
+    """Return the mean conductivity [W/m K] between a place and a wall [K], from the potential.
 
     `at` is the conductivity of the place itself, taken where the two are at one temperature.
     """
@@ -56,16 +56,19 @@ def mean_conductivity(temperature: Any, at: Any, wall: Any, conductivities: Cond
 
 
 def shared(share: Any, place: Any, wall: Any, conductivities: Conductivities, melting: Melting) -> Any:
-    """Temperature [K] where the potential above that of a wall is a `share` of what it is at a place [K].
+    """Return the temperature [K] where the potential above that of a wall is a `share` of what it is at a place [K].
 
     One step of Newton's from the share of the temperatures, with the mean of both conductivities for the slope.
     """
     even = wall + share * (place - wall)
-    at_wall, at_place, at_even = (potential(one, conductivities, melting) for one in (wall, place, even))
+    at_wall, at_place, at_even = (
+        potential(temperature, conductivities, melting) for temperature in (wall, place, even)
+    )
     beyond = at_even - at_wall - share * (at_place - at_wall)
     return even - beyond / conductivities.mixed(0.5)
 
 
 def between(cells: Any, conductivities: Conductivities, melting: Melting, depth: Any) -> Any:
-    """Flux [W/m^2] from each cell to the next, cells of one depth [m] at temperatures [K] of the equilibrium curve."""
+    """Return the flux [W/m^2] from each cell to the next, cells of one depth [m] at temperatures [K] of the equilibrium
+    curve."""
     return -np.diff(potential(cells, conductivities, melting)) / depth

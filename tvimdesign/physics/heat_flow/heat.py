@@ -55,7 +55,7 @@ class _Parts(NamedTuple):
 
 
 def _lengths(stack: Stack) -> tuple[int, ...]:
-    """Counts of entries after the polymer's: plate, beside it, sink, around the pads, their legs, liner."""
+    """Return the counts of entries after the polymer's: plate, beside it, sink, around the pads, their legs, liner."""
     bodies = (len(stack.beside), int(stack.sink is not None), len(stack.around))
     legs, sheet = int(stack.legs_capacity is not None), liner.CELLS * int(stack.liner is not None)
     return stack.plate_cells, *bodies, legs, sheet
@@ -70,7 +70,7 @@ def _parts(state: Any, stack: Stack) -> _Parts:
 
 
 def initial_state(stack: Stack, cells: int, temperature: Any) -> Any:
-    """State of a stack that is everywhere at one temperature [K], on the equilibrium melting curve."""
+    """Return the state of a stack that is everywhere at one temperature [K], on the equilibrium melting curve."""
     scaled = (temperature - ZERO_CELSIUS) / TEMPERATURE_SCALE
     enthalpy = polymer.enthalpy(temperature, stack.melting) / ENTHALPY_SCALE
     layer = np.append(scaled * np.ones(2), enthalpy * np.ones(cells))
@@ -79,7 +79,7 @@ def initial_state(stack: Stack, cells: int, temperature: Any) -> Any:
 
 
 def with_history(state: Any, stack: Stack) -> Any:
-    """A state of the equilibrium curve, as the stack with freezing kinetics goes on from it; no heat is lost."""
+    """Return a state of the equilibrium curve, as the stack with freezing kinetics goes on from it; no heat is lost."""
     assert stack.freezing is not None
     layer = _parts(state, stack._replace(freezing=None)).layer
     fractions = polymer.solid_fraction(ENTHALPY_SCALE * layer, stack.melting)
@@ -91,7 +91,7 @@ def _kelvin(scaled: Any) -> Any:
 
 
 def _layer(parts: _Parts, stack: Stack) -> tuple[Any, Any]:
-    """Temperature [K] and solid fraction of each polymer cell."""
+    """Return the temperature [K] and solid fraction of each polymer cell."""
     enthalpies = ENTHALPY_SCALE * parts.layer
     if stack.freezing is None:
         return polymer.temperature(enthalpies, stack.melting), polymer.solid_fraction(enthalpies, stack.melting)
@@ -100,7 +100,7 @@ def _layer(parts: _Parts, stack: Stack) -> tuple[Any, Any]:
 
 
 def profile(state: Any, stack: Stack) -> Profile:
-    """Temperatures, solid fractions and heat flows that a state stands for."""
+    """Return the temperatures, solid fractions and heat flows that a state stands for."""
     parts = _parts(state, stack)
     cells, fractions = _layer(parts, stack)
     plate = _kelvin(parts.plate)
@@ -150,12 +150,12 @@ def profile(state: Any, stack: Stack) -> Profile:
 
 
 def _spreader(parts: _Parts, stack: Stack, ends: tuple[Any, Any], way: Any) -> Any:
-    """Temperature [K] of what lies on the pads, on the `way` [K/W] from them to the polymer's first cell.
+    """Return the temperature [K] of what lies on the pads, on the `way` [K/W] from them to the polymer's first cell.
 
     What it gives to others passes from the pads to it as well.
     """
-    (hot, cell), rest = ends, way - stack.to_spreader
-    onward, heat = 1.0 / rest, cell / rest
+    (hot, cell), beyond = ends, way - stack.to_spreader
+    onward, heat = 1.0 / beyond, cell / beyond
     for link in stack.links:
         for (group, _), (other, i) in ((link.first, link.second), (link.second, link.first)):
             if group == "spreader":
@@ -166,8 +166,8 @@ def _spreader(parts: _Parts, stack: Stack, ends: tuple[Any, Any], way: Any) -> A
 
 
 def _over_mean(stack: Stack, now: Profile, wall: Any) -> tuple[Any, Any]:
-    """Conductivity of the polymer between each cell and a temperature, and between the pads and it, over the mean of
-    both phases [1]; with a history that of what is there."""
+    """Return the conductivity of the polymer between each cell and a temperature, and between the pads and it, over the
+    mean of both phases [1]; with a history that of what is there."""
     both, mean = _conductivities(stack), 0.5 * (stack.conductivity_solid + stack.conductivity_melt)
     cells, pads = both.mixed(now.fractions), both.mixed(now.fractions[0])
     if stack.freezing is None:
@@ -181,7 +181,7 @@ def _conductivities(stack: Stack) -> conduction.Conductivities:
 
 
 def _between_cells(stack: Stack, cells: Any, fractions: Any) -> Any:
-    """Heat [W] between the polymer cells.
+    """Return the heat [W] between the polymer cells.
 
     On the equilibrium curve from the conduction potential; a layer with a history has none, as what is frozen does not
     follow from its temperature: there two half cells are in series, each as much as it is frozen.
@@ -194,7 +194,8 @@ def _between_cells(stack: Stack, cells: Any, fractions: Any) -> Any:
 
 
 def _wall_halves(stack: Stack, cells: Any, fractions: Any, hot: Any, plate: Any) -> tuple[Any, Any]:
-    """Thermal resistance [K/W] of the halves of the outermost cells towards the pads and towards the plate."""
+    """Return the thermal resistance [K/W] of the halves of the outermost cells towards the pads and towards the
+    plate."""
     both = _conductivities(stack)
     near, far = both.mixed(fractions[0]), both.mixed(fractions[-1])
     if stack.freezing is None:
@@ -205,7 +206,7 @@ def _wall_halves(stack: Stack, cells: Any, fractions: Any, hot: Any, plate: Any)
 
 
 def rates(state: Any, stack: Stack, current: Any) -> Any:
-    """Time derivative of the state [1/s] at a current [A], positive where it heats the polymer."""
+    """Return the time derivative of the state [1/s] at a current [A], positive where it heats the polymer."""
     now = profile(state, stack)
     from_cold, sink = _cold_end(now, stack)
     linked = _linked(now, stack, current)
@@ -230,8 +231,8 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
 
 
 def _pads(now: Profile, stack: Stack, current: Any, linked: Mapping[str, Sequence[Any]]) -> tuple[Any, Any, Any]:
-    """Heat [W] that comes to the pads' cold and hot side, what they give onwards aside, and heating [K/s] of the legs'
-    middle, where they have one.
+    """Return the heat [W] that comes to the pads' cold and hot side, what they give onwards aside, and heating [K/s] of
+    the legs' middle, where they have one.
 
     What comes to the legs by links is even over their length, or over a half of it.
     """
@@ -249,26 +250,27 @@ def _pads(now: Profile, stack: Stack, current: Any, linked: Mapping[str, Sequenc
 
 
 def _cell_mass(stack: Stack, count: int) -> Any:
-    """Mass of one polymer cell [kg]."""
+    """Return the mass of one polymer cell [kg]."""
     return stack.density * stack.area * stack.thickness / count
 
 
 def _plate_cell_capacity(stack: Stack) -> Any:
-    """Heat capacity of one plate cell [J/K]."""
+    """Return the heat capacity of one plate cell [J/K]."""
     return stack.plate_heat_capacity * stack.area * stack.plate_thickness / stack.plate_cells
 
 
 def _cold_end(now: Profile, stack: Stack) -> tuple[Any, Any]:
-    """Heat [W] that leaves the cold side, and the heating [K/s] of the sink it goes to, if there is one."""
+    """Return the heat [W] that leaves the cold side, and the heating [K/s] of the sink it goes to, if there is one."""
     if stack.sink is None:
         return lumps.surface_heat(stack.cold_surface, now.cold, stack.ambient), now.sink
     flow = stack.sink.conductance * (now.cold - now.sink[0])
-    rest = flow - lumps.surface_heat(stack.sink.surface, now.sink[0], stack.ambient)
-    return flow, rest / stack.sink.capacity
+    stored = flow - lumps.surface_heat(stack.sink.surface, now.sink[0], stack.ambient)
+    return flow, stored / stack.sink.capacity
 
 
 def _linked(now: Profile, stack: Stack, current: Any) -> dict[str, list[Any]]:
-    """Heat [W] that links bring to each place of the column and each body; to each cell of layer and plate."""
+    """Return the heat [W] that links bring to each place of the column and each body; to each cell of layer and
+    plate."""
     places = {
         "ambient": [stack.ambient],
         "spreader": [now.spreader],
@@ -302,7 +304,7 @@ def _take(linked: dict[str, list[Any]], now: Profile) -> None:
 
 
 def _sideways(now: Profile, stack: Stack) -> Any:
-    """Heat [W] each plate cell gives to the first lump beside the plate."""
+    """Return the heat [W] each plate cell gives to the first lump beside the plate."""
     if not stack.beside:
         return 0.0
     sideways = stack.beside[0].conductance
@@ -314,8 +316,9 @@ def _sideways(now: Profile, stack: Stack) -> Any:
 
 
 def _bodies(now: Profile, stack: Stack, to_beside: Any, linked: Mapping[str, Sequence[Any]]) -> tuple[Any, Any]:
-    """Heating [K/s] of the bodies beside the plate and around the pads, from what the plate and links bring [W]."""
-    chain = lumps.kept(stack.beside, now.beside, to_beside, stack.ambient)
+    """Return the heating [K/s] of the bodies beside the plate and around the pads, from what the plate and links bring
+    [W]."""
+    chain = lumps.chain_heat(stack.beside, now.beside, to_beside, stack.ambient)
     upper = [own + more for own, more in zip(chain, linked["beside"], strict=True)]
     lower = [
         more - lumps.surface_heat(body.surface, now.around[i], stack.ambient)
@@ -326,17 +329,17 @@ def _bodies(now: Profile, stack: Stack, to_beside: Any, linked: Mapping[str, Seq
 
 
 def electrical_power(now: Profile, stack: Stack, current: Any) -> Any:
-    """Power at the terminals [W], voltage times current; negative where the module generates."""
+    """Return the power at the terminals [W], voltage times current; negative where the module generates."""
     return current * voltage(now, stack, current)
 
 
 def voltage(now: Profile, stack: Stack, current: Any) -> Any:
-    """Voltage over the pads and, where the current passes it, the polymer [V]."""
+    """Return the voltage over the pads and, where the current passes it, the polymer [V]."""
     return peltier.voltage(stack.peltier, current, now.hot, now.cold) + current * stack.layer_resistance
 
 
 def stored_energy(state: Any, stack: Stack) -> Any:
-    """Heat stored in the stack [J], zero with everything at 0 degC and the polymer frozen."""
+    """Return the heat stored in the stack [J], zero with everything at 0 degC and the polymer frozen."""
     parts = _parts(state, stack)
     bodies = (*stack.beside, *((stack.sink,) if stack.sink else ()), *stack.around)
     temperatures = [*parts.beside, *parts.sink, *parts.around]

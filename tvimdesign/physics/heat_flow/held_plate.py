@@ -17,11 +17,11 @@ from tvimdesign.physics.heat_flow.lumps import Lump, Surface, surface_coefficien
 SLICES = (0.125, 0.375, 0.625, 0.875)
 """Where the plate's temperatures are taken, as shares of its depth: the middles of four slices."""
 PASSES = 3
-"""How often radiation is taken again at the temperatures that the last pass found."""
+"""Passes in which radiation is taken again at the temperatures of the last one."""
 
 
 class BehindPolymer(NamedTuple):
-    """What the polymer heats, as in `heat.Stack`."""
+    """Bodies that the polymer heats, as in `heat.Stack`."""
 
     area: Any
     """[m^2]"""
@@ -32,7 +32,7 @@ class BehindPolymer(NamedTuple):
     ambient: Any
     """[K]"""
     beside: tuple[Lump, ...]
-    """What the plate belongs to: the first takes heat from all of its depth, each next from the one before."""
+    """Bodies that the plate belongs to: the first takes heat from all of its depth, each next from the one before."""
     uneven_conductance: Any = None
     """Conductance [W/K] sideways for what the plate differs from its mean; as for the mean where not given."""
     liner: Liner | None = None
@@ -49,7 +49,7 @@ class HeldPlate(NamedTuple):
 
 
 def held_plate(behind: BehindPolymer, temperature: Any) -> HeldPlate:
-    """Steady temperatures behind a polymer that is everywhere at one temperature [K].
+    """Return the steady temperatures behind a polymer that is everywhere at one temperature [K].
 
     theta'' = m^2 theta/d^2 with theta = T - T_f, m^2 = G_u d/(k A), between theta(0) of the polymer and
     -k theta'(d) = h (T(d) - T_a) at the outer face. The mean gives heat to the lump beside by G_b and what differs from
@@ -85,7 +85,7 @@ class _Fin:
         self.whole = self.m * self.cosh + self.biot * self.sinh
 
     def at(self, depth: Any, polymer: Any, beside: Any, ambient: Any) -> Any:
-        """Temperature [K] at a share of the depth."""
+        """Return the temperature [K] at a share of the depth."""
         of_polymer, of_air = self.mean_shares
         mean = beside + of_polymer * (polymer - beside) + of_air * (ambient - beside)
         foot = mean - self.even_share * (mean - beside)
@@ -94,7 +94,7 @@ class _Fin:
 
     @property
     def mean_shares(self) -> tuple[Any, Any]:
-        """What the mean rises above the lump beside for each kelvin of polymer and of air above it [1]."""
+        """Return what the mean rises above the lump beside for each kelvin of polymer and of air above it [1]."""
         bent = (self.cosh - 1.0) / (self.m * self.whole)
         of_polymer = self.sinh / self.m - (self.m * self.sinh + self.biot * self.cosh) * bent
         of_air = self.biot * bent
@@ -104,7 +104,7 @@ class _Fin:
 
 
 def _conductance(behind: BehindPolymer, fin: _Fin, last: tuple[Any, ...]) -> Any:
-    """Heat [W] that the plate takes through its face for each kelvin of that above the air."""
+    """Return the heat [W] that the plate takes through its face for each kelvin of that above the air."""
     warm = behind.ambient + 1.0
     beside = _beside(behind, fin, warm, last)
     foot = beside[0] if beside else behind.ambient
@@ -117,18 +117,18 @@ def _conductance(behind: BehindPolymer, fin: _Fin, last: tuple[Any, ...]) -> Any
 
 
 def _beside(behind: BehindPolymer, fin: _Fin, polymer: Any, last: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Temperatures of the chain of lumps, each losing heat as at the temperature `last` found for it."""
+    """Return the temperatures of the chain of lumps, each losing heat as at the temperature `last` found for it."""
     if not behind.beside:
         return ()
     losses = [_loss(lump, temperature, behind.ambient) for lump, temperature in zip(behind.beside, last, strict=True)]
     onward = _onward(behind.beside, losses)
     of_polymer, of_air = (behind.beside[0].conductance * share for share in fin.mean_shares)
     lost = losses[0] + onward[0]
-    found = [behind.ambient + of_polymer * (polymer - behind.ambient) / (of_polymer + of_air + lost)]
+    temperatures = [behind.ambient + of_polymer * (polymer - behind.ambient) / (of_polymer + of_air + lost)]
     for lump, loss, beyond in zip(behind.beside[1:], losses[1:], onward[1:], strict=True):
         share = lump.conductance / (lump.conductance + loss + beyond)
-        found.append(behind.ambient + share * (found[-1] - behind.ambient))
-    return tuple(found)
+        temperatures.append(behind.ambient + share * (temperatures[-1] - behind.ambient))
+    return tuple(temperatures)
 
 
 def _loss(lump: Lump, temperature: Any, ambient: Any) -> Any:
@@ -136,9 +136,9 @@ def _loss(lump: Lump, temperature: Any, ambient: Any) -> Any:
 
 
 def _onward(lumps: tuple[Lump, ...], losses: list[Any]) -> list[Any]:
-    """Conductance to the air through the lumps beyond each [W/K]."""
-    found: list[Any] = [0.0]
+    """Return the conductance to the air through the lumps beyond each [W/K]."""
+    onward: list[Any] = [0.0]
     for lump, loss in zip(reversed(lumps[1:]), reversed(losses[1:]), strict=True):
-        beyond = loss + found[0]
-        found.insert(0, lump.conductance * beyond / (lump.conductance + beyond))
-    return found
+        beyond = loss + onward[0]
+        onward.insert(0, lump.conductance * beyond / (lump.conductance + beyond))
+    return onward

@@ -25,12 +25,12 @@ class Liner(NamedTuple):
 
     @property
     def whole(self) -> Any:
-        """Resistance of sheet and bond [K/W]."""
+        """Return the resistance of sheet and bond [K/W]."""
         return self.resistance + self.bond
 
 
 def flows(liner: Liner, ends: tuple[Any, Any], ways: tuple[Any, Any], cells: Any) -> Any:
-    """Heat [W] into the sheet, between its cells, and out of it, by the temperatures of these [K].
+    """Return the heat [W] into the sheet, between its cells, and out of it, by the temperatures of these [K].
 
     `ends` are the temperatures [K] of what lies before and behind it, `ways` the resistances [K/W] of those up to the
     sheet's face and to the bond.
@@ -43,5 +43,5 @@ def flows(liner: Liner, ends: tuple[Any, Any], ways: tuple[Any, Any], cells: Any
 
 
 def heating(liner: Liner, through: Any, beside: Any) -> Any:
-    """Heating of the cells [K/s] by the heat [W] that passes them and what comes to each from `beside`."""
+    """Return the heating of the cells [K/s] by the heat [W] that passes them and what comes to each from `beside`."""
     return (beside - np.diff(through)) / (liner.capacity / CELLS)

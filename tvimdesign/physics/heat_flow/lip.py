@@ -22,14 +22,14 @@ HOT, LAYER = ("hot", 0), ("layer", 0)
 
 
 class Lip(NamedTuple):
-    """What a lip is joined to; the polymer's conductances [W/K] are of the mean conductivity of both phases."""
+    """Connections of a lip; the polymer's conductances [W/K] are of the mean conductivity of both phases."""
 
     slices: Any
     """From the layer's slices, by their mean excess over the lip."""
     pads: Any
     """From the pads' hot side through the layer, by its excess."""
     arms: tuple[Arm, ...]
-    """What else heats and cools it."""
+    """Other bodies that heat and cool it."""
 
 
 class WarmLip(NamedTuple):
@@ -42,7 +42,7 @@ class WarmLip(NamedTuple):
     from_places: dict[Place, Any]
     """Heat [W] that other places give it."""
     residuals: tuple[Any, Any] = (0.0, 0.0)
-    """How far [K] temperatures that are given are from those that follow."""
+    """Differences [K] of the temperatures given from those that follow."""
 
 
 def warm_lip(
@@ -52,7 +52,7 @@ def warm_lip(
     conducting: Callable[[Any], tuple[Any, Any]],
     given: tuple[Any, Any] | None = None,
 ) -> WarmLip:
-    """A lip beside polymer `cells` [K], other places being `at` theirs.
+    """Return a lip beside polymer `cells` [K], other places being `at` theirs.
 
     `conducting` says how well the polymer conducts between each cell and a temperature, and between the pads and it,
     over the mean of both phases. It is asked at the temperature that the lip has where all conducts as that mean.
@@ -61,9 +61,9 @@ def warm_lip(
     follows = _temperature(lip, cells, at, 1.0 + 0.0 * cells, 1.0)
     alike = follows if given is None else given[0]
     of_cells, of_pads = conducting(alike)
-    found = _temperature(lip, cells, at, of_cells, of_pads)
-    residuals = (0.0, 0.0) if given is None else (follows - alike, found - given[1])
-    warm = found if given is None else given[1]
+    settled = _temperature(lip, cells, at, of_cells, of_pads)
+    residuals = (0.0, 0.0) if given is None else (follows - alike, settled - given[1])
+    warm = settled if given is None else given[1]
     from_places = star_heat((_pads(lip, of_pads), *lip.arms), warm, at)
     return WarmLip(warm, lip.slices / len(cells) * of_cells * (cells - warm), from_places, residuals)
 
@@ -81,7 +81,7 @@ def _temperature(lip: Lip, cells: Any, at: Callable[[Place], Any], of_cells: Any
 
 
 class Arm(NamedTuple):
-    """What conducts between the body and a mean of places."""
+    """Conductor between the body and a mean of places."""
 
     conductance: Any
     """[W/K]"""
@@ -92,21 +92,21 @@ class Arm(NamedTuple):
 
 
 def arm_mean(arm: Arm, at: Callable[[Place], Any]) -> Any:
-    """Mean of the places that an arm ends at [K], its share of a temperature."""
+    """Return the mean of the places that an arm ends at [K], its share of a temperature."""
     return sum(weight * at(place) for place, weight in arm.ends)
 
 
 def star_temperature(arms: Sequence[Arm], at: Callable[[Place], Any]) -> Any:
-    """Temperature of the body [K], by that of the places its arms end at."""
+    """Return the temperature of the body [K], by that of the places its arms end at."""
     given = sum(arm.conductance * arm.share * arm_mean(arm, at) for arm in arms)
     return given / sum(arm.conductance * arm.share**2 for arm in arms)
 
 
 def star_heat(arms: Sequence[Arm], body: Any, at: Callable[[Place], Any]) -> dict[Place, Any]:
-    """Heat [W] that arms of a body of a temperature [K] take from each place."""
-    found: dict[Place, Any] = {}
+    """Return the heat [W] that arms of a body of a temperature [K] take from each place."""
+    taken: dict[Place, Any] = {}
     for arm in arms:
         heat = arm.conductance * (arm_mean(arm, at) - arm.share * body)
         for place, weight in arm.ends:
-            found[place] = found.get(place, 0.0) + weight * heat
-    return found
+            taken[place] = taken.get(place, 0.0) + weight * heat
+    return taken

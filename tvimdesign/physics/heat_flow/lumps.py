@@ -41,7 +41,8 @@ class Body(NamedTuple):
 
 
 def less(whole: Body, parts: Sequence[Body], more_surface: Any) -> Body:
-    """What is left of a body without parts that are bodies of their own, with a surface [m^2] that it has besides."""
+    """Return what is left of a body without parts that are bodies of their own, with a surface [m^2] that it has
+    besides."""
     surface = whole.surface._replace(area=whole.surface.area + more_surface)
     return Body(whole.capacity - sum(part.capacity for part in parts), surface)
 
@@ -63,7 +64,7 @@ which."""
 
 
 class Slope(NamedTuple):
-    """How much warmer what the layer faces is at the layer's near end than at its far one, evenly between them."""
+    """Rise of the temperature that the layer faces, from its far end to its near one, even between them."""
 
     warm: tuple[tuple[Place, Any], ...]
     """Places and the share of each in a mean [1]."""
@@ -73,7 +74,7 @@ class Slope(NamedTuple):
 
 
 class Link(NamedTuple):
-    """What conducts, and radiates, between two places; layer, liner and plate give heat evenly over their depth."""
+    """Conduction and radiation between two places; layer, liner and plate give heat evenly over their depth."""
 
     first: Place
     second: Place
@@ -88,7 +89,8 @@ class Link(NamedTuple):
 
 
 def surface_coefficient(surface: Surface, temperature: Any, ambient: Any) -> Any:
-    """Convection and radiation together [W/m^2 K], h + e s (T^2 + T_a^2)(T + T_a), and what lies before them.
+    """Return the convection and radiation together [W/m^2 K], h + e s (T^2 + T_a^2)(T + T_a), and what lies before
+    them.
 
     The face is colder than the body then, by its share as with the body's temperature.
     """
@@ -105,27 +107,28 @@ def _radiation(emissivity: Any, temperature: Any, ambient: Any) -> Any:
 
 
 def surface_heat(surface: Surface, temperature: Any, ambient: Any) -> Any:
-    """Heat lost by a surface [W]."""
+    """Return the heat lost by a surface [W]."""
     return surface.area * surface_coefficient(surface, temperature, ambient) * (temperature - ambient)
 
 
 def air_gap(area: Any, width: Any, air_conductivity: Any, emissivity: Any, first: Place, second: Place) -> Link:
-    """Gap of an area [m^2] and a width [m] between faces of one emissivity; its air does not move."""
+    """Return the gap of an area [m^2] and a width [m] between faces of one emissivity; its air does not move."""
     return Link(first, second, air_conductivity * area / width, area * emissivity / (2.0 - emissivity))
 
 
 def link_conductance(link: Link, warm: Any, cool: Any) -> Any:
-    """Conductance [W/K] of a link, k A/d + A_r s (T_1^2 + T_2^2)(T_1 + T_2), temperatures in kelvin."""
+    """Return the conductance [W/K] of a link, k A/d + A_r s (T_1^2 + T_2^2)(T_1 + T_2), temperatures in kelvin."""
     return link.conductance + link.radiating_area * STEFAN_BOLTZMANN * (warm**2 + cool**2) * (warm + cool)
 
 
 def link_heat(link: Link, warm: Any, cool: Any) -> Any:
-    """Heat [W] a link passes from one temperature [K] to the other."""
+    """Return the heat [W] a link passes from one temperature [K] to the other."""
     return link_conductance(link, warm, cool) * (warm - cool)
 
 
 def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[str, Any]) -> dict[str, list[Any]]:
-    """Heat [W] that links bring to each of the `places`, by group, and to each cell of what is `divided` into cells.
+    """Return the heat [W] that links bring to each of the `places`, by group, and to each cell of what is `divided`
+    into cells.
 
     A link of what is divided takes from each cell in turn as much as that is warmer than the link's other end, and
     radiates as from their mean temperature. What the layer gives in place of a link's first end (`Link.of_layer`) comes
@@ -134,47 +137,47 @@ def linked(links: Sequence[Link], places: Mapping[str, Any], divided: Mapping[st
     at = {**places, **{group: [np.mean(cells)] for group, cells in divided.items()}}
     if any("face" in (link.first[0], link.second[0]) for link in links):
         at["face"] = [divided["plate"][0]]
-    found: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in at.items()}
+    heats: dict[str, list[Any]] = {group: [0.0] * len(bodies) for group, bodies in at.items()}
     taking: dict[str, Any] = dict.fromkeys(divided, 0.0)
     for link in links:
         ends = [at[group][i] for group, i in (link.first, link.second)]
         conductance = link_conductance(link, *ends)
         for (group, i), own, other in ((link.first, *ends), (link.second, *reversed(ends))):
             if group in divided:
-                found[group][0] = found[group][0] + conductance * other
+                heats[group][0] = heats[group][0] + conductance * other
                 taking[group] = taking[group] + conductance
             else:
-                found[group][i] = found[group][i] + conductance * (other - own)
+                heats[group][i] = heats[group][i] + conductance * (other - own)
     for group, cells in divided.items():
-        found[group][0] = (found[group][0] - taking[group] * cells) / len(cells)
-    if "face" in found:
-        found["plate"][0] = found["plate"][0] + found["face"][0] * of_first(len(divided["plate"]))
+        heats[group][0] = (heats[group][0] - taking[group] * cells) / len(cells)
+    if "face" in heats:
+        heats["plate"][0] = heats["plate"][0] + heats["face"][0] * of_first(len(divided["plate"]))
     for link in links:
         if link.of_layer is not None:
             (group, i), count = link.first, len(divided["layer"])
             given = link.of_layer * link_heat(link, at[group][i], at[link.second[0]][link.second[1]])
-            found[group][i] = found[group][i] + given
-            found["layer"][0] = found["layer"][0] - given * _falling(count)
+            heats[group][i] = heats[group][i] + given
+            heats["layer"][0] = heats["layer"][0] - given * _falling(count)
         if link.slope is not None:
             count = len(divided["layer"])
             conductance = link_conductance(link, at["layer"][0], at[link.second[0]][link.second[1]])
-            found["layer"][0] = found["layer"][0] + conductance / count * risen(link.slope, at, count)
-    return found
+            heats["layer"][0] = heats["layer"][0] + conductance / count * risen(link.slope, at, count)
+    return heats
 
 
 def risen(slope: Slope, places: Mapping[str, Any], count: int) -> Any:
-    """How much warmer than its mean what a layer of so many cells faces is before each of them [K]."""
+    """Return how much warmer than its mean what a layer of so many cells faces is before each of them [K]."""
     warm, (group, k) = sum(share * places[of][i] for (of, i), share in slope.warm), slope.cool
     return slope.share * (warm - places[group][k]) * (0.5 - (np.arange(count) + 0.5) / count)
 
 
 def of_first(count: int) -> Any:
-    """One for the first of so many cells, nothing for the others."""
+    """Return one for the first of so many cells, nothing for the others."""
     return 1.0 * (np.arange(count) == 0)
 
 
 def _falling(count: int) -> Any:
-    """Shares of a layer's cells in what falls evenly over its depth to nothing."""
+    """Return the shares of a layer's cells in what falls evenly over its depth to nothing."""
     return 2.0 * (1.0 - (np.arange(count) + 0.5) / count) / count
 
 
@@ -188,24 +191,25 @@ class Loss(NamedTuple):
 
 
 def behind(link: Link, conductance: Any, ambient: Any) -> Link:
-    """A link with a `conductance` [W/K] in series, which takes the share it has near ambient temperature."""
+    """Return a link with a `conductance` [W/K] in series, which takes the share it has near ambient temperature."""
     share = 1.0 / (1.0 + link_conductance(link, ambient, ambient) / conductance)
     return link._replace(conductance=share * link.conductance, radiating_area=share * link.radiating_area)
 
 
 def straightened(link: Link, warm: Any, cool: Any) -> Link:
-    """A link that radiates as it does between these two temperatures [K] at all others as well."""
+    """Return a link that radiates as it does between these two temperatures [K] at all others as well."""
     return link._replace(conductance=link_conductance(link, warm, cool), radiating_area=0.0)
 
 
 def cooled_through(loss: Loss, lump: Lump, ambient: Any) -> Lump:
-    """A lump that also loses heat to ambient by a loss that begins at it, as near ambient temperature."""
+    """Return a lump that also loses heat to ambient by a loss that begins at it, as near ambient temperature."""
     more = in_series(link_conductance(loss.link, ambient, ambient), loss.onward) / lump.surface.area
     return lump._replace(surface=lump.surface._replace(coefficient=lump.surface.coefficient + more))
 
 
 def heated_between(across: Any, first: Any, second: Any) -> tuple[Any, Any, Any]:
-    """Conductances [W/K] from the mean of an evenly heated slab to what is behind either face, and between these.
+    """Return the conductances [W/K] from the mean of an evenly heated slab to what is behind either face, and between
+    these.
 
     `across` is k A/H of the whole slab, `first` and `second` lead on from its faces. A parabola from face to face with
     the mean T_m gives q_1 = 6 (T_m - T_1) - 2 (T_2 - T_1) over k A/H to the first: a star of 1/2, 1/2 and -1/6.
@@ -217,12 +221,13 @@ def heated_between(across: Any, first: Any, second: Any) -> tuple[Any, Any, Any]
 
 
 def in_series(*conductances: Any) -> Any:
-    """Conductance [W/K] of what heat passes one after the other."""
+    """Return the conductance [W/K] of what heat passes one after the other."""
     return 1.0 / sum(1.0 / conductance for conductance in conductances)
 
 
-def kept(lumps: Sequence[Lump], temperatures: Any, inflow: Any, ambient: Any) -> list[Any]:
-    """Heat [W] each lump of a chain keeps when `inflow` [W] comes into the first, less what surfaces lose."""
+def chain_heat(lumps: Sequence[Lump], temperatures: Any, inflow: Any, ambient: Any) -> list[Any]:
+    """Return the heat [W] each lump of a chain keeps when `inflow` [W] comes into the first, less what surfaces
+    lose."""
     left = []
     for i, lump in enumerate(lumps):
         onward: Any = 0.0
@@ -234,7 +239,7 @@ def kept(lumps: Sequence[Lump], temperatures: Any, inflow: Any, ambient: Any) ->
 
 
 def heating(lumps: Sequence[Lump | Body], watts: Sequence[Any], empty: Any) -> Any:
-    """Rate [K/s] at which each lump's temperature rises; `empty` is an array of none."""
+    """Return the rate [K/s] at which each lump's temperature rises; `empty` is an array of none."""
     rates = empty
     for lump, heat in zip(lumps, watts, strict=True):
         rates = np.append(rates, heat / lump.capacity)
@@ -256,7 +261,7 @@ heat flows on steadily."""
 
 
 def strip_bodies(area: Any, heat_capacity: Any, across: Any, surface: Surface) -> tuple[Lump, ...]:
-    """A strip heated along its edge, in three bodies in a row from the edge on.
+    """Return a strip heated along its edge, in three bodies in a row from the edge on.
 
     Its area [m^2], its heat capacity per area [J/m^2 K], k t L/w [W/K], which conducts across its whole width, and
     what it loses to the air, for an area of one. The first body's conductance is from the edge itself.
@@ -268,8 +273,8 @@ def strip_bodies(area: Any, heat_capacity: Any, across: Any, surface: Surface) -
 
 
 def strip_end(surface: Surface, along: Any, onward: Any, ambient: Any) -> tuple[Surface, Any, Any]:
-    """Surface of a strip's last body, its conductance [W/K] to what takes heat at the strip's end, and surface [m^2]
-    that counts there.
+    """Return the surface of a strip's last body, its conductance [W/K] to what takes heat at the strip's end, and
+    surface [m^2] that counts there.
 
     `along` is the conductance from the body to the end, `onward` from there. The body's part of the strip is colder
     than the body while heat flows on, by `AT_END` of what the end is: that share of its surface is at the end, which

@@ -18,17 +18,17 @@ class PeltierModule(NamedTuple):
 
 
 SIDE_SHARE = 1.0 / 12.0
-"""What of a pad's thickness either side is, which has one temperature; assumed, 0 to 0.2. The legs between them have
-the rest of its heat capacity."""
+"""Share of a pad's thickness that each side is, which has one temperature; assumed, 0 to 0.2. The legs between them
+have the rest of its heat capacity."""
 
 
 def shared_capacity(whole: Any) -> tuple[Any, Any]:
-    """Heat capacities of one side and of the legs of pads that have `whole` [J/K]."""
+    """Return the heat capacities of one side and of the legs of pads that have `whole` [J/K]."""
     return SIDE_SHARE * whole, (1.0 - 2.0 * SIDE_SHARE) * whole
 
 
 def wired(one: PeltierModule, count: Any, strings: Any) -> PeltierModule:
-    """`count` alike modules in `strings` parallel strings, as one module that takes the whole current.
+    """Return `count` alike modules in `strings` parallel strings, as one module that takes the whole current.
 
     Each takes I/p: S I T sums to (n/p) S I T, I^2 R to (n/p^2) R I^2, and heat is conducted through all n of them.
     """
@@ -37,7 +37,7 @@ def wired(one: PeltierModule, count: Any, strings: Any) -> PeltierModule:
 
 
 def max_cooling_power(module: PeltierModule, cold_temperature: Any) -> Any:
-    """Heat that can be drawn from the cold side without a temperature difference, S^2 T_c^2/(2 R) [W].
+    """Return the heat that can be drawn from the cold side without a temperature difference, S^2 T_c^2/(2 R) [W].
 
     To be held against a data sheet's Q_max, which the other three values do not use.
     """
@@ -45,28 +45,31 @@ def max_cooling_power(module: PeltierModule, cold_temperature: Any) -> Any:
 
 
 def hot_side_heat(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
-    """Heat given off by the hot side, Q_h = S I T_h + I^2 R/2 - K (T_h - T_c) [W]; the legs between have settled."""
+    """Return the heat given off by the hot side, Q_h = S I T_h + I^2 R/2 - K (T_h - T_c) [W]; the legs between have
+    settled."""
     joule = 0.5 * current**2 * module.resistance
     return module.seebeck * current * hot + joule - module.conductance * (hot - cold)
 
 
 def cold_side_heat(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
-    """Heat taken up by the cold side, Q_c = S I T_c - I^2 R/2 - K (T_h - T_c) [W]; the legs have settled."""
+    """Return the heat taken up by the cold side, Q_c = S I T_c - I^2 R/2 - K (T_h - T_c) [W]; the legs have settled."""
     joule = 0.5 * current**2 * module.resistance
     return module.seebeck * current * cold - joule - module.conductance * (hot - cold)
 
 
 def legs_temperature(hot: Any, middle: Any, cold: Any) -> Any:
-    """Mean temperature of legs with a parabola through both sides and the middle, (T_h + 4 T_m + T_c)/6 [K]."""
+    """Return the mean temperature of legs with a parabola through both sides and the middle, (T_h + 4 T_m + T_c)/6
+    [K]."""
     return (hot + 4.0 * middle + cold) / 6.0
 
 
 OF_HALF = 0.25
-"""What a half of the legs is warmer than their mean, over what the side next to it is warmer than the other."""
+"""Rise of a half of the legs over their mean, over the rise of the side next to it over the other."""
 
 
 def legs_temperatures(hot: Any, middle: Any, cold: Any) -> tuple[Any, Any, Any]:
-    """Mean temperatures [K] of legs with that parabola: of all, of the half next to the hot side, of the other.
+    """Return the mean temperatures [K] of legs with that parabola: of all, of the half next to the hot side, of the
+    other.
 
     What the middle is above the straight line between the sides is alike in both halves: 2/3 of it in the mean.
     """
@@ -75,7 +78,7 @@ def legs_temperatures(hot: Any, middle: Any, cold: Any) -> tuple[Any, Any, Any]:
 
 
 def settled_middle(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
-    """Middle of legs that the current heats evenly, once they have settled, (T_h + T_c)/2 + I^2 R/(8 K) [K].
+    """Return the middle of legs that the current heats evenly, once they have settled, (T_h + T_c)/2 + I^2 R/(8 K) [K].
 
     Between their ends they have a parabola above the straight line; in the mean it is I^2 R/(12 K).
     """
@@ -91,11 +94,12 @@ class LegsHeat(NamedTuple):
 
 
 OF_SIDE, OF_MIDDLE = 1.0 / 6.0, 2.0 / 3.0
-"""What of what is even over a length belongs to either end and to the middle, by Simpson's rule."""
+"""Shares of an even quantity over a length that belong to either end and to the middle, by Simpson's rule."""
 
 
 def legs_heat(module: PeltierModule, current: Any, hot: Any, middle: Any, cold: Any) -> LegsHeat:
-    """Heat that legs of their own heat capacity give to both sides and keep in the middle, Peltier's heat aside.
+    """Return the heat that legs of their own heat capacity give to both sides and keep in the middle, Peltier's heat
+    aside.
 
     Three places, T_h, T_m, T_c, on a parabola (the quadratic finite element with what is even lumped by Simpson's
     rule): of I^2 R and of the legs' heat capacity C a sixth belongs to either
@@ -110,7 +114,7 @@ def legs_heat(module: PeltierModule, current: Any, hot: Any, middle: Any, cold: 
 
 
 def voltage(module: PeltierModule, current: Any, hot: Any, cold: Any) -> Any:
-    """Terminal voltage, V = S (T_h - T_c) + I R [V]."""
+    """Return the terminal voltage, V = S (T_h - T_c) + I R [V]."""
     return module.seebeck * (hot - cold) + current * module.resistance
 
 
@@ -119,7 +123,7 @@ AROUND_CORNER = 2.0 * log(2.0) / pi
 
 
 def spreading_resistance(area: Any, fed_area: Any, fed_edge: Any, conductivity: Any, thickness: Any) -> Any:
-    """Mean rise of the fed part over the whole plate, per heat flux that leaves its face evenly [m^2 K/W].
+    """Return the mean rise of the fed part over the whole plate, per heat flux that leaves its face evenly [m^2 K/W].
 
     The part beside the modules is a fin, fed along their edge and as wide as it has area for that edge's length: under
     an even flux q its mean lies q w^2/(3 k t) below its root (Incropera, ch. 3, a fin of efficiency tanh(mw)/(mw) where
@@ -135,7 +139,7 @@ def spreading_resistance(area: Any, fed_area: Any, fed_edge: Any, conductivity: 
 def spreader_contact_resistance(
     contact: Any, conductivity: Any, thickness: Any, fed_share: Any, fed_contact: Any
 ) -> Any:
-    """Resistance of joint, plate and the modules' joint in series, over the whole plate [m^2 K/W].
+    """Return the resistance of joint, plate and the modules' joint in series, over the whole plate [m^2 K/W].
 
     1/h + t/k + 1/(f h_m): `contact` h and `fed_contact` h_m are conductances of the two joints [W/m^2 K], `fed_share` f
     the share of the plate that lies on modules.

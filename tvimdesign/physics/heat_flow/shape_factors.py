@@ -21,14 +21,14 @@ INTO_SLOT = 0.2619
 """Heat per length over k and excess that leaves a warm wall above the slot's mouth for the slot: ln(1/0.4392)/pi, where
 0.4392 is the mouth's height in the map of `gap_end`, the root of sqrt(1 + u) = artanh(1/sqrt(1 + u))."""
 BEFORE_SLOT = 0.27993
-"""What a narrow slot takes of `gap_end_depth` for its width over the gap's: 2/pi^2 times the integral of p coth p up to
+"""Loss of `gap_end_depth` by a narrow slot, per its width over the gap's: 2/pi^2 times the integral of p coth p up to
 1.19968, where p = coth p."""
 FALLING = 12.0
-"""What a layer gives in all over the `gap_end_depth` of it, where it gives 2 (1 - y/t) of that at each height y/t."""
+"""Heat of a layer in all over its `gap_end_depth`, where it gives 2 (1 - y/t) of that at each height y/t."""
 
 
 def gap_end(slot: Any) -> tuple[Any, Any]:
-    """Shape factors [1] from the end of a gap to its two walls, heat per length over k and the end's excess.
+    """Return the shape factors [1] from the end of a gap to its two walls, heat per length over k and the end's excess.
 
     The end of a gap between walls of one temperature is warmer than they are by 1 at the one wall, falling evenly to 0
     at the other. Its series of sines, 2/(n pi) sin(n pi y/t), brings 2/pi (1 + 1/2 + 1/3 + ...) to the first wall and
@@ -42,7 +42,8 @@ def gap_end(slot: Any) -> tuple[Any, Any]:
 
 
 def gap_end_depth(slot: Any) -> Any:
-    """How much heat through the end of a gap lies deep in what ends there [1]: the integral of q y (t - y)/(2 t^2) dy.
+    """Return how much heat through the end of a gap lies deep in what ends there [1]: the integral of q y (t - y)/(2
+    t^2) dy.
 
     A layer whose end loses the flux q(y) is colder in the mean by k_gap/k times that, times t over its width, than with
     q at its faces: its mean over the width has T'' = q/(k w), whatever its profile. The series of `gap_end` is
@@ -55,11 +56,12 @@ def gap_end_depth(slot: Any) -> Any:
 
 
 AT_WALL = 1.2
-"""How much colder a profile is at the end where a wall takes its heat than in the mean: as `sink_of_slices` says."""
+"""Drop of a profile at the end where a wall takes its heat, below its mean: as `sink_of_slices` says."""
 
 
 def sink_of_slices(deep: Any, colder: Any) -> Any:
-    """What a layer's slices give to a wall at its end, over k/t and their excess, for the depth it comes from [1].
+    """Return what a layer's slices give to a wall at its end, over k/t and their excess, for the depth it comes from
+    [1].
 
     `deep` is `WalledEnd.deep` over the layer's width w/t: how much colder its mean is than an even fall from near to
     far face. Slices that give x per excess have the profile sinh(x^1/2 (1 - y/t)), the mean of which is below the even
@@ -70,7 +72,8 @@ def sink_of_slices(deep: Any, colder: Any) -> Any:
 
 
 def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
-    """Ways [1] from a ledge's upper face to its mean, and on to its root, over its height: T k L/Q, heat Q, length L.
+    """Return the ways [1] from a ledge's upper face to its mean, and on to its root, over its height: T k L/Q, heat Q,
+    length L.
 
     A strip of the height h is heated evenly over its upper face from its free end to the width w = r h, its root, and
     goes on beyond. Its mean lies w/3 before the root. By separation of variables (Carslaw and Jaeger, ch. V) the face
@@ -84,7 +87,8 @@ def ledge_ways(slenderness: Any) -> tuple[Any, Any]:
 
 
 def constriction(share: Any, sheet: Any = 0.0, depth: Any = np.inf) -> Any:
-    """What a slab resists more where only a `share` of its face up to one side is heated, evenly, times k and length.
+    """Return what a slab resists more where only a `share` of its face up to one side is heated, evenly, times k and
+    length.
 
     By separation of variables (Carslaw and Jaeger, ch. V) the heated share is warmer than the mean of the face by the
     sum of 2 sin^2(n pi f)/((n pi)^3 f^2), heat over k and length, in a slab deeper than a third of its height. One of a
@@ -99,7 +103,8 @@ def constriction(share: Any, sheet: Any = 0.0, depth: Any = np.inf) -> Any:
 
 
 def corner_shape(shape: Any) -> Any:
-    """Shape factor [1] of a corner of a solid, over its conductivity, that takes heat along one face as `gap_end` does.
+    """Return the shape factor [1] of a corner of a solid, over its conductivity, that takes heat along one face as
+    `gap_end` does.
 
     The flux goes as 1/r from the corner on over a range of ln(R/r) = L = pi/2 of the `shape`. What comes in within r
     passes the quarter circle at r: the flux's mean of the temperature is 2 L/(3 pi k) per heat and length.
@@ -108,7 +113,7 @@ def corner_shape(shape: Any) -> Any:
 
 
 def way_to_faces(slenderness: Any) -> Any:
-    """Way from where a bar has its mean temperature to its two faces, as a share of half its height H.
+    """Return the way from where a bar has its mean temperature to its two faces, as a share of half its height H.
 
     A bar of the depth D = `slenderness` H that loses heat evenly over both faces, its two ends each of one temperature.
     By separation of variables (Carslaw and Jaeger, ch. V) the faces are colder than the mean by q H/k times
@@ -117,16 +122,17 @@ def way_to_faces(slenderness: Any) -> Any:
 
     a third where the bar is long. From the fourth term on the hyperbolic tangent is one.
     """
-    found = 2.0 / np.pi**2 * (np.pi**2 / 6.0 - sum(n**-2.0 for n in (1, 2, 3)))
-    found = found - 4.0 / (np.pi**3 * slenderness) * (ZETA_3 - sum(n**-3.0 for n in (1, 2, 3)))
+    way = 2.0 / np.pi**2 * (np.pi**2 / 6.0 - sum(n**-2.0 for n in (1, 2, 3)))
+    way = way - 4.0 / (np.pi**3 * slenderness) * (ZETA_3 - sum(n**-3.0 for n in (1, 2, 3)))
     for n in (1, 2, 3):
         half = 0.5 * n * np.pi * slenderness
-        found = found + 2.0 / (n * np.pi) ** 2 * (1.0 - np.tanh(half) / half)
-    return found
+        way = way + 2.0 / (n * np.pi) ** 2 * (1.0 - np.tanh(half) / half)
+    return way
 
 
 def way_in_fin(slenderness: Any) -> Any:
-    """Way from where a fin that is heated through its face has its mean temperature to its root, over its length w.
+    """Return the way from where a fin that is heated through its face has its mean temperature to its root, over its
+    length w.
 
     k t T'' = h (T - T_0) with T'(0) = 0 (Incropera, Fundamentals of Heat and Mass Transfer, ch. 3): the mean of the
     profile cosh is coth x/x - 1/x^2 from the root, x = w (h/k t)^(1/2); a third where the face feeds it evenly.
@@ -135,7 +141,8 @@ def way_in_fin(slenderness: Any) -> Any:
 
 
 def uneven_way(slenderness: Any) -> Any:
-    """Way into a strip for what differs over its height from the mean there, over that height [1]: 1/(pi tanh(pi r)).
+    """Return the way into a strip for what differs over its height from the mean there, over that height [1]: 1/(pi
+    tanh(pi r)).
 
     The first cosine over the height h, cos(pi y/h), falls as cosh(pi x/h) to the strip's other end at w = r h, which no
     heat passes (by separation of variables, Carslaw and Jaeger, ch. V).
@@ -144,7 +151,8 @@ def uneven_way(slenderness: Any) -> Any:
 
 
 def step(share: Any) -> Any:
-    """What a sheet resists more where its depth steps down to a `share` of it on one side, times k and length [1].
+    """Return what a sheet resists more where its depth steps down to a `share` of it on one side, times k and length
+    [1].
 
     With the shares a and 1 the map of a strip with a step (Schwarz-Christoffel; Carslaw and Jaeger, ch. XVI) gives
 
@@ -157,15 +165,17 @@ def step(share: Any) -> Any:
 
 
 def reaches(width: Any, parts: Sequence[Any]) -> tuple[Any, ...]:
-    """What of each of several parts in a row something of a `width` lies over, smoothly as it gets wider than one."""
-    found: list[Any] = []
+    """Return what of each of several parts in a row something of a `width` lies over, smoothly as it gets wider than
+    one."""
+    covered: list[Any] = []
     for part in parts:
-        found.append(part * np.tanh((width - sum(found)) / part))
-    return tuple(found)
+        covered.append(part * np.tanh((width - sum(covered)) / part))
+    return tuple(covered)
 
 
 def electrode_foot(half_width: Any, depth: Any) -> Any:
-    """Length [m] by which the way through the depth t is longer for a foot b wide: b - 2 t/pi ln(sinh(pi b/(2 t))).
+    """Return the length [m] by which the way through the depth t is longer for a foot b wide: b - 2 t/pi ln(sinh(pi
+    b/(2 t))).
 
     From the middle of a finger to its edge; 2 ln 2/pi of the depth for a wide one. Lengths in metres.
     """
@@ -173,7 +183,8 @@ def electrode_foot(half_width: Any, depth: Any) -> Any:
 
 
 def comb_resistance(resistivity: Any, depth: Any, area: Any, gap: Any, width: Any) -> Any:
-    """Resistance [ohm] of a layer over a comb of fingers `width` wide and a `gap` apart, r (g + 2 f) (g + w)/(t A).
+    """Return the resistance [ohm] of a layer over a comb of fingers `width` wide and a `gap` apart, r (g + 2 f) (g +
+    w)/(t A).
 
     Gaps of the length A/(g + w) lie side by side; f is what a foot adds. Resistivity [ohm*m], lengths [m], area [m^2].
     """

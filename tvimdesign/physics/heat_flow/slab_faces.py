@@ -15,12 +15,12 @@ from tvimdesign.physics.heat_flow.shape_factors import ZETA_3
 
 AMBIENT = ("ambient", 0)
 ACROSS = 1.0 / 6.0
-"""How much colder than its mean a slab's face is for heat that comes in by the other, over that heat times depth over
+"""Drop of a slab's face below its mean for heat that comes in by the other, over that heat times depth over
 conductivity."""
 
 
 def ledge_across(slenderness: Any) -> Any:
-    """How much colder than its mean a ledge's lower face is for heat that comes in evenly by its upper one.
+    """Return how much colder than its mean a ledge's lower face is for heat that comes in evenly by its upper one.
 
     Over heat over k and length, as `shape_factors.ledge_ways`: the sum of those terms with alternating signs,
 
@@ -33,7 +33,8 @@ def ledge_across(slenderness: Any) -> Any:
 def through_faces(
     above: Place, body: Place, surface: Surface, ambient: Any, onto: Any, across: Any
 ) -> tuple[Link, Link, Link]:
-    """Links of a body that is heated over its upper face and loses heat over its lower one, a `surface` of its own.
+    """Return the links of a body that is heated over its upper face and loses heat over its lower one, a `surface` of
+    its own.
 
     `onto` leads from what is above to its mean [K/W]. The lower face is colder by `across` [K/W] for what comes in
     above, and the upper one warmer by as much for what leaves below:
@@ -54,14 +55,14 @@ def through_faces(
 
 
 def beyond_constriction(share: Any, begin: Any, width: Any) -> Any:
-    """How much warmer than its mean over the height that slab is at that side, from a place on over a width.
+    """Return how much warmer than its mean over the height that slab is at that side, from a place on over a width.
 
     Lengths over the slab's height, heat over k and length: the heated share's field is the sum of
     2 sin(n pi f)/((n pi)^2 f) exp(-n pi x) cos(n pi y).
     """
-    found = 0.0
+    total = 0.0
     for n in range(1, 9):
         falls = n * np.pi * width + 1e-9
         mean = np.exp(-n * np.pi * begin) * (1.0 - np.exp(-falls)) / falls
-        found = found + 2.0 * np.sin(n * np.pi * share) / ((n * np.pi) ** 2 * share) * mean
-    return found
+        total = total + 2.0 * np.sin(n * np.pi * share) / ((n * np.pi) ** 2 * share) * mean
+    return total

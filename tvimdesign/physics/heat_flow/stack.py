@@ -1,4 +1,4 @@
-"""What the heat equation needs to know of the stack that heat passes, and what it tells of it at one instant."""
+"""Data of the stack that the heat equation needs, and its profile at one instant."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Stack(NamedTuple):
     """Heat capacity of the cold side [J/K], without the legs'."""
     hot_capacity: Any
     cold_surface: Surface
-    """What the cold side has towards the air; not used where there is a sink."""
+    """Surface of the cold side towards the air; not used where there is a sink."""
     hot_contact: Any
     """Contact conductance of hot side and polymer [W/m^2 K]."""
     plate_contact: Any
@@ -43,7 +43,8 @@ class Stack(NamedTuple):
     """[K]"""
     plate_cells: int
     beside: tuple[Lump, ...] = ()
-    """What the plate belongs to: the first takes heat from all the plate's cells, each next from the one before."""
+    """Bodies that the plate belongs to: the first takes heat from all the plate's cells, each next from the one before.
+    """
     uneven_conductance: Any = None
     """Conductance [W/K] sideways for what the plate's temperature differs over its depth from its mean; as for the mean
     where not given."""
@@ -52,9 +53,9 @@ class Stack(NamedTuple):
     sink: Lump | None = None
     """A body between the cold side and the air."""
     around: tuple[Body, ...] = ()
-    """What the pads are set in."""
+    """Bodies that the pads are set in."""
     links: tuple[Link, ...] = ()
-    """What else passes heat between the column and the bodies beside and around it."""
+    """Other links between the column and the bodies beside and around it."""
     motion_heat: Any = 0.0
     """Heat that the joint's motion makes in each polymer cell [W]."""
     layer_resistance: Any = 0.0
@@ -77,7 +78,7 @@ class Profile(NamedTuple):
     cold: Any
     hot: Any
     spreader: Any
-    """What lies on the hot side, or that side itself."""
+    """Spreader on the hot side, or that side itself."""
     near: Any
     """Polymer's face towards the Peltier element."""
     cells: Any
@@ -107,7 +108,7 @@ class Profile(NamedTuple):
     """The plate's lip, if there is one."""
 
     def at(self, place: Place) -> Any:
-        """Temperature [K] of a place that a link may end at; of the legs that of their middle."""
+        """Return the temperature [K] of a place that a link may end at; of the legs that of their middle."""
         group, index = place
         if group in ("layer", "plate"):
             return np.mean(self.cells if group == "layer" else self.plate)

@@ -14,24 +14,24 @@ from tvimdesign.physics.heat_flow.shape_factors import gap_end
 
 TERMS = 6
 AT_LIP, AT_EDGE, AT_FLOOR = 0.41, 0.16, 0.294
-"""What the end of a clearance takes from the pads for the lip above it, far from a floor and less before one; and less
-for the floor than if it were as warm as the pads all over, the integral of 2/pi arcsin(y) cot(pi y/2)."""
+"""Heat that the end of a clearance takes from the pads for the lip above it, far from a floor and less before one; and
+less for the floor than if it were as warm as the pads all over, the integral of 2/pi arcsin(y) cot(pi y/2)."""
 
 
 class Room(NamedTuple):
-    """What a room beside tiles passes beyond an even fall from its warm ceiling to its floor."""
+    """Heat that a room beside tiles passes beyond an even fall from its warm ceiling to its floor."""
 
     ceiling: Any
-    """What the ceiling gives more, to the cold wall."""
+    """Heat of the ceiling to the cold wall, beyond the even fall."""
     floor: Any
-    """What the floor gets less, which the wall gets."""
+    """Heat that the wall gets in place of the floor."""
     tile: Any
-    """What the tile's side gives to the cold wall."""
+    """Heat of the tile's side to the cold wall."""
 
 
 def room(width: Any, slot: Any) -> Room:
-    """A room of a `width`, over its height, between a tile's side, which falls evenly from ceiling to floor, and a wall
-    as cold as the floor, which a `slot` divides from the ceiling.
+    """Return a room of a `width`, over its height, between a tile's side, which falls evenly from ceiling to floor, and
+    a wall as cold as the floor, which a `slot` divides from the ceiling.
 
     The wall takes what falls evenly there, 1 - y/t = sum 2/(n pi) sin(n pi y/t). With x = n pi r of each term comes
     2/(n pi) tanh(x/2) from the ceiling, that with alternating signs from the floor's, and 4/(n pi)/sinh x of the odd
@@ -47,7 +47,7 @@ def room(width: Any, slot: Any) -> Room:
 
 
 def below_lip(slot: Any) -> tuple[Any, Any]:
-    """From pads and layer through the clearance below a lip at the layer's end, to the lip and to the floor.
+    """Return the heat to lip and floor, from pads and layer, through the clearance below a lip at the layer's end.
 
     The end falls from the pads' temperature to the lip's as a layer does that a wall closes but for a small free height
     c (`walled_end`): e = 1 - 2/pi arcsin(y/c). Below it the wall is warm, and the floor's own edge a slot of the width

@@ -24,34 +24,34 @@ face, where the heat falls to nothing."""
 
 
 class WalledEnd(NamedTuple):
-    """What a wall at the end of a layer takes."""
+    """Heat that a wall at the end of a layer takes."""
 
     near: Any
     """Heat that the near face gives for it [1]."""
     wall: Any
     """Heat that comes into the wall beside the layer [1]; beyond `near` it is what the far face does not get."""
     deep: Any
-    """How deep in the layer that heat comes out of it: the integral of q y (t - y)/(2 t^2) dy [1].
+    """Depth in the layer that the heat comes from: the integral of q y (t - y)/(2 t^2) dy [1].
 
     The layer is colder in the mean by that over its width, whatever its profile, as in `gap_end_depth`. Below a
     sheet this is what a layer without one would have that gives as much for each height and kelvin."""
     colder: Any
-    """How much colder the layer is in the mean than an even fall, times its width, over twice the mean of that [1]."""
+    """Drop of the layer's mean below an even fall, times its width, over twice the mean of that [1]."""
     rim: Any = 0.0
     """Heat that comes into the wall beside a sheet on the layer [1]."""
     sheet_colder: Any = 0.0
-    """How much colder that sheet is in the mean than an even fall, times its width [1]."""
+    """Drop of that sheet's mean below an even fall, times its width [1]."""
 
 
 def walled_end(free: Any) -> WalledEnd:
-    """The heat at an end of whose height a share is `free`, 0 < free < 1."""
+    """Return the heat at an end of whose height a share is `free`, 0 < free < 1."""
     near, wall, edge = _ends(free)
     deep = wall * _mean([0.5 * y * (1.0 - y) for y in _heights(edge, wall)])
     return WalledEnd(near, wall, deep, deep)
 
 
 def sheeted_end(free: Any, layer: Any) -> WalledEnd:
-    """The heat at an end of layer and sheet; the `layer` is a share a of their height, 0 < free < a < 1.
+    """Return the heat at an end of layer and sheet; the `layer` is a share a of their height, 0 < free < a < 1.
 
     Heat q out of the end at a height y makes the mean of the layer colder by y (1 - a/2) - y^2/(2 a) from within it, by
     a (1 - y)/2 from the sheet; what goes out evenly by the excess 1 - y over the layer by (8 a^2 - 11 a^3 + 4 a^4)/24.
@@ -75,7 +75,7 @@ def sheeted_end(free: Any, layer: Any) -> WalledEnd:
 
 
 def sheet_end(layer: Any) -> WalledEnd:
-    """The heat at an end of layer and sheet where the wall is beside the sheet alone."""
+    """Return the heat at an end of layer and sheet where the wall is beside the sheet alone."""
     rim = walled_end(layer).wall
     return WalledEnd(0.0, 0.0, 0.0, 0.0, rim, _by_rim(rim, 1.0 - layer))
 
@@ -85,18 +85,18 @@ def _by_rim(rim: Any, sheet: Any) -> Any:
 
 
 def _ends(free: Any) -> tuple[Any, Any, Any]:
-    """What near face and wall pass, and the place of the wall's tip."""
-    near, wall = (-2.0 / np.pi * np.log(one) for one in (np.sin(0.5 * np.pi * free), np.tan(0.25 * np.pi * free)))
+    """Return what near face and wall pass, and the place of the wall's tip."""
+    near, wall = (-2.0 / np.pi * np.log(ratio) for ratio in (np.sin(0.5 * np.pi * free), np.tan(0.25 * np.pi * free)))
     return near, wall, np.cos(np.pi * free)
 
 
 def _heights(edge: Any, heat: Any) -> list[Any]:
-    """Heights at which shares of the heat have come into the wall, from its tip at arccos(edge)/pi on."""
+    """Return the heights at which shares of the heat have come into the wall, from its tip at arccos(edge)/pi on."""
     return [np.arccos(0.5 * (1.0 + edge - (1.0 - edge) * np.cosh(np.pi * passed * heat))) / np.pi for passed in _PASSED]
 
 
 def fallen(free: Any, away: Any, height: Any) -> Any:
-    """What of its excess over the wall a layer has lost at a place [1], where far from the wall it falls evenly.
+    """Return what of its excess over the wall a layer has lost at a place [1], where far from the wall it falls evenly.
 
     At the distance x/t from the wall and the height y/t: with u = (2 cosh(pi z/t) - 1 - a)/(1 - a), a = cos(pi f), the
     temperature is 1 - arccos((|u + 1| - |u - 1|)/2)/pi of the near face's excess, and 1 - y/t far from the wall. Far
@@ -106,7 +106,7 @@ def fallen(free: Any, away: Any, height: Any) -> Any:
 
 
 def cooled_end(free: Any, away: Any, height: Any) -> Any:
-    """How much colder a place is for heat that leaves the free end, over that heat and length, times k [1].
+    """Return how much colder a place is for heat that leaves the free end, over that heat and length, times k [1].
 
     With u = cos(a + i b) the free end is 0 < a < pi at b = 0, near face and wall are a = 0 and pi: heat that leaves as
     sin a makes it colder by half of sin a exp(-b). The near face gives half of that heat, the wall misses the rest;
@@ -117,7 +117,7 @@ def cooled_end(free: Any, away: Any, height: Any) -> Any:
 
 
 def _along_and_off(free: Any, away: Any, height: Any) -> tuple[Any, Any]:
-    """cos a and cosh b of a place, u = cos(a + i b): along the free end and off it."""
+    """Return cos a and cosh b of a place, u = cos(a + i b): along the free end and off it."""
     edge = np.cos(np.pi * free)
     real = 2.0 * np.cosh(np.pi * away) * np.cos(np.pi * height) - 1.0 - edge
     imaginary = 2.0 * np.sinh(np.pi * away) * np.sin(np.pi * height)
@@ -127,5 +127,5 @@ def _along_and_off(free: Any, away: Any, height: Any) -> tuple[Any, Any]:
 
 
 def _mean(values: list[Any]) -> Any:
-    """Mean over the wall's heat of what is at the places where it comes in."""
+    """Return the mean over the wall's heat of what is at the places where it comes in."""
     return sum(share * value for share, value in zip(_SHARES, values, strict=True))

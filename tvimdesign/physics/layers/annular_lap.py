@@ -23,7 +23,7 @@ class Mode(NamedTuple):
     """A part of the torque that comes over from the upper sheet, besides what has far from the edges."""
 
     lag: Any
-    """How fast it comes over [1/m], l."""
+    """Rate at which it comes over [1/m], l."""
     at_inner: Any
     """Its share of the torque [1] at the inner edge."""
     at_outer: Any
@@ -34,7 +34,7 @@ class AnnularLap(NamedTuple):
     """A ring over which a sheet hands a torque on."""
 
     modes: tuple[Mode, ...]
-    """What comes over: one mode for each layer between sheets."""
+    """Load that comes over: one mode for each layer between sheets."""
     rest: Any
     """Share n of the torque [1] that would stay in the upper sheet of a long lap."""
     inner: Any
@@ -44,7 +44,8 @@ class AnnularLap(NamedTuple):
 
 
 def annular_lap(layer: Any, upper: Any, lower: Any, radii: tuple[Any, Any]) -> AnnularLap:
-    """Lap of a layer of the stiffness k per area [Pa/m] between sheets of the compliances 1/(G h) [1/(Pa*m)].
+    """Return the lap of a layer of the stiffness k per area [Pa/m] between sheets of the compliances 1/(G h)
+    [1/(Pa*m)].
 
     Each counts with the share of the circle that it takes up.
     """
@@ -54,7 +55,8 @@ def annular_lap(layer: Any, upper: Any, lower: Any, radii: tuple[Any, Any]) -> A
 
 
 def lap_of_three(layers: tuple[Any, Any], sheets: tuple[Any, Any, Any], radii: tuple[Any, Any]) -> AnnularLap:
-    """Lap of two layers [Pa/m] between three sheets [1/(Pa*m)]; the torque enters the first and leaves the third.
+    """Return the lap of two layers [Pa/m] between three sheets [1/(Pa*m)]; the torque enters the first and leaves the
+    third.
 
     What each mode has of the first layer's F is its projection, (A - l_other^2)/(l^2 - l_other^2), A what couples both.
     """
@@ -72,7 +74,7 @@ def lap_of_three(layers: tuple[Any, Any], sheets: tuple[Any, Any, Any], radii: t
 
 
 def edge_rises(lap: AnnularLap) -> tuple[Any, Any]:
-    """Traction at the inner and at the outer edge over T r_o/J, J the layer's polar moment [1]."""
+    """Return the traction at the inner and at the outer edge over T r_o/J, J the layer's polar moment [1]."""
     a, b, inner, outer = lap.inner, lap.outer, 0.0, 0.0
     for lag, at_inner, at_outer in lap.modes:
         at_a, at_b = _slope(lag * a), _slope(lag * b)
@@ -87,30 +89,31 @@ def edge_rises(lap: AnnularLap) -> tuple[Any, Any]:
 
 
 def upper_share(lap: AnnularLap) -> Any:
-    """Compliance of the upper sheet over that of its ring turned inner edge against outer [1]."""
+    """Return the compliance of the upper sheet over that of its ring turned inner edge against outer [1]."""
     worked = sum(weight * (torque / radius) ** 2 for weight, radius, torque, _ in _nodes(lap))  # it turns by M/r^3
     return worked * lap.inner**2 / (0.5 * (1.0 - (lap.inner / lap.outer) ** 2))
 
 
 def unevenness(lap: AnnularLap) -> Any:
-    """Mean square of the layer's traction over that of one in proportion to the radius, of the same torque [1]."""
+    """Return the mean square of the layer's traction over that of one in proportion to the radius, of the same torque
+    [1]."""
     worked = sum(weight * (slope / radius) ** 2 for weight, radius, _, slope in _nodes(lap))
     return worked * (lap.outer**4 - lap.inner**4) / 4.0
 
 
 def _nodes(lap: AnnularLap) -> list[tuple[Any, Any, Any, Any]]:
-    """Weight of dr/r, radius, M/T of the upper sheet and its slope [1/m] at nodes between both edges."""
-    a, b, found = lap.inner, lap.outer, []
+    """Return the weight of dr/r, radius, M/T of the upper sheet and its slope [1/m] at nodes between both edges."""
+    a, b, nodes = lap.inner, lap.outer, []
     for node, weight in zip(0.5 * (1.0 + NODES), 0.5 * WEIGHTS * np.log(b / a), strict=True):
         radius = a * np.exp(node * np.log(b / a))
         stays = [_still(mode, (a, b), radius) for mode in lap.modes]
         torque = lap.rest + sum(still for still, _ in stays)
-        found.append((weight, radius, torque, sum(slope for _, slope in stays) / radius))
-    return found
+        nodes.append((weight, radius, torque, sum(slope for _, slope in stays) / radius))
+    return nodes
 
 
 def _still(mode: Mode, edges: tuple[Any, Any], radius: Any) -> tuple[Any, Any]:
-    """What a mode leaves in the upper sheet at a radius, over the torque, and r times its slope [1]."""
+    """Return what a mode leaves in the upper sheet at a radius, over the torque, and r times its slope [1]."""
     (lag, at_inner, at_outer), (a, b) = mode, edges
     ends, here, slope = (_reach(lag * a), _reach(lag * b)), _reach(lag * radius), _slope(lag * radius)
     whole = np.sinh(ends[1] - ends[0])
@@ -122,10 +125,10 @@ def _still(mode: Mode, edges: tuple[Any, Any], radius: Any) -> tuple[Any, Any]:
 
 
 def _slope(x: Any) -> Any:
-    """r p' [1] at l r = x."""
+    """Return r p' [1] at l r = x."""
     return np.sqrt(4.0 + x**2)
 
 
 def _reach(x: Any) -> Any:
-    """p [1] at l r = x, but for what does not depend on x."""
+    """Return p [1] at l r = x, but for what does not depend on x."""
     return _slope(x) + 2.0 * np.log(x / (2.0 + _slope(x)))

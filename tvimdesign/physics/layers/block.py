@@ -33,22 +33,24 @@ from tvimdesign.physics.polymers.viscoelasticity import relaxation_modulus
 
 
 def shape_factor(width: Any, height: Any, depth: Any) -> Any:
-    """One loaded face over all force-free sides, S = w h/(2 L (w + h)) [1] [GL]."""
+    """Return one loaded face over all force-free sides, S = w h/(2 L (w + h)) [1] [GL]."""
     return width * height / (2.0 * depth * (width + height))
 
 
 def bulk_modulus(youngs_modulus: Any, poissons_ratio: Any) -> Any:
-    """K = E/(3 (1 - 2 nu)) [Pa] [L], from the constants of the frozen polymer; assumed to be that of the melt too."""
+    """Return K = E/(3 (1 - 2 nu)) [Pa] [L], from the constants of the frozen polymer; assumed to be that of the melt
+    too."""
     return youngs_modulus / (3.0 * (1.0 - 2.0 * poissons_ratio))
 
 
 def shape_stiffening(shape: Any) -> Any:
-    """Factor by which faces that do not slip stiffen an incompressible block, 1 + 2 S^2 [1] [GL, G]."""
+    """Return the factor by which faces that do not slip stiffen an incompressible block, 1 + 2 S^2 [1] [GL, G]."""
     return 1.0 + 2.0 * shape**2
 
 
 def volumetric_modulus(bulk: Any, shape: Any) -> Any:
-    """What the change of volume adds in series to the shear modes of a block [Pa], K ((1 + 2 S^2)/(1/3 + 2 S^2))^2.
+    """Return what the change of volume adds in series to the shear modes of a block [Pa], K ((1 + 2 S^2)/(1/3 + 2
+    S^2))^2.
 
     The mean pressure is (1/3 + 2 S^2)/(1 + 2 S^2) of the stress: the third of plain compression, and all that 2 S^2
     stands for. Its energy p^2/(2 K) gives the formula. A flat block has K itself, which is the correction 1/E_app =
@@ -60,17 +62,19 @@ def volumetric_modulus(bulk: Any, shape: Any) -> Any:
 
 
 def stiffness(modulus: Any, count: Any, area: Any, radius: Any, depth: Any) -> Any:
-    """Stiffness of n blocks about the axis [N*m/rad], K = n E A r^2/L; textbook: force E A r theta/L at the arm r."""
+    """Return the stiffness of n blocks about the axis [N*m/rad], K = n E A r^2/L; textbook: force E A r theta/L at the
+    arm r."""
     return modulus * count * area * radius**2 / depth
 
 
 def strain(radius: Any, angle: Any, depth: Any) -> Any:
-    """Mean compression of a block, r theta/L [1]; textbook."""
+    """Return the mean compression of a block, r theta/L [1]; textbook."""
     return radius * angle / depth
 
 
 def equivalent_shear_strain(squeeze: Any, shape: Any) -> Any:
-    """Shear strain with the energy of a squeeze [1], sqrt(3 (1 + 2 S^2)) e: from G g^2/2 = 3 G (1 + 2 S^2) e^2/2 [GL].
+    """Return the shear strain with the energy of a squeeze [1], sqrt(3 (1 + 2 S^2)) e: from G g^2/2 = 3 G (1 + 2 S^2)
+    e^2/2 [GL].
 
     A mean over the block. At its faces a flat block is sheared more, in its middle less.
     """
@@ -78,7 +82,8 @@ def equivalent_shear_strain(squeeze: Any, shape: Any) -> Any:
 
 
 def squeezed_outer_radius(inner_radius: Any, outer_radius: Any, span: Any, squeeze: Any) -> Any:
-    """Outer radius [m] of a sector of the angle `span` [rad] squeezed by an angle, were it to give way outwards alone.
+    """Return the outer radius [m] of a sector of the angle `span` [rad] squeezed by an angle, were it to give way
+    outwards alone.
 
     Its volume stays, h a (r_o^2 - r_i^2)/2, as that of any incompressible body; textbook.
     """
@@ -86,12 +91,12 @@ def squeezed_outer_radius(inner_radius: Any, outer_radius: Any, span: Any, squee
 
 
 def stress(torque: Any, count: Any, area: Any, radius: Any) -> Any:
-    """Mean pressure on the faces under a torque [Pa], T/(n A r); textbook."""
+    """Return the mean pressure on the faces under a torque [Pa], T/(n A r); textbook."""
     return torque / (count * area * radius)
 
 
 def torque_at_stress(limit: Any, count: Any, area: Any, radius: Any) -> Any:
-    """Torque [N*m] at which the mean pressure reaches a limit [Pa], such as yield: T = sigma n A r.
+    """Return the torque [N*m] at which the mean pressure reaches a limit [Pa], such as yield: T = sigma n A r.
 
     The yield strength is that of a slender specimen; faces that do not slip let a flat block bear more.
     """
@@ -99,12 +104,13 @@ def torque_at_stress(limit: Any, count: Any, area: Any, radius: Any) -> Any:
 
 
 def relaxation_loss(time: Any, modes: Modes) -> Any:
-    """Share of the stiffness that is lost in a hold [1], 1 - K(t)/K(0+), K(t) = sum k exp(-t/tau) [F]."""
+    """Return the share of the stiffness that is lost in a hold [1], 1 - K(t)/K(0+), K(t) = sum k exp(-t/tau) [F]."""
     return 1.0 - relaxation_modulus(time, modes) / sum(stiffness for _, stiffness in modes)
 
 
 def soft_share(storage: Any, loss: Any) -> Any:
-    """Share of a layer's depth that is soft [1], (sum c)^2/(n sum c^2) of its equally thick slices' compliances c.
+    """Return the share of a layer's depth that is soft [1], (sum c)^2/(n sum c^2) of its equally thick slices'
+    compliances c.
 
     The participation ratio: m of n slices alike and the others rigid give m/n. Takes the slices' moduli [Pa] as arrays.
     """
@@ -113,11 +119,11 @@ def soft_share(storage: Any, loss: Any) -> Any:
 
 
 HELD_BEYOND_SLOT = 0.51
-"""How far beyond a slot's edge a pad is held, over its thickness; FE of single pads."""
+"""Distance beyond a slot's edge to which a pad is held, over its thickness; FE of single pads."""
 
 
 def pad_stiffness(moduli: tuple[Any, Any], sides: tuple[Any, Any], thickness: Any, slot: tuple[Any, Any]) -> Any:
-    """Force over the way of a pad's face [N/m], E A/t with 1/E = 1/(3 G (1 + 2 S^2)) + 1/M.
+    """Return the force over the way of a pad's face [N/m], E A/t with 1/E = 1/(3 G (1 + 2 S^2)) + 1/M.
 
     `moduli` are shear and bulk modulus [Pa], `sides` width and height of the pad [m]; the slot is as wide as `slot`
     says and reaches so far up from the pad's lower side [m]. A is the pad less the slot, of which half a thickness

@@ -19,7 +19,7 @@ from tvimdesign.physics.solids.structure import series
 
 
 class Held(NamedTuple):
-    """What a load has come to in a time [rad]."""
+    """Angles after a load has been held for a time [rad]."""
 
     angle: Any
     """Angle of the link."""
@@ -47,13 +47,14 @@ def held(torque: Any, time: Any, springs: Any, structure: Any, modes: Modes) -> 
 
 
 def first_torque(torque: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Share of a torque [N*m] that the polymer bears when it has just come on, T B/(K_s + B); B as below."""
+    """Return the share of a torque [N*m] that the polymer bears when it has just come on, T B/(K_s + B); B as below."""
     branch = _branch(structure, modes)
     return torque * branch / (springs + branch)
 
 
 def impedance_loss(angle: Any, gap: Any, springs: Any, structure: Any, modes: Modes) -> Any:
-    """Share [1] of the torque of a quick turn from rest to an angle [rad] that is lost to a gap on its way [rad].
+    """Return the share [1] of the torque of a quick turn from rest to an angle [rad] that is lost to a gap on its way
+    [rad].
 
     Without the gap the turn takes (K_s + B) theta, behind it K_s theta + B (theta - g): lost is B g/((K_s + B) theta),
     with B = S K/(S + K) of structure and polymer before anything relaxes, K = sum k (textbook).
@@ -63,5 +64,5 @@ def impedance_loss(angle: Any, gap: Any, springs: Any, structure: Any, modes: Mo
 
 
 def _branch(structure: Any, modes: Modes) -> Any:
-    """Polymer before anything relaxes and structure in series [N*m/rad]."""
+    """Return the polymer before anything relaxes and structure in series [N*m/rad]."""
     return series(structure, sum(stiffness for _, stiffness in modes))

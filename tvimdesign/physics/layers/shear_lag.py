@@ -1,4 +1,4 @@
-"""How a bonded layer shares its load between sheets that stretch: at its edges, and over a window in a sheet's support.
+"""Load sharing of a bonded layer between sheets that stretch: at edges, over a window, and in a recess.
 
 Sources: [V] Volkersen, Die Nietkraftverteilung in zugbeanspruchten Nietverbindungen mit konstanten
 Laschenquerschnitten, Luftfahrtforschung 15 (1938) 41-47; the same differential equation for a sheet over a window,
@@ -23,7 +23,7 @@ import numpy as np
 
 
 def lag(layer: Any, first: Any, second: Any, width: Any) -> Any:
-    """How far from stiff the sheets of a lap are [1], p: p^2 = k (a_1 + a_2) w^2 [V].
+    """Return how far from stiff the sheets of a lap are [1], p: p^2 = k (a_1 + a_2) w^2 [V].
 
     `layer` is the stiffness k of the layer per area [Pa/m], `first` and `second` the compliance a of the sheets that
     load comes in and goes out by, 1/(G h) [1/(Pa*m)].
@@ -32,7 +32,7 @@ def lag(layer: Any, first: Any, second: Any, width: Any) -> Any:
 
 
 def edge_rise(layer: Any, first: Any, second: Any, width: Any) -> Any:
-    """Traction where the second sheet leaves the lap, over its mean [1]: p ((1 - c) coth p + c/sinh p) [V].
+    """Return the traction where the second sheet leaves the lap, over its mean [1]: p ((1 - c) coth p + c/sinh p) [V].
 
     p is the `lag` and c = a_1/(a_1 + a_2).
     """
@@ -46,7 +46,7 @@ WINDOWED = 3.09
 
 
 def arc_edge_rise(layer: Any, plate: Any, floor: Any, radii: tuple[Any, Any], held: Any) -> Any:
-    """Traction along the outer edge of an arc over T r/J [1]: 1/held + (`edge_rise` - 1) (a/b)^3.
+    """Return the traction along the outer edge of an arc over T r/J [1]: 1/held + (`edge_rise` - 1) (a/b)^3.
 
     The arc reaches from a to b, the `radii`. A torque turns a sheet by 1/r^3, so that at b it stretches less by (a/b)^3
     than at a. `held` is the share [1] of the layer that what lies below it holds: the rest is above windows and bears
@@ -59,7 +59,8 @@ def arc_edge_rise(layer: Any, plate: Any, floor: Any, radii: tuple[Any, Any], he
 
 
 def borne_over_window(layer: Any, sheet: Any, half_width: Any) -> Any:
-    """Share [1] of its load that a layer still bears above a window under its sheet, tanh(x)/x, x^2 = k a b^2.
+    """Return the share [1] of its load that a layer still bears above a window under its sheet, tanh(x)/x, x^2 = k a
+    b^2.
 
     The sheet is held along both rims of the window alone, a width 2b apart; `layer` and `sheet` as of `edge_rise`.
     """
@@ -72,7 +73,7 @@ FRINGE = 2.0 * np.log(2.0) / np.pi
 
 
 def end_fringe(shear_modulus: Any, bulk_modulus: Any) -> Any:
-    """The same at an end of a window, where a pad is sheared across the rim [1]: 1 - 1.9 G/(K + 7 G/3).
+    """Return the fringe at an end of a window, where a pad is sheared across the rim [1]: 1 - 1.9 G/(K + 7 G/3).
 
     A pad that keeps its volume cannot be drawn in or pressed together there. Strips in plane strain, solved by numbers
     (validation/fe_structure/windows.csv): within 0.04, beside ledges of three thicknesses 0.06; K from 5 G/3, Poisson's
@@ -83,7 +84,7 @@ def end_fringe(shear_modulus: Any, bulk_modulus: Any) -> Any:
 
 
 def held_over_window(thickness: Any, half_width: Any, fringe: Any = FRINGE) -> Any:
-    """Share of a pad [1] that is held as if no window were below it, 1 - ln cosh(x)/x, x = ln 2 b/(f t).
+    """Return the share of a pad [1] that is held as if no window were below it, 1 - ln cosh(x)/x, x = ln 2 b/(f t).
 
     A pad of the thickness t on the rims of a window 2b wide, sheared along the rims by what is stiff on it, moves as a
     harmonic function over its section: held below but for the window, which is free. The flow from a strip's upper face
@@ -103,19 +104,20 @@ _PASSES = 4
 
 
 def _terms(held: Any) -> list[tuple[Any, Any]]:
-    """Each c_n and q_n."""
-    found = []
+    """Return each c_n and q_n."""
+    terms = []
     for number in range(TERMS):
         half = (number + 0.5) * np.pi
         root = half
         for _ in range(_PASSES):
             root = half + np.arctan(held / root)
-        found.append((2.0 * (1.0 + held) / (root**2 + held**2 + held), root))
-    return found
+        terms.append((2.0 * (1.0 + held) / (root**2 + held**2 + held), root))
+    return terms
 
 
 def rim_rise(held: Any, reach: Any) -> Any:
-    """Layer's traction over that far from the wall, a mean from the wall to `reach` thicknesses of the sheet [1].
+    """Return the layer's traction over that far from the wall, a mean from the wall to `reach` thicknesses of the sheet
+    [1].
 
     `held` is h, what the sheet gives over what the layer gives [1].
     """
@@ -124,5 +126,6 @@ def rim_rise(held: Any, reach: Any) -> Any:
 
 
 def rim_width(held: Any) -> Any:
-    """Width over the sheet's thickness [1] of plain layer that bears as much as what is gained beside a wall."""
+    """Return the width over the sheet's thickness [1] of plain layer that bears as much as what is gained beside a
+    wall."""
     return held * sum(share / root for share, root in _terms(held))

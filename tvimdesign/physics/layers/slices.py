@@ -30,14 +30,14 @@ class Slices(NamedTuple):
 
 
 class Support(NamedTuple):
-    """What the layer works between: springs beside it, and the structure in series with it [N*m/rad]."""
+    """Surroundings of the layer: springs beside it, and the structure in series with it [N*m/rad]."""
 
     spring_stiffness: Any
     structure_stiffness: Any
 
 
 def relief(torques: Sequence[Any], slices: Slices) -> Any:
-    """Rate at which each slice loses torque at constant angle [N*m/s], sum (1/tau + max(-k'/k, 0)) m."""
+    """Return the rate at which each slice loses torque at constant angle [N*m/s], sum (1/tau + max(-k'/k, 0)) m."""
     return sum(
         (1.0 / time + np.fmax(-growth, 0.0)) * torque
         for time, growth, torque in zip(slices.relaxation_times, slices.growth, torques, strict=True)
@@ -45,12 +45,13 @@ def relief(torques: Sequence[Any], slices: Slices) -> Any:
 
 
 def compliance(slices: Slices, support: Support) -> Any:
-    """Instant compliance of layer and structure in series [rad/(N*m)], 1/S + sum over slices 1/(sum k)."""
+    """Return the instant compliance of layer and structure in series [rad/(N*m)], 1/S + sum over slices 1/(sum k)."""
     return 1.0 / support.structure_stiffness + np.sum(1.0 / sum(slices.stiffnesses), axis=0)
 
 
 def loaded_rates(torques: Sequence[Any], load_rate: Any, slices: Slices, support: Support) -> tuple[Any, list[Any]]:
-    """Rate of the link's angle [rad/s] and of every mode's torque [N*m/s] under a load on the link, without inertia.
+    """Return the rate of the link's angle [rad/s] and of every mode's torque [N*m/s] under a load on the link, without
+    inertia.
 
     The load L = K_s theta + M; M (1/S) = theta - sum delta. Each slice: M' = (sum k) delta' - relief. Eliminated:
     theta' (1 + K_s C) = C L' + sum over slices relief/(sum k), with C the `compliance`.
@@ -70,7 +71,8 @@ def loaded_rates(torques: Sequence[Any], load_rate: Any, slices: Slices, support
 
 
 def loaded_start(load: Any, slices: Slices, support: Support) -> tuple[Any, list[Any]]:
-    """Angle of the link [rad] and torque of every mode [N*m] right after a load is put on a layer free of stress."""
+    """Return the angle of the link [rad] and torque of every mode [N*m] right after a load is put on a layer free of
+    stress."""
     soft = compliance(slices, support)
     angle = load * soft / (1.0 + support.spring_stiffness * soft)
     shared = (load - support.spring_stiffness * angle) / sum(slices.stiffnesses)
@@ -78,7 +80,8 @@ def loaded_start(load: Any, slices: Slices, support: Support) -> tuple[Any, list
 
 
 def stored_energy(angle: Any, torques: Sequence[Any], slices: Slices, support: Support) -> Any:
-    """Elastic energy of springs, structure and every mode of every slice [J]: stiffness^-1 torque^2/2 each."""
+    """Return the elastic energy of springs, structure and every mode of every slice [J]: stiffness^-1 torque^2/2
+    each."""
     modes = sum(torque**2 / k for torque, k in zip(torques, slices.stiffnesses, strict=True))
     carried = sum(torques)[0]
     return 0.5 * (

@@ -11,7 +11,7 @@ import numpy as np
 
 
 def disc_torque(friction: Any, force: Any, inner_radius: Any, outer_radius: Any) -> Any:
-    """Torque [N*m] at which a clamped ring slips, evenly pressed: 2/3 mu F (R^3 - r^3)/(R^2 - r^2).
+    """Return the torque [N*m] at which a clamped ring slips, evenly pressed: 2/3 mu F (R^3 - r^3)/(R^2 - r^2).
 
     `friction` [1], `force` [N], radii [m]. Shigley, Mechanical Engineering Design, section 16-5, uniform pressure.
     """
@@ -20,7 +20,7 @@ def disc_torque(friction: Any, force: Any, inner_radius: Any, outer_radius: Any)
 
 
 def sliding_torque(friction: Any, force: Any, slip: Any) -> Any:
-    """Torque [N*m] by which a sliding contact resists a rotation, mu F |ds/dtheta|.
+    """Return the torque [N*m] by which a sliding contact resists a rotation, mu F |ds/dtheta|.
 
     `force` [N] presses the contact together, `slip` [m/rad] is how far it slides for each radian. Virtual work: what
     the torque does is what the friction takes.
@@ -29,7 +29,8 @@ def sliding_torque(friction: Any, force: Any, slip: Any) -> Any:
 
 
 def bolted_torque(friction: Any, force: Any, count: Any, radius: Any) -> Any:
-    """Torque [N*m] at which a flange slips under its screws, n mu F r; each clamps with `force` [N] at `radius` [m].
+    """Return the torque [N*m] at which a flange slips under its screws, n mu F r; each clamps with `force` [N] at
+    `radius` [m].
 
     Shigley, Mechanical Engineering Design, section 8-12: a joint that holds by friction.
     """
@@ -37,12 +38,12 @@ def bolted_torque(friction: Any, force: Any, count: Any, radius: Any) -> Any:
 
 
 def tightened_force(stress: Any, diameter: Any) -> Any:
-    """Force [N] of a screw tightened to a stress [Pa] over its nominal section, sigma pi d^2/4."""
+    """Return the force [N] of a screw tightened to a stress [Pa] over its nominal section, sigma pi d^2/4."""
     return stress * 0.25 * np.pi * diameter**2
 
 
 def tightening_torque(force: Any, diameter: Any, nut_factor: Any) -> Any:
-    """Torque [N*m] that tightens a screw to a force, K F d.
+    """Return the torque [N*m] that tightens a screw to a force, K F d.
 
     `force` [N], nominal `diameter` [m], `nut_factor` K [1]. Shigley, Mechanical Engineering Design, 10th ed., eq. 8-27.
     """
@@ -50,7 +51,7 @@ def tightening_torque(force: Any, diameter: Any, nut_factor: Any) -> Any:
 
 
 def journal_torque(friction: Any, force: Any, diameter: Any) -> Any:
-    """Torque [N*m] with which a loaded bearing or bore resists turning, 0.5 mu F d.
+    """Return the torque [N*m] with which a loaded bearing or bore resists turning, 0.5 mu F d.
 
     `friction` [1], `force` [N], `diameter` of the bearing's bore [m]. SKF, Rolling bearings (catalogue), friction: the
     estimate with a constant coefficient; for a plain bore Coulomb's law.
@@ -59,7 +60,7 @@ def journal_torque(friction: Any, force: Any, diameter: Any) -> Any:
 
 
 def equivalent_damping(torque: Any, angular_frequency: Any, amplitude: Any) -> Any:
-    """Viscous damping that loses as much in a cycle as a friction torque, 4 T/(pi omega theta) [N*m*s/rad].
+    """Return the viscous damping that loses as much in a cycle as a friction torque, 4 T/(pi omega theta) [N*m*s/rad].
 
     Den Hartog, Mechanical Vibrations, section 8-9; `angular_frequency` [rad/s], `amplitude` [rad].
     """
@@ -67,7 +68,7 @@ def equivalent_damping(torque: Any, angular_frequency: Any, amplitude: Any) -> A
 
 
 def loaded_damping(share: Any, stiffness: Any, loss_stiffness: Any, angular_frequency: Any) -> Any:
-    """Viscous damping that loses as much in a cycle as friction that grows with the load [N*m*s/rad].
+    """Return the viscous damping that loses as much in a cycle as friction that grows with the load [N*m*s/rad].
 
     The friction torque is `share` [1] of the load's |K theta_0 sin(omega t + delta)|, delta = atan(K''/K'). Times the
     speed and summed up over a cycle that is 2 share |K| theta_0^2 (cos delta + delta sin delta): half of what a
@@ -81,7 +82,8 @@ def loaded_damping(share: Any, stiffness: Any, loss_stiffness: Any, angular_freq
 def spring_play(
     tang_clearance: Any, tang_length: Any, tang_lever: Any, post_clearance: Any, levels: tuple[Any, Any], leg_arm: Any
 ) -> Any:
-    """Angle [rad] by which the force at the leg's end turns a loose spring at most before hole and post hold it.
+    """Return the angle [rad] by which the force at the leg's end turns a loose spring at most before hole and post hold
+    it.
 
     (c + e + a z_0)/R + e/l with the lean a = min(2 c/L, 2 e/(z_1 - z_0)). The tang, at R from the axis, has the play c
     to each side over its length L; the coil has e around its post between the levels z_0 and z_1 above the hole; the
@@ -95,12 +97,13 @@ def spring_play(
 
 
 def joint_play(gap: Any, radius: Any) -> Any:
-    """Angle [rad] a part turns to either side until its pegs, on a circle of a radius, meet their holes: gap/radius."""
+    """Return the angle [rad] a part turns to either side until its pegs, on a circle of a radius, meet their holes:
+    gap/radius."""
     return gap / radius
 
 
 def overhung_shift(clearance: Any, spread: Any, height: Any, largest_tilt: Any) -> Any:
-    """How far a shaft moves aside [m] at a height above its upper support, c + min(2 c/s, tilt) h.
+    """Return how far a shaft moves aside [m] at a height above its upper support, c + min(2 c/s, tilt) h.
 
     `clearance` is its radial play in two supports, `spread` their distance, `largest_tilt` [rad] what else stops it.
     """

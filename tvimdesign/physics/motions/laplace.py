@@ -19,21 +19,21 @@ TERMS = 10
 
 @cache
 def weights(terms: int = TERMS) -> tuple[float, ...]:
-    """Weights V_i of the transform at i ln(2)/t [1]; exact integers over integers, their sum is zero."""
+    """Return the weights V_i of the transform at i ln(2)/t [1]; exact integers over integers, their sum is zero."""
     half = terms // 2
-    found = []
+    weights = []
     for i in range(1, terms + 1):
         total = sum(
             k**half * factorial(2 * k)
             / (factorial(half - k) * factorial(k) * factorial(k - 1) * factorial(i - k) * factorial(2 * k - i))
             for k in range((i + 1) // 2, min(i, half) + 1)
         )  # fmt: skip
-        found.append((-1.0) ** (half + i) * total)
-    return tuple(found)
+        weights.append((-1.0) ** (half + i) * total)
+    return tuple(weights)
 
 
 def inverse(transform: Callable[[Any], tuple[Any, ...]], time: Any, axes: int = 0) -> tuple[Any, ...]:
-    """Values at a time [s] of what has the transforms F(s), s in 1/s: f(t) = ln(2)/t sum V_i F(i ln(2)/t).
+    """Return the values at a time [s] of what has the transforms F(s), s in 1/s: f(t) = ln(2)/t sum V_i F(i ln(2)/t).
 
     The transforms take all s at once, along the first axis; `axes` says how many axes the numbers in them have: none of
     floats and symbols.

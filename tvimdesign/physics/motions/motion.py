@@ -19,7 +19,7 @@ Modes = Sequence[tuple[Any, Any]]
 
 
 class Joint(NamedTuple):
-    """What does not depend on the polymer: inertia [kg*m^2], springs and series structure [N*m/rad]."""
+    """Joint without its polymer: inertia [kg*m^2], springs and series structure [N*m/rad]."""
 
     inertia: Any
     spring_stiffness: Any
@@ -27,47 +27,49 @@ class Joint(NamedTuple):
 
 
 def layer_modes(spectrum: Modes, polar_moment: Any, thickness: Any) -> list[tuple[Any, Any]]:
-    """Modes of a layer: k_m = G_m J/t [N*m/rad] from a spectrum of (relaxation time [s], modulus [Pa])."""
+    """Return the modes of a layer: k_m = G_m J/t [N*m/rad] from a spectrum of (relaxation time [s], modulus [Pa])."""
     return [(time, modulus * polar_moment / thickness) for time, modulus in spectrum]
 
 
 def layer_angle(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
-    """Angle across the layer [rad], phi = (S theta + sum k_m q_m)/(S + sum k_m)."""
+    """Return the angle across the layer [rad], phi = (S theta + sum k_m q_m)/(S + sum k_m)."""
     pull = sum(stiffness * inner for (_, stiffness), inner in zip(modes, internal, strict=True))
     total = sum(stiffness for _, stiffness in modes)
     return (joint.structure_stiffness * angle + pull) / (joint.structure_stiffness + total)
 
 
 def layer_pull(angle: Any, internal: Sequence[Any], modes: Modes) -> Any:
-    """Torque of the modes if the layer stood at an angle [N*m], sum k_m (theta - q_m): with a rigid structure, M."""
+    """Return the torque of the modes if the layer stood at an angle [N*m], sum k_m (theta - q_m): with a rigid
+    structure, M."""
     return sum(stiffness * (angle - inner) for (_, stiffness), inner in zip(modes, internal, strict=True))
 
 
 def branch_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
-    """Torque the branch takes [N*m], S (theta - phi) = S/(S + sum k_m) sum k_m (theta - q_m), which does not cancel."""
+    """Return the torque the branch takes [N*m], S (theta - phi) = S/(S + sum k_m) sum k_m (theta - q_m), which does not
+    cancel."""
     total = sum(stiffness for _, stiffness in modes)
     return joint.structure_stiffness / (joint.structure_stiffness + total) * layer_pull(angle, internal, modes)
 
 
 def module_torque(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
-    """Torque of the module on the link [N*m], -(K_s theta + M): it drives a deflected link back."""
+    """Return the torque of the module on the link [N*m], -(K_s theta + M): it drives a deflected link back."""
     return -(joint.spring_stiffness * angle + branch_torque(angle, internal, joint, modes))
 
 
 def internal_rates(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[Any]:
-    """Rates of the internal angles [rad/s], (phi - q_m)/tau_m."""
+    """Return the rates of the internal angles [rad/s], (phi - q_m)/tau_m."""
     phi = layer_angle(angle, internal, joint, modes)
     return [(phi - inner) / time for (time, _), inner in zip(modes, internal, strict=True)]
 
 
 def rates(angle: Any, speed: Any, internal: Sequence[Any], external: Any, joint: Joint, modes: Modes) -> list[Any]:
-    """Rates of angle, speed and internal angles under an external torque [N*m]."""
+    """Return the rates of angle, speed and internal angles under an external torque [N*m]."""
     torque = external + module_torque(angle, internal, joint, modes)
     return [speed, torque / joint.inertia, *internal_rates(angle, internal, joint, modes)]
 
 
 def branch_energy_terms(angle: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[tuple[Any, Any]]:
-    """What the branch stores energy in, as pairs (stiffness c, deflection d) that hold c d^2/2 each [J].
+    """Return what the branch stores energy in, as pairs (stiffness c, deflection d) that hold c d^2/2 each [J].
 
     Structure, then each mode's elastic angle phi - q_m.
     """
@@ -81,36 +83,37 @@ def branch_energy_terms(angle: Any, internal: Sequence[Any], joint: Joint, modes
 
 
 def energy_terms(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> list[tuple[Any, Any]]:
-    """The same of the whole: link [kg*m^2, rad/s], springs, structure, then each mode's elastic angle."""
+    """Return the terms of the whole joint: link [kg*m^2, rad/s], springs, structure, then each mode's elastic angle."""
     branch = branch_energy_terms(angle, internal, joint, modes)
     return [(joint.inertia, speed), (joint.spring_stiffness, angle), *branch]
 
 
 def stored_energy(angle: Any, speed: Any, internal: Sequence[Any], joint: Joint, modes: Modes) -> Any:
-    """Kinetic and elastic energy [J], sum of c d^2/2; at rest from outside it falls by the heat of the dashpots."""
+    """Return the kinetic and elastic energy [J], sum of c d^2/2; at rest from outside it falls by the heat of the
+    dashpots."""
     return 0.5 * sum(c * d**2 for c, d in energy_terms(angle, speed, internal, joint, modes))
 
 
 def kelvin_voigt_rates(angle: Any, speed: Any, inertia: Any, damping: Any, stiffness: Any) -> list[Any]:
-    """Rates of angle and speed of I theta'' + b theta' + K theta = 0 (textbook, one degree of freedom)."""
+    """Return the rates of angle and speed of I theta'' + b theta' + K theta = 0 (textbook, one degree of freedom)."""
     return [speed, -(damping * speed + stiffness * angle) / inertia]
 
 
 def kelvin_voigt_torque(angle: Any, speed: Any, damping: Any, stiffness: Any) -> Any:
-    """Torque of a spring and a dashpot side by side on the link [N*m], -(b theta' + K theta)."""
+    """Return the torque of a spring and a dashpot side by side on the link [N*m], -(b theta' + K theta)."""
     return -(damping * speed + stiffness * angle)
 
 
 def natural_frequency(stiffness: Any, inertia: Any) -> Any:
-    """Undamped natural frequency, sqrt(K/I)/(2 pi) [Hz]."""
+    """Return the undamped natural frequency, sqrt(K/I)/(2 pi) [Hz]."""
     return np.sqrt(stiffness / inertia) / (2.0 * np.pi)
 
 
 def critical_damping(stiffness: Any, inertia: Any) -> Any:
-    """Damping above which nothing rings, 2 sqrt(K I) [N*m*s/rad]."""
+    """Return the damping above which nothing rings, 2 sqrt(K I) [N*m*s/rad]."""
     return 2.0 * np.sqrt(stiffness * inertia)
 
 
 def damping_ratio(damping: Any, stiffness: Any, inertia: Any) -> Any:
-    """Damping over the critical one [1]."""
+    """Return the damping over the critical one [1]."""
     return damping / critical_damping(stiffness, inertia)

@@ -29,42 +29,45 @@ class Blocks(NamedTuple):
 
 
 class Touching(NamedTuple):
-    """Which blocks touch the link: 1 or 0."""
+    """Contacts of the blocks with the link: 1 or 0."""
 
     first: Any
     second: Any
 
 
 def divided(internal: Sequence[Any], blocks: Blocks) -> tuple[Sequence[Any], Sequence[Any]]:
-    """Internal angles of the first and of the second block [rad], from those of both in one row."""
+    """Return the internal angles of the first and of the second block [rad], from those of both in one row."""
     count = len(blocks.first)
     return internal[:count], internal[count:]
 
 
 def surface_angle(internal: Sequence[Any], modes: Modes) -> Any:
-    """Angle at which the face of a block stands that nothing touches [rad]: its modes' mean, sum k q/sum k."""
+    """Return the angle at which the face of a block stands that nothing touches [rad]: its modes' mean, sum k q/sum
+    k."""
     return motion.layer_angle(0.0, internal, Joint(0.0, 0.0, 0.0), modes)
 
 
 def gap(internal: Sequence[Any], blocks: Blocks) -> Any:
-    """Angle over which neither block touches [rad]: how far both faces stand back, or 0 where the two meet."""
+    """Return the angle over which neither block touches [rad]: how far both faces stand back, or 0 where the two
+    meet."""
     first, second = divided(internal, blocks)
     return np.fmax(surface_angle(first, blocks.first) + surface_angle(second, blocks.second), 0.0)
 
 
 def out_of_contact(touching: Touching) -> Any:
-    """1 where neither block touches the link, else 0."""
+    """Return 1 where neither block touches the link, else 0."""
     return 1.0 - np.fmax(touching.first, touching.second)
 
 
 def pulls(angle: Any, internal: Sequence[Any], blocks: Blocks) -> tuple[Any, Any]:
-    """Torque each block would push back with behind a rigid structure [N*m]; negative where it does not touch."""
+    """Return the torque each block would push back with behind a rigid structure [N*m]; negative where it does not
+    touch."""
     first, second = divided(internal, blocks)
     return motion.layer_pull(angle, first, blocks.first), motion.layer_pull(-angle, second, blocks.second)
 
 
 def module_torque(angle: Any, internal: Sequence[Any], touching: Touching, joint: Joint, blocks: Blocks) -> Any:
-    """Torque of springs and touching blocks on the link [N*m]."""
+    """Return the torque of springs and touching blocks on the link [N*m]."""
     first, second = divided(internal, blocks)
     ahead, behind = _joints(joint, touching)
     return (
@@ -75,7 +78,7 @@ def module_torque(angle: Any, internal: Sequence[Any], touching: Touching, joint
 
 
 def internal_rates(angle: Any, internal: Sequence[Any], touching: Touching, joint: Joint, blocks: Blocks) -> list[Any]:
-    """Rates of all internal angles [rad/s]; a block that does not touch recovers."""
+    """Return the rates of all internal angles [rad/s]; a block that does not touch recovers."""
     first, second = divided(internal, blocks)
     ahead, behind = _joints(joint, touching)
     return [
@@ -87,7 +90,7 @@ def internal_rates(angle: Any, internal: Sequence[Any], touching: Touching, join
 def rates(
     angle: Any, speed: Any, internal: Sequence[Any], touching: Touching, joint: Joint, blocks: Blocks
 ) -> list[Any]:
-    """Rates of angle, speed and internal angles of a link that is left alone."""
+    """Return the rates of angle, speed and internal angles of a link that is left alone."""
     torque = module_torque(angle, internal, touching, joint, blocks)
     return [speed, torque / joint.inertia, *internal_rates(angle, internal, touching, joint, blocks)]
 
@@ -95,7 +98,8 @@ def rates(
 def energy_terms(
     angle: Any, speed: Any, internal: Sequence[Any], touching: Touching, joint: Joint, blocks: Blocks
 ) -> list[tuple[Any, Any]]:
-    """What stores energy, as pairs (stiffness or inertia c, deflection or speed d) that hold c d^2/2 each [J]."""
+    """Return what stores energy, as pairs (stiffness or inertia c, deflection or speed d) that hold c d^2/2 each
+    [J]."""
     first, second = divided(internal, blocks)
     ahead, behind = _joints(joint, touching)
     return [
@@ -109,7 +113,7 @@ def energy_terms(
 def stored_energy(
     angle: Any, speed: Any, internal: Sequence[Any], touching: Touching, joint: Joint, blocks: Blocks
 ) -> Any:
-    """Kinetic and elastic energy [J], sum of c d^2/2; with contact lost or made it does not jump."""
+    """Return the kinetic and elastic energy [J], sum of c d^2/2; with contact lost or made it does not jump."""
     return 0.5 * sum(c * d**2 for c, d in energy_terms(angle, speed, internal, touching, joint, blocks))
 
 

@@ -19,7 +19,7 @@ HOUR = 3600.0  # s
 
 
 class Creep(NamedTuple):
-    """How a material creeps."""
+    """Parameters of a material's creep."""
 
     share: Any
     """Creep strain after an hour at 23 degC, of the elastic one [1]."""
@@ -30,17 +30,19 @@ class Creep(NamedTuple):
 
 
 def aged(time: Any, temperature: Any, law: Creep) -> Any:
-    """Time at 23 degC [s] in which as much creeps as in a time [s] at a temperature [K] [Fe]."""
+    """Return the time at 23 degC [s] in which as much creeps as in a time [s] at a temperature [K] [Fe]."""
     return time * np.exp(law.activation_energy / GAS_CONSTANT * (1.0 / REFERENCE - 1.0 / temperature))
 
 
 def growth(time: Any, law: Creep) -> Any:
-    """Creep strain after a time at 23 degC [s], of the elastic one: m (t/1 h)^n [F]. Creep modulus: E/(1 + that)."""
+    """Return the creep strain after a time at 23 degC [s], of the elastic one: m (t/1 h)^n [F]. Creep modulus: E/(1 +
+    that)."""
     return law.share * (time / HOUR) ** law.exponent
 
 
 def winding_left(rate: Any, *holds: tuple[Any, Any]) -> Any:
-    """Share [1] of a spring's winding that is left where what holds it gives, 1/(1 + k sum c (1 + phi)) [Chr].
+    """Return the share [1] of a spring's winding that is left where what holds it gives, 1/(1 + k sum c (1 + phi))
+    [Chr].
 
     `rate` k [N*m/rad]; of each hold the elastic compliance c [rad/(N*m)] and its creep phi of that [1].
     """
@@ -48,7 +50,7 @@ def winding_left(rate: Any, *holds: tuple[Any, Any]) -> Any:
 
 
 def peg_give(youngs_modulus: Any, poissons_ratio: Any, diameter: Any, height: Any) -> Any:
-    """Way per force [m/N] of a round peg on a thick plate at a height: it bends, shears, and its foot tilts.
+    """Return the way per force [m/N] of a round peg on a thick plate at a height: it bends, shears, and its foot tilts.
 
     h^3/(3 E I) + h/(0.9 G A) (Timoshenko) + h^2 3 (1 - nu^2)/(4 E r^3), a rigid disc rocking on a half-space [RHW].
     """
@@ -60,7 +62,8 @@ def peg_give(youngs_modulus: Any, poissons_ratio: Any, diameter: Any, height: An
 
 
 def twisted_hole_give(shear_modulus: Any, diameter: Any, length: Any) -> Any:
-    """Angle per moment [rad/(N*m)] of a round wire twisted in a wide body about its own axis, 1/(4 pi G r^2 L).
+    """Return the angle per moment [rad/(N*m)] of a round wire twisted in a wide body about its own axis, 1/(4 pi G r^2
+    L).
 
     Shear stress M/(2 pi r^2 L) falls as 1/r^2 (Timoshenko and Goodier, Theory of Elasticity, 3rd ed., ch. 4).
     """

@@ -29,7 +29,7 @@ _SLOWEST = (
 
 
 class Kinetics(NamedTuple):
-    """What the freezing of one material follows from."""
+    """Parameters of the freezing of one material."""
 
     avrami_exponent: Any
     """n [1]."""
@@ -49,7 +49,8 @@ class Kinetics(NamedTuple):
 
 
 def _mobility_and_nucleation(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
-    """Logarithm of the growth rate but for a constant: -U/(R (T - T_inf)) - K_g/(T dT f), f = 2 T/(T + T_m0) [H]."""
+    """Return the logarithm of the growth rate but for a constant: -U/(R (T - T_inf)) - K_g/(T dT f), f = 2 T/(T + T_m0)
+    [H]."""
     above_frozen = ramp(temperature_kelvin - (kinetics.glass_transition - BELOW_GLASS), _UNDERCOOLING_ROUNDING)
     undercooling = ramp(kinetics.equilibrium_melting - temperature_kelvin, _UNDERCOOLING_ROUNDING)
     correction = 2.0 * temperature_kelvin / (temperature_kelvin + kinetics.equilibrium_melting)
@@ -58,25 +59,26 @@ def _mobility_and_nucleation(temperature_kelvin: Any, kinetics: Kinetics) -> Any
 
 
 def _speed(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
-    """Rate of freezing over that at the reference temperature [1]."""
+    """Return the rate of freezing over that at the reference temperature [1]."""
     reference = _mobility_and_nucleation(kinetics.reference, kinetics)
     logarithm = _mobility_and_nucleation(temperature_kelvin, kinetics) - reference
     return np.exp(_SLOWEST + ramp(logarithm - _SLOWEST, 0.1))
 
 
 def rate_constant(temperature_kelvin: Any, kinetics: Kinetics) -> Any:
-    """K = (ln 2)^(1/n)/t_half [1/s], with which psi rises at a temperature [N]."""
+    """Return K = (ln 2)^(1/n)/t_half [1/s], with which psi rises at a temperature [N]."""
     at_reference = np.log(2.0) ** (1.0 / kinetics.avrami_exponent) / kinetics.reference_half_time
     return at_reference * _speed(temperature_kelvin, kinetics)
 
 
 def solid_fraction(psi: Any, kinetics: Kinetics) -> Any:
-    """Share that is frozen [1], X = 1 - exp(-psi^n) [A]; none for psi at and below zero."""
+    """Return the share that is frozen [1], X = 1 - exp(-psi^n) [A]; none for psi at and below zero."""
     return 1.0 - np.exp(-(ramp(psi, _PSI_ROUNDING) ** kinetics.avrami_exponent))
 
 
 def extended(fraction: Any, kinetics: Kinetics) -> Any:
-    """Psi of a solid fraction, (-ln(1 - X))^(1/n) [A]; X may be 0, 1 and a little beyond, as rounded curves give it.
+    """Return the psi of a solid fraction, (-ln(1 - X))^(1/n) [A]; X may be 0, 1 and a little beyond, as rounded curves
+    give it.
 
     Near X = 0 the root is a straight line through zero, near X = 1 psi ends at what leaves a 10^-4 part molten.
     """
@@ -86,14 +88,15 @@ def extended(fraction: Any, kinetics: Kinetics) -> Any:
 
 
 def equilibrium_fraction(temperature_kelvin: Any, melting: Melting) -> Any:
-    """Largest share that can be solid at a temperature [1]: 1 below, 0 above the melting window, straight within."""
+    """Return the largest share that can be solid at a temperature [1]: 1 below, 0 above the melting window, straight
+    within."""
     molten = ramp(temperature_kelvin - melting.start, _WINDOW_ROUNDING)
     molten = molten - ramp(temperature_kelvin - melting.end, _WINDOW_ROUNDING)
     return 1.0 - molten / (melting.end - melting.start)
 
 
 def rate(temperature_kelvin: Any, psi: Any, kinetics: Kinetics, melting: Melting) -> Any:
-    """Time derivative of psi [1/s]: freezing with K(T) [N], melting of what is above equilibrium.
+    """Return the time derivative of psi [1/s]: freezing with K(T) [N], melting of what is above equilibrium.
 
     d psi/dt = K(T) - max(psi - psi_eq(T), 0)/tau. K does not depend on psi, so a melt without a crystal freezes too.
     Heated at a rate r, the solid fraction follows the equilibrium curve tau r behind.
@@ -105,7 +108,7 @@ def rate(temperature_kelvin: Any, psi: Any, kinetics: Kinetics, melting: Melting
 
 
 def enthalpy(temperature_kelvin: Any, fraction: Any, melting: Melting) -> Any:
-    """Specific enthalpy [J/kg] of solid and melt at one temperature: X h_s(T) + (1 - X) h_m(T).
+    """Return the specific enthalpy [J/kg] of solid and melt at one temperature: X h_s(T) + (1 - X) h_m(T).
 
     h_s = c_s (T - T_0), h_m = h_2 + c_m (T - T_end), both lines drawn on beyond the window. So the heat of freezing,
     h_m - h_s, changes with temperature by c_m - c_s a kelvin: Kirchhoff's law follows.
@@ -116,7 +119,8 @@ def enthalpy(temperature_kelvin: Any, fraction: Any, melting: Melting) -> Any:
 
 
 def temperature(specific_enthalpy: Any, fraction: Any, melting: Melting) -> Any:
-    """Temperature [K] of a specific enthalpy [J/kg] and a solid fraction: `enthalpy` solved for T, linear in it."""
+    """Return the temperature [K] of a specific enthalpy [J/kg] and a solid fraction: `enthalpy` solved for T, linear in
+    it."""
     at_zero = enthalpy(ZERO_CELSIUS, fraction, melting)
     capacity = fraction * melting.specific_heat_solid + (1.0 - fraction) * melting.specific_heat_melt
     return ZERO_CELSIUS + (specific_enthalpy - at_zero) / capacity

@@ -22,7 +22,7 @@ _CORNER = 1.0  # K; over this the shift's kink at the glass transition is rounde
 
 
 class GlassTransition(NamedTuple):
-    """What the shift across a glass transition follows from."""
+    """Parameters of the shift across a glass transition."""
 
     temperature: Any
     """T_g [K]."""
@@ -35,7 +35,8 @@ class GlassTransition(NamedTuple):
 
 
 def shift(temperature_kelvin: Any, transition: GlassTransition) -> Any:
-    """Time-temperature shift factor [1], above T_g a_T = 10^(-c1 (T - T_g)/(c2 + T - T_g)) [WLF], below Arrhenius [F].
+    """Return the time-temperature shift factor [1], above T_g a_T = 10^(-c1 (T - T_g)/(c2 + T - T_g)) [WLF], below
+    Arrhenius [F].
 
     Both are 1 at T_g, where their slopes differ; that corner is rounded over one kelvin.
     """
@@ -45,7 +46,7 @@ def shift(temperature_kelvin: Any, transition: GlassTransition) -> Any:
 
 
 class Glass(NamedTuple):
-    """What the spectrum of a glassy polymer follows from."""
+    """Parameters of the spectrum of a glassy polymer."""
 
     shear_modulus: Any
     """Storage modulus at the reference temperature and 1 Hz [Pa]."""
@@ -55,8 +56,8 @@ class Glass(NamedTuple):
     """Relaxation spectrum at T_g: (time [s], modulus relative to the others [1]); the longest time is the rubber's."""
 
     def at(self, temperature_kelvin: Any) -> list[tuple[Any, Any]]:
-        """Relaxation spectrum (time [s], modulus [Pa]) at a temperature: times shift, moduli are those of the
-        reference."""
+        """Return the relaxation spectrum (time [s], modulus [Pa]) at a temperature: times shift, moduli are those of
+        the reference."""
         before = shift(self.reference_temperature, self.transition)
         pinned, _ = maxwell_moduli(PINNED_FREQUENCY * before, self.modes)
         shifted = shift(temperature_kelvin, self.transition)

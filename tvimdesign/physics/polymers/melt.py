@@ -28,7 +28,8 @@ _RING = 4  # nodes over the face of a ring
 
 
 def ring(radius_ratio: Any) -> list[tuple[Any, Any]]:
-    """Strain over that at the rim [1], and share of a linear layer's torque [1], at nodes of an annular face.
+    """Return the strain over that at the rim [1], and share of a linear layer's torque [1], at nodes of an annular
+    face.
 
     `radius_ratio` is inner over outer radius. Torque goes with r^3 dr, which is u du with u = r^2: Gauss's nodes in u.
     """
@@ -40,7 +41,7 @@ def ring(radius_ratio: Any) -> list[tuple[Any, Any]]:
 
 
 def softening(strain: Any, limit: Any) -> Any:
-    """Share by which the first harmonic of h(A cos) A cos falls [1]: 1 - (1/pi) integral of h(A cos) cos^2.
+    """Return the share by which the first harmonic of h(A cos) A cos falls [1]: 1 - (1/pi) integral of h(A cos) cos^2.
 
     With h = 1/(1 + z cos^2), z = a (A/gamma_L)^2 [S], and q = sqrt(1 + z): 1 - 2/(q (q + 1)), no difference of likes.
     """
@@ -50,7 +51,7 @@ def softening(strain: Any, limit: Any) -> Any:
 
 
 def wagner_moduli(strain: Any, angular_frequency: Any, modes: Modes, limit: Any) -> tuple[Any, Any]:
-    """First-harmonic storage and loss modulus [Pa] of an oscillation of the amplitude `strain` [1] [W].
+    """Return the first-harmonic storage and loss modulus [Pa] of an oscillation of the amplitude `strain` [1] [W].
 
     `modes` holds (relaxation time [s], modulus [Pa]), `limit` the linear strain. The relative strain is
     2 gamma sin(w s/2) cos(w t - w s/2), so its phase integrates in closed form (`softening`), and the past, periodic
@@ -73,7 +74,8 @@ def wagner_moduli(strain: Any, angular_frequency: Any, modes: Modes, limit: Any)
 
 
 def unrelaxed_moduli(strain: Any, angular_frequency: Any, modes: Modes, limit: Any) -> tuple[Any, Any]:
-    """Storage and loss modulus [Pa] were the melt to remember the whole amplitude: h(gamma) times the linear ones.
+    """Return the storage and loss modulus [Pa] were the melt to remember the whole amplitude: h(gamma) times the linear
+    ones.
 
     What an amplitude sweep well above the longest relaxation rate shows, and the least it can be below.
     """
@@ -83,12 +85,13 @@ def unrelaxed_moduli(strain: Any, angular_frequency: Any, modes: Modes, limit: A
 
 
 def shear_stress(strain: Any, storage: Any, loss: Any) -> Any:
-    """Amplitude of the shear stress [Pa], gamma |G*| [F]; with linear moduli it is the most a melt can resist with."""
+    """Return the amplitude of the shear stress [Pa], gamma |G*| [F]; with linear moduli it is the most a melt can
+    resist with."""
     return strain * np.sqrt(storage**2 + loss**2)
 
 
 def edge_strain(gap: Any, tension: Any, normal_ratio: Any, storage: Any) -> Any:
-    """Amplitude of strain [1] at which surface tension no longer holds a layer's free edge [T].
+    """Return the amplitude of strain [1] at which surface tension no longer holds a layer's free edge [T].
 
     The second normal stress difference draws the edge in where |N2| > 2 Gamma/(3 t), with the gap t [m] and the
     tension Gamma [N/m]; |N2| = psi N1, and N1 = G' gamma^2 on the mean of an oscillation [L]. An order of magnitude.
@@ -97,22 +100,25 @@ def edge_strain(gap: Any, tension: Any, normal_ratio: Any, storage: Any) -> Any:
 
 
 def gap_speed(gradient: Any, gap: Any, viscosity: Any) -> Any:
-    """Mean speed [m/s] in a gap [m] under a pressure gradient [Pa/m], h^2 g/(12 eta); viscosity [Pa s]."""
+    """Return the mean speed [m/s] in a gap [m] under a pressure gradient [Pa/m], h^2 g/(12 eta); viscosity [Pa s]."""
     return gap**2 * gradient / (12.0 * viscosity)
 
 
 def gaps_in_series(length: Any, gap: Any, lip_length: Any, lip_gap: Any) -> Any:
-    """Length [m] of a gap that resists the flow as that gap and a narrower one after it do: l + l_2 (h/h_2)^3."""
+    """Return the length [m] of a gap that resists the flow as that gap and a narrower one after it do: l + l_2
+    (h/h_2)^3."""
     return length + lip_length * (gap / lip_gap) ** 3
 
 
 def meniscus_pressure(surface_tension: Any, gap: Any) -> Any:
-    """Pressure [Pa] that a surface between two edges a gap apart holds, 2 gamma/h; surface tension [N/m], gap [m]."""
+    """Return the pressure [Pa] that a surface between two edges a gap apart holds, 2 gamma/h; surface tension [N/m],
+    gap [m]."""
     return 2.0 * surface_tension / gap
 
 
 def squeeze_time(force: Any, viscosity: Any, length: Any, width: Any, thin: Any, thick: Any) -> Any:
-    """Time [s] in which a force [N] takes a strip from one thickness to another [m], pressed thinner or pulled thicker.
+    """Return the time [s] in which a force [N] takes a strip from one thickness to another [m], pressed thinner or
+    pulled thicker.
 
     t = eta L w^3/(2 F) (1/h_1^2 - 1/h_2^2), of a strip of the width w that is much narrower than its length L [m] and
     keeps its width.

@@ -51,23 +51,24 @@ class Melting(NamedTuple):
 
     @property
     def enthalpy_start(self) -> Any:
-        """Enthalpy at which melting starts [J/kg]."""
+        """Return the enthalpy at which melting starts [J/kg]."""
         return self.specific_heat_solid * (self.start - ZERO_CELSIUS)
 
     @property
     def enthalpy_end(self) -> Any:
-        """Enthalpy at which melting ends [J/kg]: the latent heat and the mean sensible heat over the window."""
+        """Return the enthalpy at which melting ends [J/kg]: the latent heat and the mean sensible heat over the
+        window."""
         mean = 0.5 * (self.specific_heat_solid + self.specific_heat_melt)
         return self.enthalpy_start + self.latent_heat + mean * (self.end - self.start)
 
 
 def ramp(distance: Any, smoothing: Any) -> Any:
-    """max(distance, 0) with a rounded corner of the width `smoothing`: (z + sqrt(z^2 + dz^2))/2."""
+    """Return max(distance, 0) with a rounded corner of the width `smoothing`: (z + sqrt(z^2 + dz^2))/2."""
     return 0.5 * (distance + np.sqrt(distance**2 + smoothing**2))
 
 
 def temperature(enthalpy: Any, melting: Melting) -> Any:
-    """Temperature of specific enthalpy [K]: three straight pieces with rounded corners [V]."""
+    """Return the temperature of specific enthalpy [K]: three straight pieces with rounded corners [V]."""
     h1, h2 = melting.enthalpy_start, melting.enthalpy_end
     solid, middle, melt = _slopes(melting)
     rise = (middle - solid) * ramp(enthalpy - h1, melting.smoothing)
@@ -76,20 +77,20 @@ def temperature(enthalpy: Any, melting: Melting) -> Any:
 
 
 def _slopes(melting: Melting) -> tuple[Any, Any, Any]:
-    """How far the temperature rises with enthalpy before, in and behind the melting window [K kg/J]."""
+    """Return how far the temperature rises with enthalpy before, in and behind the melting window [K kg/J]."""
     middle = (melting.end - melting.start) / (melting.enthalpy_end - melting.enthalpy_start)
     return 1.0 / melting.specific_heat_solid, middle, 1.0 / melting.specific_heat_melt
 
 
 def solid_fraction(enthalpy: Any, melting: Melting) -> Any:
-    """Share that is frozen at a specific enthalpy [1], 1 below and 0 above the melting window."""
+    """Return the share that is frozen at a specific enthalpy [1], 1 below and 0 above the melting window."""
     h1, h2 = melting.enthalpy_start, melting.enthalpy_end
     molten = ramp(enthalpy - h1, melting.smoothing) - ramp(enthalpy - h2, melting.smoothing)
     return 1.0 - molten / (h2 - h1)
 
 
 def enthalpy(temperature_kelvin: Any, melting: Melting) -> Any:
-    """Specific enthalpy of a temperature [J/kg]: the three straight pieces, corners not rounded."""
+    """Return the specific enthalpy of a temperature [J/kg]: the three straight pieces, corners not rounded."""
     h1, h2 = melting.enthalpy_start, melting.enthalpy_end
     window = melting.end - melting.start
     below = np.fmin(temperature_kelvin, melting.start) - ZERO_CELSIUS
@@ -99,7 +100,8 @@ def enthalpy(temperature_kelvin: Any, melting: Melting) -> Any:
 
 
 def fraction_at(temperature_kelvin: Any, melting: Melting) -> Any:
-    """Share that is frozen at a temperature on the melting curve with its rounded corners [1], smooth everywhere.
+    """Return the share that is frozen at a temperature on the melting curve with its rounded corners [1], smooth
+    everywhere.
 
     `temperature` turned round in closed form: a corner between the slopes a and b [K kg/J] that is rounded over the
     enthalpy z is one rounded over the temperature z sqrt(a b). The other corner's rounding is left out, a few mK of it.
@@ -126,7 +128,7 @@ class SolidModulus(NamedTuple):
 
 
 def solid_shear_modulus(temperature_kelvin: Any, solid: SolidModulus) -> Any:
-    """Storage shear modulus of the frozen polymer at the pinned frequency [Pa].
+    """Return the storage shear modulus of the frozen polymer at the pinned frequency [Pa].
 
     G = E/(2 (1 + nu)); ln E falls by slope*width*ln(1 + exp((T - onset)/width)), which is flat well below the onset and
     straight well above it. Calibrated to E at 23, 37 and 50 degC.
@@ -140,12 +142,12 @@ def solid_shear_modulus(temperature_kelvin: Any, solid: SolidModulus) -> Any:
 
 
 def arrhenius_shift(temperature_kelvin: Any, reference: Any, activation_energy: Any) -> Any:
-    """Time-temperature shift factor a_T = exp(E_a/R (1/T - 1/T_ref)) [1] [F ch. 11]."""
+    """Return the time-temperature shift factor a_T = exp(E_a/R (1/T - 1/T_ref)) [1] [F ch. 11]."""
     return np.exp(activation_energy / GAS_CONSTANT * (1.0 / temperature_kelvin - 1.0 / reference))
 
 
 def maxwell_moduli(angular_frequency: Any, modes: Modes) -> tuple[Any, Any]:
-    """Storage and loss modulus [Pa] of a generalised Maxwell body [F ch. 3].
+    """Return the storage and loss modulus [Pa] of a generalised Maxwell body [F ch. 3].
 
     `modes` holds (relaxation time [s], modulus [Pa]); G' = sum G (w t)^2/(1 + (w t)^2), G'' = sum G w t/(1 + (w t)^2).
     """
@@ -159,7 +161,8 @@ def maxwell_moduli(angular_frequency: Any, modes: Modes) -> tuple[Any, Any]:
 
 
 def melt_spectrum(zero_shear_viscosity: Any, plateau_modulus: Any, count: int) -> list[tuple[Any, Any]]:
-    """Relaxation spectrum of an entangled melt (time [s], modulus [Pa]) from its viscosity [Pa s] and plateau [Pa].
+    """Return the relaxation spectrum of an entangled melt (time [s], modulus [Pa]) from its viscosity [Pa s] and
+    plateau [Pa].
 
     Modes G_i ~ t_i^`SPECTRUM_EXPONENT` at `MODES_PER_DECADE` times a decade, down from a longest one [W]; their moduli
     sum up to the plateau modulus, and modulus times time to the viscosity [F ch. 3].
@@ -173,7 +176,7 @@ def melt_spectrum(zero_shear_viscosity: Any, plateau_modulus: Any, count: int) -
 
 
 class Rheology(NamedTuple):
-    """What the spectrum of a polymer follows from, frozen and molten; the two tables pair row by row."""
+    """Parameters of the spectrum of a polymer, frozen and molten; the two tables pair row by row."""
 
     solid: SolidModulus
     solid_modes: Modes
@@ -188,14 +191,14 @@ class OneSpectrum(Protocol):
     """A material whose spectrum follows from temperature alone, as a glass's does."""
 
     def at(self, temperature_kelvin: Any) -> list[tuple[Any, Any]]:
-        """Relaxation spectrum (time [s], modulus [Pa]) at a temperature."""
+        """Return the relaxation spectrum (time [s], modulus [Pa]) at a temperature."""
 
 
 AnyRheology = Rheology | OneSpectrum
 
 
 def spectrum(temperature_kelvin: Any, fraction: Any, rheology: AnyRheology) -> list[tuple[Any, Any]]:
-    """Relaxation spectrum (time [s], modulus [Pa]) at a temperature and a solid fraction X.
+    """Return the relaxation spectrum (time [s], modulus [Pa]) at a temperature and a solid fraction X.
 
     Paired modes mix by their logarithms: ln G = X ln G_solid + (1 - X) ln G_melt, ln tau likewise. So moduli and times
     are positive in every state, which is therefore passive, and every test in time or frequency follows from one
@@ -220,7 +223,7 @@ def spectrum(temperature_kelvin: Any, fraction: Any, rheology: AnyRheology) -> l
 
 
 def moduli(temperature_kelvin: Any, fraction: Any, angular_frequency: Any, rheology: AnyRheology) -> tuple[Any, Any]:
-    """Storage and loss shear modulus [Pa] at a temperature, a solid fraction and an angular frequency."""
+    """Return the storage and loss shear modulus [Pa] at a temperature, a solid fraction and an angular frequency."""
     return maxwell_moduli(angular_frequency, spectrum(temperature_kelvin, fraction, rheology))
 
 
@@ -232,12 +235,14 @@ class LinearRange(NamedTuple):
 
 
 def linear_strain(fraction: Any, limits: LinearRange) -> Any:
-    """Limit of the linear range at a solid fraction [1]: the phases' limits mixed by their logarithms, assumed."""
+    """Return the limit of the linear range at a solid fraction [1]: the phases' limits mixed by their logarithms,
+    assumed."""
     return np.exp(fraction * np.log(limits.solid) + (1.0 - fraction) * np.log(limits.melt))
 
 
 def damping_function(strain: Any, limit: Any) -> Any:
-    """Share of the linear modulus that is left at a strain, h = 1/(1 + a (gamma/gamma_L)^2) [1] [S, exponent 2].
+    """Return the share of the linear modulus that is left at a strain, h = 1/(1 + a (gamma/gamma_L)^2) [1] [S, exponent
+    2].
 
     a = d/(1 - d) makes the drop at the linear limit gamma_L be d = `LINEAR_DROP`.
     """

@@ -1,4 +1,4 @@
-"""What a relaxation spectrum answers in each test: relaxation, creep and recovery, start-up of flow, oscillation.
+"""Answers of a relaxation spectrum in tests: relaxation, creep and recovery, start-up of flow, oscillation.
 
 A spectrum is a list of (relaxation time [s], modulus [Pa]), the Maxwell elements of a generalised Maxwell body. Its
 creep is exact too: the retardation spectrum has one time fewer, and a viscosity.
@@ -16,34 +16,35 @@ from tvimdesign.physics.polymers.polymer import Modes, maxwell_moduli
 
 
 def relaxation_modulus(time: Any, modes: Modes) -> Any:
-    """Stress over strain [Pa] a time [s] after a step of strain, G(t) = sum G exp(-t/tau) [F ch. 3]."""
+    """Return the stress over strain [Pa] a time [s] after a step of strain, G(t) = sum G exp(-t/tau) [F ch. 3]."""
     return sum(modulus * np.exp(-time / tau) for tau, modulus in modes)
 
 
 def start_up_viscosity(time: Any, modes: Modes) -> Any:
-    """Stress over shear rate [Pa s] a time [s] after flow starts: sum G tau (1 - exp(-t/tau)), the integral of G."""
+    """Return the stress over shear rate [Pa s] a time [s] after flow starts: sum G tau (1 - exp(-t/tau)), the integral
+    of G."""
     return sum(modulus * tau * -np.expm1(-time / tau) for tau, modulus in modes)
 
 
 def zero_shear_viscosity(modes: Modes) -> Any:
-    """Viscosity of slow steady flow [Pa s]: sum G tau [F ch. 3]."""
+    """Return the viscosity of slow steady flow [Pa s]: sum G tau [F ch. 3]."""
     return sum(modulus * tau for tau, modulus in modes)
 
 
 def complex_viscosity(angular_frequency: Any, modes: Modes) -> Any:
-    """Magnitude of the complex viscosity [Pa s], sqrt(G'^2 + G''^2)/w."""
+    """Return the magnitude of the complex viscosity [Pa s], sqrt(G'^2 + G''^2)/w."""
     storage, loss = maxwell_moduli(angular_frequency, modes)
     return np.sqrt(storage**2 + loss**2) / angular_frequency
 
 
 def loss_factor(angular_frequency: Any, modes: Modes) -> Any:
-    """Loss over storage modulus, tan(delta) [1]."""
+    """Return the loss over storage modulus, tan(delta) [1]."""
     storage, loss = maxwell_moduli(angular_frequency, modes)
     return loss / storage
 
 
 class Retardation(NamedTuple):
-    """What a body does under constant stress: strain at once, strain that comes later, and flow."""
+    """Response of a body to constant stress: strain at once, strain that comes later, and flow."""
 
     instant_compliance: float
     """Compliance at once [1/Pa]."""
@@ -54,23 +55,23 @@ class Retardation(NamedTuple):
 
 
 def retardation(modes: Modes) -> Retardation:
-    """Retardation spectrum of a relaxation spectrum, exactly [T].
+    """Return the retardation spectrum of a relaxation spectrum, exactly [T].
 
     With the rates p = 1/tau the operational modulus is Q(s) = s F(s), F(s) = sum G/(s + p), and the compliance is the
     partial fractions of 1/Q: one rate r between each two neighbouring p, F(-r) = 0, with the compliance
     1/(r^2 sum G/(p - r)^2). Numbers only.
     """
     rates, moduli = _distinct_rates(modes)
-    found = []
+    slow = []
     for lower in range(len(rates) - 1):
         rate = _zero_between(rates, moduli, lower)
         compliance = 1.0 / (rate**2 * np.sum(moduli / (rates - rate) ** 2))
-        found.append((1.0 / rate, float(compliance)))
-    return Retardation(float(1.0 / np.sum(moduli)), tuple(found), float(np.sum(moduli / rates)))
+        slow.append((1.0 / rate, float(compliance)))
+    return Retardation(float(1.0 / np.sum(moduli)), tuple(slow), float(np.sum(moduli / rates)))
 
 
 def _distinct_rates(modes: Modes) -> tuple[Any, Any]:
-    """Rates 1/tau, rising, and the moduli; modes of one time are one mode."""
+    """Return the rates 1/tau, rising, and the moduli; modes of one time are one mode."""
     together: dict[float, float] = {}
     for tau, modulus in modes:
         together[1.0 / tau] = together.get(1.0 / tau, 0.0) + modulus
@@ -79,14 +80,15 @@ def _distinct_rates(modes: Modes) -> tuple[Any, Any]:
 
 
 def _zero_between(rates: Any, moduli: Any, lower: int) -> float:
-    """The zero of sum G/(p - r) between a rate and the next, where (p_k - r)(p_l - r) has taken its poles away."""
+    """Return the zero of sum G/(p - r) between a rate and the next, where (p_k - r)(p_l - r) has taken its poles
+    away."""
     from scipy.optimize import brentq
 
     below, above = rates[lower], rates[lower + 1]
-    rest = np.delete(np.arange(len(rates)), [lower, lower + 1])
+    apart = np.delete(np.arange(len(rates)), [lower, lower + 1])
 
     def gap(rate: float) -> float:
-        others = np.sum(moduli[rest] / (rates[rest] - rate))
+        others = np.sum(moduli[apart] / (rates[apart] - rate))
         poles = moduli[lower] * (above - rate) + moduli[lower + 1] * (below - rate)
         return float((poles + (below - rate) * (above - rate) * others) / (above - below))
 
@@ -94,7 +96,8 @@ def _zero_between(rates: Any, moduli: Any, lower: int) -> float:
 
 
 def creep_compliance(time: Any, response: Retardation) -> Any:
-    """Strain over stress [1/Pa] a time [s] after a step of stress, J(t) = J_g + sum J (1 - exp(-t/lambda)) + t/eta.
+    """Return the strain over stress [1/Pa] a time [s] after a step of stress, J(t) = J_g + sum J (1 - exp(-t/lambda)) +
+    t/eta.
 
     Zero before the step. [F ch. 3]
     """
@@ -104,12 +107,13 @@ def creep_compliance(time: Any, response: Retardation) -> Any:
 
 
 def creep_and_recovery(time: Any, stress: float, release: float, response: Retardation) -> Any:
-    """Strain [1] under a stress [Pa] that is taken off at `release` [s]: sigma (J(t) - J(t - t_1)), superposed."""
+    """Return the strain [1] under a stress [Pa] that is taken off at `release` [s]: sigma (J(t) - J(t - t_1)),
+    superposed."""
     return stress * (creep_compliance(time, response) - creep_compliance(time - release, response))
 
 
 def ramped_stress(time: Any, strain: float, rise: float, modes: Modes) -> Any:
-    """Stress [Pa] while and after a strain is reached at a constant rate within `rise` seconds.
+    """Return the stress [Pa] while and after a strain is reached at a constant rate within `rise` seconds.
 
     Each mode rises as in `start_up_viscosity` and fades from the end of the rise on; the difference of two starts would
     cancel there.

@@ -16,17 +16,17 @@ LEFT_TWIST = 0.5
 
 
 def stress_diameter(diameter: Any, pitch: Any) -> Any:
-    """Diameter d_s [m] of the section that counts, d - 0.9382 P (ISO 898-1)."""
+    """Return the diameter d_s [m] of the section that counts, d - 0.9382 P (ISO 898-1)."""
     return diameter - STRESS_DIAMETER * pitch
 
 
 def stress_area(diameter: Any, pitch: Any) -> Any:
-    """Its area [m^2], pi d_s^2/4."""
+    """Return its area [m^2], pi d_s^2/4."""
     return 0.25 * np.pi * stress_diameter(diameter, pitch) ** 2
 
 
 def thread_friction(nut_factor: Any, diameter: Any, pitch: Any, head_diameter: Any) -> Any:
-    """Friction of thread and head alike [1] for which tightening takes K F d.
+    """Return the friction of thread and head alike [1] for which tightening takes K F d.
 
     M = F (0.16 P + 0.58 d_2 mu + D_h mu/2), VDI 2230-1:2015, eq. R13; `head_diameter` D_h [m] is the mean one of the
     face under the head.
@@ -36,17 +36,17 @@ def thread_friction(nut_factor: Any, diameter: Any, pitch: Any, head_diameter: A
 
 
 def thread_torque(force: Any, diameter: Any, pitch: Any, friction: Any) -> Any:
-    """Part of the tightening torque [N*m] that twists the screw, F (0.16 P + 0.58 d_2 mu)."""
+    """Return the part of the tightening torque [N*m] that twists the screw, F (0.16 P + 0.58 d_2 mu)."""
     return force * (0.16 * pitch + 0.58 * (diameter - PITCH_DIAMETER * pitch) * friction)
 
 
 def twist_stress(torque: Any, diameter: Any, pitch: Any) -> Any:
-    """Largest shear [Pa] of a screw that is twisted, elastic, 16 M/(pi d_s^3)."""
+    """Return the largest shear [Pa] of a screw that is twisted, elastic, 16 M/(pi d_s^3)."""
     return 16.0 * torque / (np.pi * stress_diameter(diameter, pitch) ** 3)
 
 
 def combined_stress(force: Any, across: Any, twist: Any, diameter: Any, pitch: Any) -> Any:
-    """Equivalent stress [Pa] in service, (sigma^2 + 3 (k_tau tau + tau_q)^2)^(1/2).
+    """Return the equivalent stress [Pa] in service, (sigma^2 + 3 (k_tau tau + tau_q)^2)^(1/2).
 
     `force` [N] along the screw, tightening included; `across` [N] what friction leaves to its section, evenly over it;
     `twist` [Pa] of the tightening.
@@ -57,7 +57,8 @@ def combined_stress(force: Any, across: Any, twist: Any, diameter: Any, pitch: A
 
 
 def peg_shear_force(shear_strength: Any, diameter: Any) -> Any:
-    """Force [N] at which a peg shears off in one plane: F = tau pi d^2/4, strength [Pa] evenly over the section.
+    """Return the force [N] at which a peg shears off in one plane: F = tau pi d^2/4, strength [Pa] evenly over the
+    section.
 
     Shigley, Mechanical Engineering Design, section 8-12, fasteners loaded in shear.
     """
@@ -65,7 +66,7 @@ def peg_shear_force(shear_strength: Any, diameter: Any) -> Any:
 
 
 def peg_bearing_force(pressure: Any, diameter: Any, depth: Any) -> Any:
-    """Force [N] at which a peg presses into its hole: F = p d h, pressure [Pa] on the projected area.
+    """Return the force [N] at which a peg presses into its hole: F = p d h, pressure [Pa] on the projected area.
 
     Shigley, Mechanical Engineering Design, section 8-12, bearing of members.
     """
@@ -73,7 +74,7 @@ def peg_bearing_force(pressure: Any, diameter: Any, depth: Any) -> Any:
 
 
 def peg_twist_torque(shear_strength: Any, diameter: Any, depth: Any) -> Any:
-    """Torque [N*m] about its own axis at which a bonded peg turns in its hole: T = tau pi d^2 h/2.
+    """Return the torque [N*m] about its own axis at which a bonded peg turns in its hole: T = tau pi d^2 h/2.
 
     Shear stress [Pa] evenly over the peg's surface (textbook; as a shaft's bonded sleeve in Shigley, section 9-9).
     """

@@ -18,7 +18,7 @@ moment that holes cost at the core's foot (`structure.felt_at_foot`); FE of 21 p
 
 
 def shear_beside_core(torque: Any, thickness: Any, radius: Any, over: Any) -> Any:
-    """Mean shear [Pa] of a flat plate turned by a core, from its `radius` on outwards `over` a length [m].
+    """Return the mean shear [Pa] of a flat plate turned by a core, from its `radius` on outwards `over` a length [m].
 
     By equilibrium tau(r) = T/(2 pi r^2 h); its mean is T/(2 pi h r (r + l)).
     """
@@ -26,7 +26,7 @@ def shear_beside_core(torque: Any, thickness: Any, radius: Any, over: Any) -> An
 
 
 def mean_with_bending(even: Any, bent: Any) -> Any:
-    """Mean over a plate's thickness of (s^2 + (b u)^2)^(1/2), u from 0 in its middle to 1 on its faces [Pa].
+    """Return the mean over a plate's thickness of (s^2 + (b u)^2)^(1/2), u from 0 in its middle to 1 on its faces [Pa].
 
     `even` s is the same through the thickness, `bent` b is that of bending on the faces, across it; their squares add.
     The integral is ((s^2 + b^2)^(1/2) + s^2/b arsinh(b/s))/2.
@@ -36,7 +36,8 @@ def mean_with_bending(even: Any, bent: Any) -> Any:
 
 
 def thicker_by_fillet(thickness: float, fillet: float, over: float) -> float:
-    """Stress of a plate `over` a length [m] outwards from a core with a fillet over that of one with a sharp foot [1].
+    """Return the stress of a plate `over` a length [m] outwards from a core with a fillet over that of one with a sharp
+    foot [1].
 
     What stands on the plate bears with it, so that the stress at x is h/(h + y) of what it was, y(x) the height of a
     fillet of the radius q, q - (q^2 - (q - x)^2)^(1/2) up to x = q; its mean. Source: equilibrium.
@@ -46,5 +47,5 @@ def thicker_by_fillet(thickness: float, fillet: float, over: float) -> float:
 
 
 def highest_around(felt: Any) -> Any:
-    """Highest stress around a core over the mean shear of the plate there [1]: 1.03 (1 + 0.75 w)."""
+    """Return the highest stress around a core over the mean shear of the plate there [1]: 1.03 (1 + 0.75 w)."""
     return ENTERS * (1.0 + GOES_AROUND * felt)

@@ -13,17 +13,17 @@ import numpy as np
 
 
 def shear_modulus(youngs_modulus: Any, poissons_ratio: Any) -> Any:
-    """G = E/(2 (1 + nu)) [Pa]."""
+    """Return G = E/(2 (1 + nu)) [Pa]."""
     return youngs_modulus / (2.0 * (1.0 + poissons_ratio))
 
 
 def shear_yield(tensile_yield: Any) -> Any:
-    """Shear stress at which a body yields [Pa], sigma/sqrt(3) (Shigley, section 5-5, distortion energy)."""
+    """Return the shear stress at which a body yields [Pa], sigma/sqrt(3) (Shigley, section 5-5, distortion energy)."""
     return tensile_yield / np.sqrt(3.0)
 
 
 def mises(shear: Any) -> Any:
-    """Von Mises stress [Pa] of pure shear, 3^(1/2) tau."""
+    """Return the von Mises stress [Pa] of pure shear, 3^(1/2) tau."""
     return np.sqrt(3.0) * shear
 
 
@@ -33,12 +33,13 @@ def shaft_stiffness(modulus: Any, radius: Any, length: Any) -> Any:
 
 
 def shaft_torque(shear_yield: Any, radius: Any) -> Any:
-    """Torque [N*m] at which a round bar starts to yield at its surface, tau pi r^3/2."""
+    """Return the torque [N*m] at which a round bar starts to yield at its surface, tau pi r^3/2."""
     return 0.5 * np.pi * shear_yield * radius**3
 
 
 def hole_weakening(hole_radius: Any, circle_radius: Any, count: Any, shaft_radius: Any) -> Any:
-    """Share [1] of a shaft's polar moment that holes along it, on a circle about its axis, cost: 4 n r^2 b^2/R^4.
+    """Return the share [1] of a shaft's polar moment that holes along it, on a circle about its axis, cost: 4 n r^2
+    b^2/R^4.
 
     A hole in even shear costs twice the energy of what was bored out [T]; holes far from one another and from the rim.
     """
@@ -65,13 +66,13 @@ class Bores(NamedTuple):
     weakening: Any
     """Share [1] of its polar moment that they cost, as of `hole_weakening`."""
     depth: Any
-    """How deep they are [m]."""
+    """Depth [m]."""
     circle_radius: Any
     """Radius of the circle they stand on [m]."""
 
 
 def shorter_by_fillet(radius: Any, plate: Any, fillet: Any) -> Any:
-    """Length [m] by which a fillet at its foot makes a core shorter, on a plate of a thickness."""
+    """Return the length [m] by which a fillet at its foot makes a core shorter, on a plate of a thickness."""
     return (FILLET_SHORTENS + THIN_SHORTENS * (radius / plate) ** 2) * fillet
 
 
@@ -104,16 +105,17 @@ SHARP_FOOT, THIN_PLATE = 0.26, 0.137
 """Powers of the radius over a millimetre, and over the plate's thickness, with which it grows: torsion of a stepped
 round bar by numbers [T], radii of 5.7 to 16 mm, 1.7 to 4 times the plate's thickness, within 1.3 %."""
 BORED_FOOT = 1.41
-"""How much of the share of the polar moment that holes through the foot cost comes on top; calibrated to FE."""
+"""Rise by the share of the polar moment that holes through the foot cost; calibrated to FE."""
 NEAR_FOOT = 0.25
 """Way above the foot, over the core's radius, within which the end of a hole is felt there; calibrated likewise."""
 AMONG_VANES = 1.045
-"""How much more that is on a plate with vanes around it, which pull unevenly; with what cups the plate
+"""Factor on that for a plate with vanes around it, which pull unevenly; with what cups the plate
 (`wedge.foot_bending`), FE of 14 cores within 5 %."""
 
 
 def felt_at_foot(radius: Any, length: Any, *holes: Bores) -> Any:
-    """Share of the polar moment [1] that holes cost at a core's foot, as far as they go through it or end near it.
+    """Return the share of the polar moment [1] that holes cost at a core's foot, as far as they go through it or end
+    near it.
 
     sum w/(1 + exp((L - l)/(0.25 r))), l the depth of the holes in a core of the length L.
     """
@@ -121,7 +123,8 @@ def felt_at_foot(radius: Any, length: Any, *holes: Bores) -> Any:
 
 
 def foot_rise_on_plate(radius: Any, length: Any, plate: Any, *holes: Bores, fillet: Any = 0.0) -> Any:
-    """Rise [1] of a core's stress at its foot on a plate that drives arcs; FE of 31 sharp feet as drawn within 4 %.
+    """Return the rise [1] of a core's stress at its foot on a plate that drives arcs; FE of 31 sharp feet as drawn
+    within 4 %.
 
     0.796 (r/d)^0.26 (r/h)^0.137 (1 + 1.41 w), w as of `felt_at_foot`, a mean over the length d. In a corner of 270
     degrees of solid the stress goes with the power -1/3 of the distance [T]; what is even besides makes it 0.26. A
@@ -138,7 +141,8 @@ FELT_FILLET = 1.16
 
 
 def filleted_foot(fillet: Any) -> Any:
-    """What a fillet makes of the rise [1] of the stress at a sharp foot: (1 + (q/1.16 d)^6)^(-0.26/6), d a millimetre.
+    """Return what a fillet makes of the rise [1] of the stress at a sharp foot: (1 + (q/1.16 d)^6)^(-0.26/6), d a
+    millimetre.
 
     Of both feet the highest mean over the length d along the surface counts. A fillet that is small against d leaves
     that as it is; along one that is large it is the peak, which goes with the power -0.26 of q, as the mean beside a
@@ -148,7 +152,7 @@ def filleted_foot(fillet: Any) -> Any:
 
 
 def bent_at_fillet(diameter: Any, fillet: Any) -> Any:
-    """Rise [1] of the bending stress at the fillet of a round bar on a far wider one, 0.879 (q/d)^-0.332.
+    """Return the rise [1] of the bending stress at the fillet of a round bar on a far wider one, 0.879 (q/d)^-0.332.
 
     Peterson's chart for a shoulder of 6 times the diameter, fitted by Norton (Machine Design, fig. C-2); at least 1.
     """
@@ -156,12 +160,14 @@ def bent_at_fillet(diameter: Any, fillet: Any) -> Any:
 
 
 def foot_rise_among_vanes(radius: Any, length: Any, plate: Any, *holes: Bores, fillet: Any = 0.0) -> Any:
-    """Rise [1] of a core's stress at its foot on a plate with vanes, 1.045 times that on one that drives arcs."""
+    """Return the rise [1] of a core's stress at its foot on a plate with vanes, 1.045 times that on one that drives
+    arcs."""
     return AMONG_VANES * foot_rise_on_plate(radius, length, plate, *holes, fillet=fillet)
 
 
 def bored_shaft_torque(shear_yield: Any, radius: Any, foot: Any, *holes: Bores) -> Any:
-    """Torque [N*m] at which a round bar with holes that stands on a plate starts to yield: at its foot, or at a hole.
+    """Return the torque [N*m] at which a round bar with holes that stands on a plate starts to yield: at its foot, or
+    at a hole.
 
     tau pi r^3/2 over the larger of the rise at the `foot` and, of each set of holes, max(1, 2 b/r)/(1 - w): beside a
     hole on the circle b the shear is doubled [T]. Sets that stand between one another shield each other and count
@@ -175,22 +181,22 @@ def bored_shaft_torque(shear_yield: Any, radius: Any, foot: Any, *holes: Bores) 
 
 
 def ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, outer_radius: Any) -> Any:
-    """Flat ring turned in its plane, inner edge against outer edge, 4 pi G h/(1/a^2 - 1/b^2) [N*m/rad]."""
+    """Return the flat ring turned in its plane, inner edge against outer edge, 4 pi G h/(1/a^2 - 1/b^2) [N*m/rad]."""
     return 4.0 * np.pi * modulus * thickness / (inner_radius**-2 - outer_radius**-2)
 
 
 PLATE_ENTRY = 0.38
-"""How 1/a^2 rises with (h/a)^2 as the torque enters a plate from its face: torsion of a stepped round bar, solved by
+"""Rise of 1/a^2 with (h/a)^2 as the torque enters a plate from its face: torsion of a stepped round bar, solved by
 numbers [T], gives 0.35 to 0.40 for plates 0.25 to 1 of the core's radius thick."""
 BORED_ENTRY = 0.2
-"""How 1/a^2 rises besides with the share of the core's polar moment that holes cost at its foot; calibrated to
+"""Rise of 1/a^2 besides with the share of the core's polar moment that holes cost at its foot; calibrated to
 validation/fe_structure."""
 
 
 def plate_stiffness(
     modulus: Any, thickness: Any, core_radius: Any, inner_radius: Any, felt: Any = 0.0, fillet: Any = 0.0
 ) -> Any:
-    """Plate turned by a core that stands on it, out to the inner edge of what it drives [N*m/rad].
+    """Return the plate turned by a core that stands on it, out to the inner edge of what it drives [N*m/rad].
 
     1/K = ((1 + 0.38 (h/a)^2 + 0.2 w)/a^2 - 1/b^2)/(4 pi G h) + (0.136 - 0.023 q a/h^2) q/(G J): the torque spreads over
     the plate's thickness as it enters, goes around holes on its way, w of `felt_at_foot`, and out through a fillet q
@@ -203,7 +209,7 @@ def plate_stiffness(
 
 
 def covered_ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, outer_radius: Any, covered: Any) -> Any:
-    """Ring of a plate that is driven on the share c of its circle, sqrt(c) of the whole ring's [N*m/rad].
+    """Return the ring of a plate that is driven on the share c of its circle, sqrt(c) of the whole ring's [N*m/rad].
 
     The root is calibrated to validation/fe_structure, c 0.25 to 0.89: the plate beside an arc helps along.
     """
@@ -211,7 +217,8 @@ def covered_ring_stiffness(modulus: Any, thickness: Any, inner_radius: Any, oute
 
 
 def evenly_relieved(inner_radius: Any, outer_radius: Any) -> Any:
-    """Compliance of a ring over that of the same turned inner edge against outer [1], relieved by a stiff layer.
+    """Return the compliance of a ring over that of the same turned inner edge against outer [1], relieved by a stiff
+    layer.
 
     The layer takes the torque over with a traction in proportion to the radius, so that M = T (b^4 - r^4)/(b^4 - a^4)
     is left at r; the mean of (M/T)^2 over dr/r^3.
@@ -222,7 +229,7 @@ def evenly_relieved(inner_radius: Any, outer_radius: Any) -> Any:
 
 
 def face_compliance(modulus: Any, thickness: Any, polar: Any) -> Any:
-    """What a plate gives over its own thickness, driven on one face [rad/(N*m)]: h/(3 G J).
+    """Return what a plate gives over its own thickness, driven on one face [rad/(N*m)]: h/(3 G J).
 
     The shear falls from the traction to nothing at the other face, so a third of the thickness counts; J is the polar
     moment of what drives it. Source: the energy of a shear that falls evenly [T].
@@ -236,7 +243,7 @@ E r^3 of a half-space; calibrated to validation/fe_structure."""
 
 
 def foot_tilt(radius: Any, bore_radius: Any, height: Any, floor: Any) -> Any:
-    """Rise [1] of a foot's compliance in bending as the floor above lets it turn: 1 built in, 4 free to.
+    """Return the rise [1] of a foot's compliance in bending as the floor above lets it turn: 1 built in, 4 free to.
 
     1 + 3/(1 + c), c = 0.34 r t^2 h/I, a floor of the thickness t of what the foot is made of: a beam built in below,
     with a spring against turning above [B].
@@ -248,7 +255,8 @@ def foot_tilt(radius: Any, bore_radius: Any, height: Any, floor: Any) -> Any:
 def foot_stiffness(
     youngs_modulus: Any, shear_modulus: Any, radius: Any, bore_radius: Any, height: Any, tilt: Any = 1.0
 ) -> Any:
-    """Sideways stiffness of a bored round foot, built in below, and above too but for its `foot_tilt` q [N/m].
+    """Return the sideways stiffness of a bored round foot, built in below, and above too but for its `foot_tilt` q
+    [N/m].
 
     1/k = q h^3/(12 E I) + h/(0.9 G A), [B].
     """
@@ -258,7 +266,7 @@ def foot_stiffness(
 
 
 def foot_bending_stress(force: Any, radius: Any, bore_radius: Any, height: Any, tilt: Any = 1.0) -> Any:
-    """Largest bending stress of such a foot under a sideways force at its upper end, at its lower end [Pa].
+    """Return the largest bending stress of such a foot under a sideways force at its upper end, at its lower end [Pa].
 
     M r/I with M = F h (q + 2)/6: a beam built in below has M = F h where its upper end turns as it likes (q = 4), F h/2
     where that is held (q = 1). A spring against turning there, c = k h/(E I), takes F h c/(2 (1 + c)) off, and the
@@ -269,7 +277,7 @@ def foot_bending_stress(force: Any, radius: Any, bore_radius: Any, height: Any, 
 
 
 def pocketed_thickness(thickness: Any, count: Any, radius: Any, depth: Any, circle_radius: Any) -> Any:
-    """Mean thickness [m] of a floor along a circle on which round pockets stand, t - n r d/(pi R); geometry.
+    """Return the mean thickness [m] of a floor along a circle on which round pockets stand, t - n r d/(pi R); geometry.
 
     Sheets of unlike thickness side by side that turn by the same angle bear in proportion to it.
     """
@@ -277,7 +285,7 @@ def pocketed_thickness(thickness: Any, count: Any, radius: Any, depth: Any, circ
 
 
 def spot_stiffness(modulus: Any, poissons_ratio: Any, thickness: Any, radius: Any, reach: Any) -> Any:
-    """Sheet pushed in its plane on a round spot at its edge [N/m]: 4 pi G h/((3 - nu) ln(l/r)).
+    """Return the sheet pushed in its plane on a round spot at its edge [N/m]: 4 pi G h/((3 - nu) ln(l/r)).
 
     A force within a wide sheet moves what is near by (3 - nu) F ln(l/r)/(8 pi G h) against what lies at the `reach` l
     [T]; at a free edge, where half of the sheet is missing, it counts twice.
@@ -286,7 +294,8 @@ def spot_stiffness(modulus: Any, poissons_ratio: Any, thickness: Any, radius: An
 
 
 def hoop_compliance(youngs_modulus: Any, section: Any, length: Any, count: Any, radius: Any) -> Any:
-    """Ledges along a circle that hand what they are pushed along with over at both ends [rad/(N*m)]: L/(12 E A n r^2).
+    """Return the ledges along a circle that hand what they are pushed along with over at both ends [rad/(N*m)]: L/(12 E
+    A n r^2).
 
     Each of n is a bar of the section A and the length L, pushed evenly: half of it is stretched, half pressed [B].
     """
@@ -294,7 +303,8 @@ def hoop_compliance(youngs_modulus: Any, section: Any, length: Any, count: Any, 
 
 
 def under_ledges_compliance(seats: tuple[Any, Any], between: Any, beyond: Any) -> Any:
-    """Floor below pads or tiles that lie on an inner and an outer ledge around a window [rad/(N*m)]: s^2 C_b + C_o.
+    """Return the floor below pads or tiles that lie on an inner and an outer ledge around a window [rad/(N*m)]: s^2 C_b
+    + C_o.
 
     The inner ledge bears the share s = c_2/(c_1 + c_2 + C_b) of the torque: its way out to the other ledge goes through
     what gives by `between`, the ledge as a hoop and the ribs beside the windows. `seats` are the compliances c of what
@@ -306,7 +316,7 @@ def under_ledges_compliance(seats: tuple[Any, Any], between: Any, beyond: Any) -
 
 
 def footed_floor_stiffness(ring: Any, spot: Any, foot: Any, count: Any, foot_radius: Any) -> Any:
-    """Floor with feet on a circle [N*m/rad]: 1/K = 1/K_ring + (1/k_spot + 1/k)/(n r^2).
+    """Return the floor with feet on a circle [N*m/rad]: 1/K = 1/K_ring + (1/k_spot + 1/k)/(n r^2).
 
     `ring` is the floor's stiffness from the PCL's rim to the feet, `spot` that of the floor around a foot in its plane,
     `foot` that of a foot sideways [N/m]. With `under_ledges_compliance` in series and the `pocketed_thickness` of the
@@ -320,7 +330,8 @@ FLANGE_SPREAD = 1.4
 
 
 def flanged_floor_stiffness(modulus: Any, whole: Any, web: Any, flange: tuple[Any, Any], height: Any) -> Any:
-    """Floor that hands its torque to a tube under it [N*m/rad]: 1/K = 1/K_whole + 1.4/K_web + 2 h/(pi G (b^4 - a^4)).
+    """Return the floor that hands its torque to a tube under it [N*m/rad]: 1/K = 1/K_whole + 1.4/K_web + 2 h/(pi G (b^4
+    - a^4)).
 
     `whole` is its ring between tube and layer, `web` what is left of it below the layer; the tube's radii are a and b,
     its height is h. FE of a printed and a milled shear module: within 25 %.
@@ -340,7 +351,8 @@ LEVER_LOCAL = -1.1
 def lever_stiffness(
     youngs_modulus: Any, shear_modulus: Any, width: Any, thickness: Any, length: Any, clamped_radius: Any
 ) -> Any:
-    """Lever clamped on a round face, pushed sideways at its end: torque over the end's way over its length [N*m/rad].
+    """Return the lever clamped on a round face, pushed sideways at its end: torque over the end's way over its length
+    [N*m/rad].
 
     d/F = l^3/(3 E I) + 1.2 l/(G A) - 1.1/(E t), l = L - 0.55 r + 0.91 t [B]; K = L^2 F/d. FE of 13 links: within 3 %.
     """
@@ -351,12 +363,13 @@ def lever_stiffness(
 
 
 def series(*stiffnesses: Any) -> Any:
-    """Stiffness of springs in series, 1/K = sum 1/K_i [N*m/rad]."""
+    """Return the stiffness of springs in series, 1/K = sum 1/K_i [N*m/rad]."""
     return 1.0 / sum(1.0 / stiffness for stiffness in stiffnesses)
 
 
 def overhung_load(force: Any, height: Any, spread: Any) -> Any:
-    """Load [N] on the nearer of two bearings, `spread` [m] apart, of a force `height` [m] beyond it: F (1 + h/s).
+    """Return the load [N] on the nearer of two bearings, `spread` [m] apart, of a force `height` [m] beyond it: F (1 +
+    h/s).
 
     Source: statics, moments about the farther bearing.
     """

@@ -14,7 +14,7 @@ SHEAR_COEFFICIENT = 5.0 / 6.0  # rectangular section [T]
 
 
 class Footing(NamedTuple):
-    """What a vane stands on, and how that differs from a rigid root; calibrated to validation/fe_structure."""
+    """Support of a vane, and its difference from a rigid root; calibrated to validation/fe_structure."""
 
     thickness: Any
     """Thickness of the plate or floor [m]."""
@@ -23,11 +23,11 @@ class Footing(NamedTuple):
     spread: float
     """The vane's own compliance over that of an evenly pressed cantilever, with nothing bonded to it."""
     give: float
-    """How much the root gives sideways, times E w and over the vane's thickness by the plate's."""
+    """Sideways compliance of the root, times E w and over the vane's thickness by the plate's."""
     bend: float
-    """How much it turns as both strips bend, over what strips as wide as vane and rim would: 2 where all are so."""
+    """Turn of the root as both strips bend, over what strips as wide as vane and rim would: 2 where all are so."""
     rim: Any = 0.0
-    """How far plate or floor reaches beyond the vane's outer end, and bends with its strips [m]."""
+    """Reach of plate or floor beyond the vane's outer end, and bends with its strips [m]."""
 
 
 ROTOR_SPREAD = 0.787
@@ -35,24 +35,26 @@ ROTOR_SPREAD = 0.787
 
 
 def on_plate(thickness: Any, strip: Any, rim: Any) -> Footing:
-    """A vane that hangs from the rotor's plate, its rim beyond it; with the plate and `wedge`, FE of 14 modules within
-    4 %."""
+    """Return a vane that hangs from the rotor's plate, its rim beyond it; with the plate and `wedge`, FE of 14 modules
+    within 4 %."""
     return Footing(thickness, strip, ROTOR_SPREAD, 1.11, 2.26, rim)
 
 
 def on_floor(thickness: Any, strip: Any) -> Footing:
-    """A vane that stands on the floor, slotted, its pad beside it; with the floor, FE of 14 modules within 5 %."""
+    """Return a vane that stands on the floor, slotted, its pad beside it; with the floor, FE of 14 modules within 5
+    %."""
     return Footing(thickness, strip, 1.25, 0.217, 2.14)
 
 
 def strip_beside(radius: Any, count: Any, thickness: Any) -> Any:
-    """Length [m] from a vane's face to halfway to the next one, pi r/n - t/2, of evenly spaced vanes on a circle."""
+    """Return the length [m] from a vane's face to halfway to the next one, pi r/n - t/2, of evenly spaced vanes on a
+    circle."""
     return np.pi * radius / count - 0.5 * thickness
 
 
 SHEARED, TILTED = 0.0818, 3.16
-"""How much of a block resists as its vanes shear it, whose upper and lower faces are free, and as they squeeze it more
-at one end than at the other, over a row of free bars, whose sides are not; calibrated likewise."""
+"""Share of a block that resists as its vanes shear it, whose upper and lower faces are free, and as they squeeze it
+more at one end than at the other, over a row of free bars, whose sides are not; calibrated likewise."""
 
 
 class BlockBetween(NamedTuple):
@@ -65,47 +67,47 @@ class BlockBetween(NamedTuple):
     face: tuple[Any, Any]
     """Width and height [m]."""
     free: Any
-    """How far from the vanes' roots it begins [m]."""
+    """Distance of its start from the vanes' roots [m]."""
 
     @property
     def arm(self) -> Any:
-        """Distance of its middle from the roots [m]."""
+        """Return the distance of its middle from the roots [m]."""
         return self.free + 0.5 * self.face[1]
 
     @property
     def depth(self) -> Any:
-        """How far the vanes' faces are apart [m]."""
+        """Return how far the vanes' faces are apart [m]."""
         return sum(self.depths)
 
     @property
     def softness(self) -> Any:
-        """What block and pad give per shear stress, one behind the other [m/Pa]."""
+        """Return what block and pad give per shear stress, one behind the other [m/Pa]."""
         return self.depths[0] / self.moduli[0] + self.depths[1] / self.moduli[1]
 
     @property
     def sheared(self) -> Any:
-        """Twice the energy [N*m] of block and pad at an even shear of one: G V of one material."""
+        """Return twice the energy [N*m] of block and pad at an even shear of one: G V of one material."""
         return SHEARED * self.face[0] * self.face[1] * self.depth**2 / self.softness
 
     @property
     def tilted(self) -> Any:
-        """Moment [N*m/rad] between vanes that lean unlike: 3 G w b^3/(12 d) of one material."""
+        """Return the moment [N*m/rad] between vanes that lean unlike: 3 G w b^3/(12 d) of one material."""
         return TILTED * 3.0 * self.face[0] * self.face[1] ** 3 / 12.0 / self.softness
 
 
 class Vane(NamedTuple):
-    """How one vane gives at the middle of its block [m/N]."""
+    """Compliance of one vane at the middle of its block [m/N]."""
 
     leaning: Any
     """As it leans: it bends, and its root turns."""
     aside: Any
     """As its root is pushed aside."""
     thickness: Any
-    """How thick it is [m]."""
+    """Thickness [m]."""
 
 
 def stiffness(youngs_modulus: Any, shear_modulus: Any, width: Any, thickness: Any, height: Any, free: Any = 0.0) -> Any:
-    """Force over the face's mean deflection of an evenly pressed cantilever [N/m] on a rigid root, 1/C.
+    """Return the force over the face's mean deflection of an evenly pressed cantilever [N/m] on a rigid root, 1/C.
 
     The pressure acts over the `height` b beyond a length g at the root that is `free` of it:
     C = (g^3/3 + b g^2/2 + b^2 g/4 + b^3/20)/(E I) + (g + b/3)/(kappa G A), I = w t^3/12, A = w t, kappa = 5/6 [T].
@@ -117,7 +119,7 @@ def stiffness(youngs_modulus: Any, shear_modulus: Any, width: Any, thickness: An
 
 
 def on_footing(moduli: tuple[Any, Any], section: tuple[Any, Any], block: BlockBetween, footing: Footing) -> Vane:
-    """How a vane on a plate of the thickness h gives: leaning c C + q a^2 l/(E (w + m) h^3), aside r t/(h E w).
+    """Return how a vane on a plate of the thickness h gives: leaning c C + q a^2 l/(E (w + m) h^3), aside r t/(h E w).
 
     C is that of `stiffness`, `moduli` are E and G [Pa], `section` is its width w and thickness t [m]; c, r, q, l and
     the rim m are those of its `Footing`. The moment at its root bends the plate to both sides, out to where it does not
@@ -131,7 +133,7 @@ def on_footing(moduli: tuple[Any, Any], section: tuple[Any, Any], block: BlockBe
 
 
 def compliance(vane: Vane, other: Vane, block: BlockBetween) -> Any:
-    """What a vane gives under its block [m/N]: a^2 (k_22 - k_12)/(k_11 k_22 - k_12^2) + its `aside`.
+    """Return what a vane gives under its block [m/N]: a^2 (k_22 - k_12)/(k_11 k_22 - k_12^2) + its `aside`.
 
     Rotor's and housing's vanes have their roots at opposite ends, so a force between them leans both to the same side.
     A block that is bonded to both keeps them from that. As they lean by f_1 and f_2, their faces move along them as
@@ -139,10 +141,10 @@ def compliance(vane: Vane, other: Vane, block: BlockBetween) -> Any:
     its depth d, and squeezed more at one end by f_1 - f_2: k_ii = a^2/A_i + g_i^2 S + M and k_12 = g_1 g_2 S - M with
     its `sheared` S and `tilted` M, A how a vane leans. Source: equilibrium of both vanes' moments.
     """
-    shares = [0.5 * (1.0 + one.thickness / block.depth) for one in (vane, other)]
+    shares = [0.5 * (1.0 + side.thickness / block.depth) for side in (vane, other)]
     own, beyond = (
-        block.arm**2 / one.leaning + share**2 * block.sheared + block.tilted
-        for one, share in zip((vane, other), shares, strict=True)
+        block.arm**2 / side.leaning + share**2 * block.sheared + block.tilted
+        for side, share in zip((vane, other), shares, strict=True)
     )
     between = shares[0] * shares[1] * block.sheared - block.tilted
     return block.arm**2 * (beyond - between) / (own * beyond - between**2) + vane.aside

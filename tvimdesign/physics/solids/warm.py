@@ -18,7 +18,7 @@ REFERENCE = 296.15
 
 
 class Softening(NamedTuple):
-    """How a material's modulus and loss change with temperature."""
+    """Change of a material's modulus and loss with temperature."""
 
     slope: Any
     """Fall of ln E below the step [1/K]."""
@@ -35,12 +35,12 @@ class Softening(NamedTuple):
 
 
 def step(temperature: Any, law: Softening) -> Any:
-    """Share of the step that is done, 1/(1 + exp(-(T - T_s)/w)) [1]."""
+    """Return the share of the step that is done, 1/(1 + exp(-(T - T_s)/w)) [1]."""
     return 1.0 / (1.0 + np.exp(-(temperature - law.temperature) / law.width))
 
 
 def modulus_share(temperature: Any, law: Softening) -> Any:
-    """Modulus at a temperature [K] over that at 23 degC [1], smooth and above zero everywhere.
+    """Return the modulus at a temperature [K] over that at 23 degC [1], smooth and above zero everywhere.
 
     ln(E/E_23) = -a (T - T_23) + ln(share) (L(T) - L(T_23)), L as of `step`.
     """
@@ -49,19 +49,20 @@ def modulus_share(temperature: Any, law: Softening) -> Any:
 
 
 def loss_factor(temperature: Any, law: Softening) -> Any:
-    """Loss factor at a temperature [K], eta_0 + (eta_p - eta_0) 4 L (1 - L) [1]."""
+    """Return the loss factor at a temperature [K], eta_0 + (eta_p - eta_0) 4 L (1 - L) [1]."""
     done = step(temperature, law)
     return law.loss_factor + (law.peak_loss_factor - law.loss_factor) * 4.0 * done * (1.0 - done)
 
 
 def complex_modulus(temperature: Any, law: Softening) -> tuple[Any, Any]:
-    """Real and imaginary part of E*(T)/E(23 degC) [1]."""
+    """Return the real and imaginary part of E*(T)/E(23 degC) [1]."""
     share = modulus_share(temperature, law)
     return share, share * loss_factor(temperature, law)
 
 
 def series(parts: Iterable[tuple[Any, Any, Any]]) -> tuple[Any, Any]:
-    """Real and imaginary stiffness [N*m/rad] of parts in series: (compliance at 23 degC, Re and Im of E*/E_23) each.
+    """Return the real and imaginary stiffness [N*m/rad] of parts in series: (compliance at 23 degC, Re and Im of
+    E*/E_23) each.
 
     1/K* = sum c/(E*/E_23). A part that is not there has a compliance of zero.
     """

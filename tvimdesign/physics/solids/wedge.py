@@ -27,11 +27,11 @@ class PlateAround(NamedTuple):
     radius: Any
     """Of the vanes' middle [m]."""
     count: Any
-    """How many vanes hang from it."""
+    """Number of vanes that hang from it."""
 
 
 class Sideways(NamedTuple):
-    """How a vane gives, with its plate, to what does not press on its face."""
+    """Compliance of a vane, with its plate, to loads that do not press on its face."""
 
     along: Any
     """To a force along its width [m/N]."""
@@ -40,7 +40,8 @@ class Sideways(NamedTuple):
 
 
 def torsion_constant(width: Any, thickness: Any) -> Any:
-    """J [m^4] of a rectangular section, a b^3 (1/3 - 0.21 (b/a) (1 - b^4/(12 a^4))), a >= b: within 5 in 1000 [R]."""
+    """Return J [m^4] of a rectangular section, a b^3 (1/3 - 0.21 (b/a) (1 - b^4/(12 a^4))), a >= b: within 5 in 1000
+    [R]."""
     long, short = np.fmax(width, thickness), np.fmin(width, thickness)
     return long * short**3 * (1.0 / 3.0 - 0.21 * short / long * (1.0 - short**4 / (12.0 * long**4)))
 
@@ -48,7 +49,7 @@ def torsion_constant(width: Any, thickness: Any) -> Any:
 def sideways(
     moduli: tuple[Any, Any], section: tuple[Any, Any], block: vane.BlockBetween, spread: Any, plate: PlateAround
 ) -> Sideways:
-    """How a vane gives to a force along its width w and to a moment about its height.
+    """Return how a vane gives to a force along its width w and to a moment about its height.
 
     Along: c C' + a^2 12 n ln(r/R)/(2 pi E h^3), C' that of `vane.stiffness` with width and thickness in each other's
     place. The n vanes bend the plate evenly around, a moment n M/(2 pi r) on each length, from R to r [T]. Twisted:
@@ -65,7 +66,7 @@ def sideways(
 
 
 def lean_out(block: vane.BlockBetween, side: Sideways, thickness: Any, radius: Any) -> Any:
-    """Angle [rad] between a vane's face and what a block's force stands across, at the vane's middle.
+    """Return the angle [rad] between a vane's face and what a block's force stands across, at the vane's middle.
 
     A force F that stands across the radius at the angle x from the vane's middle pushes the vane along its width by
     F x. The block's span s begins half the vane's angle v = t/(2 r) away: its middle is sheared by F (x - v - s/2), the
@@ -80,7 +81,7 @@ def lean_out(block: vane.BlockBetween, side: Sideways, thickness: Any, radius: A
 
 
 def compliance(across: Any, side: Sideways, angle: Any, radius: Any) -> Any:
-    """What a vane gives at the mean radius under a force that leans out [m/N].
+    """Return what a vane gives at the mean radius under a force that leans out [m/N].
 
     cos^2 x of what it gives across, sin^2 x of what it does along, and (r (1 - cos x))^2 of what it does twisted: the
     force is a radius r from the axis, its part across the vane's middle bears r cos x of that. Source: the work of the
@@ -91,7 +92,7 @@ def compliance(across: Any, side: Sideways, angle: Any, radius: Any) -> Any:
 
 
 def foot_bending(angle: Any, arm: Any, core_radius: Any, plate: PlateAround) -> Any:
-    """What cupping the plate adds to a core's stress at its foot, over that of the plain core in torsion [1].
+    """Return what cupping the plate adds to a core's stress at its foot, over that of the plain core in torsion [1].
 
     The plate bears n M/(2 pi R) on each length around the core, M = F a sin x under F = T/(n r): a stress of
     6 T a sin x/(2 pi r R h^2) [T]. Over sqrt(3) 2 T/(pi R^3), of the plain core by Mises: (sqrt(3)/2) (a/r) sin x
@@ -101,7 +102,8 @@ def foot_bending(angle: Any, arm: Any, core_radius: Any, plate: PlateAround) -> 
 
 
 def stress_of_twist(width: Any, thickness: Any) -> Any:
-    """Highest shear stress in a rectangular section over the moment that twists it [1/m^3]: amid a long side.
+    """Return the highest shear stress in a rectangular section over the moment that twists it [1/m^3]: amid a long
+    side.
 
     3/(8 a b^2) (1 + 0.6095 q + 0.8865 q^2 - 1.8023 q^3 + 0.91 q^4), a >= b half of its sides, q = b/a [R].
     """
@@ -111,7 +113,7 @@ def stress_of_twist(width: Any, thickness: Any) -> Any:
 
 
 def force_at_yield(strength: Any, section: tuple[Any, Any], arm: Any, angle: Any = 0.0, radius: Any = 0.0) -> Any:
-    """Force [N] at a distance from a vane's root at which the root yields, leaning out by an angle [rad].
+    """Return the force [N] at a distance from a vane's root at which the root yields, leaning out by an angle [rad].
 
     It bends the root both ways, 6 F a (cos x/(w t^2) + sin x/(w^2 t)), shears it by F/(w t) on the mean and twists it
     by F r (1 - cos x) (`stress_of_twist`): all taken at one point, which is safe, by Mises [T]. `section` is w and t.

@@ -38,12 +38,12 @@ class DrawnSpring(NamedTuple):
 
 
 def leg_rise(spring: DrawnSpring) -> Any:
-    """Height of the pin's force above the coil's end [m]: the leg keeps rising as the coil does."""
+    """Return the height of the pin's force above the coil's end [m]: the leg keeps rising as the coil does."""
     return spring.pitch / (np.pi * spring.coil_diameter) * spring.arm
 
 
 def bending_length(spring: DrawnSpring, poissons_ratio: Any) -> Any:
-    """Straight wire [m] that turns as far under the same moment: the rate is E I over it [T].
+    """Return the straight wire [m] that turns as far under the same moment: the rate is E I over it [T].
 
     Sum over coil, leg and bend of the integral of (m/a)^2 ds, m the bending moment of a unit force, torsion (1 + nu)
     times as much. The wire's slope along the coil is left out.
@@ -53,12 +53,12 @@ def bending_length(spring: DrawnSpring, poissons_ratio: Any) -> Any:
 
 
 def active_coils(spring: DrawnSpring, poissons_ratio: Any) -> Any:
-    """Coils without a leg that are as soft as the drawn spring [1]."""
+    """Return the coils without a leg that are as soft as the drawn spring [1]."""
     return bending_length(spring, poissons_ratio) / (np.pi * spring.coil_diameter)
 
 
 def active_coils_by_couple(body_coils: Any, coil_diameter: Any, leg_length: Any) -> Any:
-    """Coils that bend where both legs are clamped and turned by a couple, n_b + (L1 + L2)/(pi D) [1].
+    """Return the coils that bend where both legs are clamped and turned by a couple, n_b + (L1 + L2)/(pi D) [1].
 
     The moment is the same all along the wire, so that a leg counts with its whole length, three times what it does
     under a force at its end [T]; `leg_length` is L1 + L2 [m].
@@ -67,7 +67,7 @@ def active_coils_by_couple(body_coils: Any, coil_diameter: Any, leg_length: Any)
 
 
 def coil_stress_factor(spring: DrawnSpring, curvature_factor: Any) -> Any:
-    """Largest stress in the coil over that of the moment F a in a straight wire [1].
+    """Return the largest stress in the coil over that of the moment F a in a straight wire [1].
 
     The moment about the axis is largest, F (a + R), where the coil reaches furthest from the pin; the tilting moment is
     that at the coil's far end, and adds at a right angle. The curvature raises both alike (FE: within 4 %).
@@ -77,7 +77,8 @@ def coil_stress_factor(spring: DrawnSpring, curvature_factor: Any) -> Any:
 
 
 def bend_stress_factor(spring: DrawnSpring) -> Any:
-    """Largest equivalent stress (von Mises) in the bend into the tang, over that of F a in a straight wire [1].
+    """Return the largest equivalent stress (von Mises) in the bend into the tang, over that of F a in a straight wire
+    [1].
 
     Bending in the bend's plane has the handbook's inner-fibre factor for its index, all else a calibrated one. The
     stress is largest at one end or the other, at the coil or at the floor; the two join smoothly.
@@ -91,30 +92,32 @@ def bend_stress_factor(spring: DrawnSpring) -> Any:
 
 
 def _stress_squared(spring: DrawnSpring, in_plane: Any, across: Any, twisting: Any) -> Any:
-    """Square of the equivalent stress of three moments of a unit force [m], in units of that of bending [m^2]."""
+    """Return the square of the equivalent stress of three moments of a unit force [m], in units of that of bending
+    [m^2]."""
     curved = inner_fibre_factor(2.0 * spring.bend_radius / spring.wire_diameter)
     return (curved * in_plane) ** 2 + BEND_ACROSS**2 * (across**2 + 0.75 * twisting**2)
 
 
 def _lever(spring: DrawnSpring) -> Any:
-    """Arm of the pin's force about the coil's start, along the leg [m]."""
+    """Return the arm of the pin's force about the coil's start, along the leg [m]."""
     return spring.arm + 0.5 * spring.coil_diameter * np.sin(spring.wound)
 
 
 def _height(spring: DrawnSpring) -> Any:
-    """Height of the pin's force above the coil's start [m]."""
+    """Return the height of the pin's force above the coil's start [m]."""
     return leg_rise(spring) + spring.pitch / (2.0 * np.pi) * spring.wound
 
 
 def _coil(spring: DrawnSpring) -> Any:
-    """Integral of (a + R sin f)^2 R df over the coil [m^3]."""
+    """Return the integral of (a + R sin f)^2 R df over the coil [m^3]."""
     radius, arm, angle = 0.5 * spring.coil_diameter, spring.arm, spring.wound
     even = arm**2 * angle + radius**2 * (0.5 * angle - 0.25 * np.sin(2.0 * angle))
     return radius * (even + 2.0 * arm * radius * (1.0 - np.cos(angle)))
 
 
 def _tilt(spring: DrawnSpring, poissons_ratio: Any) -> Any:
-    """Integral of z^2 (sin^2 f + (1 + nu) cos^2 f) R df over the coil [m^3], z = z0 + c f below the force."""
+    """Return the integral of z^2 (sin^2 f + (1 + nu) cos^2 f) R df over the coil [m^3], z = z0 + c f below the
+    force."""
     first, climb = leg_rise(spring), spring.pitch / (2.0 * np.pi)
     last = first + climb * spring.wound
     double = 2.0 * spring.wound
@@ -126,7 +129,7 @@ def _tilt(spring: DrawnSpring, poissons_ratio: Any) -> Any:
 
 
 def _bend(spring: DrawnSpring, poissons_ratio: Any) -> Any:
-    """Integral over the quarter bend, from the coil's tangent down into the tang [m^3].
+    """Return the integral over the quarter bend, from the coil's tangent down into the tang [m^3].
 
     At the angle t along the bend of radius r the force has the lever l + r cos(w) sin t and the height
     h + r (1 - cos t), w the wound angle. The two moments bend the wire but for the part along it,

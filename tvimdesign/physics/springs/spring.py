@@ -19,7 +19,7 @@ _MILLIMETRE = 1e-3
 def rate(
     youngs_modulus: Any, wire_diameter: Any, coil_diameter: Any, active_coils: Any, model: RateModel = "bending"
 ) -> Any:
-    """Torque per angle of a round-wire torsion spring [N*m/rad].
+    """Return the torque per angle of a round-wire torsion spring [N*m/rad].
 
     `bending`: k = E d^4 / (64 D n), pure bending [S eq. 10-50]. `smi`: the handbook's E d^4 / (10.8 D n) per turn
     [S eq. 10-51], which counts the friction between coils and is 6 % softer.
@@ -37,27 +37,27 @@ def active_coils(body_coils: Any, coil_diameter: Any, bending_leg_length: Any) -
 
 
 def spring_index(wire_diameter: Any, coil_diameter: Any) -> Any:
-    """C = D/d [1]; cold coiling wants 4 <= C <= 20 [E]."""
+    """Return C = D/d [1]; cold coiling wants 4 <= C <= 20 [E]."""
     return coil_diameter / wire_diameter
 
 
 def inner_fibre_factor(index: Any) -> Any:
-    """Stress concentration at the inner fibre, K_bi = (4C^2 - C - 1)/(4C(C - 1)) [S eq. 10-43]."""
+    """Return the stress concentration at the inner fibre, K_bi = (4C^2 - C - 1)/(4C(C - 1)) [S eq. 10-43]."""
     return (4.0 * index**2 - index - 1.0) / (4.0 * index * (index - 1.0))
 
 
 def inner_fibre_factor_en(index: Any) -> Any:
-    """EN 13906-3 stress correction q = (C + 0.07)/(C - 0.75) [E]."""
+    """Return EN 13906-3 stress correction q = (C + 0.07)/(C - 0.75) [E]."""
     return (index + 0.07) / (index - 0.75)
 
 
 def bending_stress(torque: Any, wire_diameter: Any, factor: Any) -> Any:
-    """Stress at the inner fibre, sigma = K 32 M/(pi d^3) [Pa] [S eq. 10-44]."""
+    """Return the stress at the inner fibre, sigma = K 32 M/(pi d^3) [Pa] [S eq. 10-44]."""
     return factor * 32.0 * torque / (np.pi * wire_diameter**3)
 
 
 def tensile_strength(wire_diameter: Any, strength: Sequence[tuple[float, float]]) -> Any:
-    """S_ut = A/d^m [Pa], d in mm [S eq. 10-14, table 10-4].
+    """Return S_ut = A/d^m [Pa], d in mm [S eq. 10-14, table 10-4].
 
     `strength` holds (A [Pa], m) for each diameter range. The least of the curves is taken: they cross close to where
     the ranges meet (302 stainless at 2.37 and 4.94 mm for 2.5 and 5 mm), so it is at most 0.6 % low.
@@ -71,7 +71,7 @@ def tensile_strength(wire_diameter: Any, strength: Sequence[tuple[float, float]]
 
 
 def wound_coil_diameter(coil_diameter: Any, wire_diameter: Any, yield_strength: Any, youngs_modulus: Any) -> Any:
-    """Mean diameter [m] of a coil on its mandrel that springs back to `coil_diameter` once it is let go.
+    """Return the mean diameter [m] of a coil on its mandrel that springs back to `coil_diameter` once it is let go.
 
     Cold wound, the whole section of the wire yields: its plastic moment is s d^3/6 [T]. Let go, the curvature falls by
     that moment over E I: D_w = D/(1 + (16/(3 pi)) C s/E), C the spring index and s the stress of the yielding wire,
@@ -82,7 +82,8 @@ def wound_coil_diameter(coil_diameter: Any, wire_diameter: Any, yield_strength: 
 
 
 def endurance_strength(tensile: Any, strength_ratio: Any) -> Any:
-    """Gerber-equivalent endurance limit [Pa] from the repeated-bending strength S_r = ratio * S_ut [S eq. 10-58].
+    """Return the gerber-equivalent endurance limit [Pa] from the repeated-bending strength S_r = ratio * S_ut [S eq.
+    10-58].
 
     S_e = (S_r/2)/(1 - (S_r/(2 S_ut))^2).
     """
@@ -91,7 +92,7 @@ def endurance_strength(tensile: Any, strength_ratio: Any) -> Any:
 
 
 def gerber_safety(stress_amplitude: Any, stress_mean: Any, endurance: Any, tensile: Any) -> Any:
-    """Fatigue safety n_f [1] of the Gerber line, n s_a/S_e + (n s_m/S_ut)^2 = 1 [S table 6-7]."""
+    """Return the fatigue safety n_f [1] of the Gerber line, n s_a/S_e + (n s_m/S_ut)^2 = 1 [S table 6-7]."""
     a = (stress_mean / tensile) ** 2
     b = stress_amplitude / endurance
     # The rationalised root: no cancellation, and finite for a mean stress of zero.
@@ -99,21 +100,22 @@ def gerber_safety(stress_amplitude: Any, stress_mean: Any, endurance: Any, tensi
 
 
 def loaded_coil_diameter(coil_diameter: Any, body_coils: Any, angle: Any) -> Any:
-    """Mean coil diameter wound up by `angle`, D' = D n_b/(n_b + theta in turns) [m] [S eq. 10-53]."""
+    """Return the mean coil diameter wound up by `angle`, D' = D n_b/(n_b + theta in turns) [m] [S eq. 10-53]."""
     return coil_diameter * body_coils / (body_coils + angle / (2.0 * np.pi))
 
 
 def body_length(wire_diameter: Any, body_coils: Any, angle: Any, coil_gap: Any = 0.0) -> Any:
-    """Axial length of the coil body wound up by `angle`, d (n_b + 1 + turns) [m], plus the gap between coils."""
+    """Return the axial length of the coil body wound up by `angle`, d (n_b + 1 + turns) [m], plus the gap between
+    coils."""
     turns = body_coils + angle / (2.0 * np.pi)
     return wire_diameter * (turns + 1.0) + coil_gap * turns
 
 
 def diameter_tolerance(wire_diameter: Any, coil_diameter: Any, grade_factor: float) -> Any:
-    """Coil diameter tolerance A_D = 0.025 D d^-0.17 Q [m], D and d in mm in the formula (DIN 2194)."""
+    """Return the coil diameter tolerance A_D = 0.025 D d^-0.17 Q [m], D and d in mm in the formula (DIN 2194)."""
     return 0.025 * coil_diameter * (wire_diameter / _MILLIMETRE) ** -0.17 * grade_factor
 
 
 def free_angle_tolerance(body_coils: Any, index: Any, grade_factor: float) -> Any:
-    """Free-angle tolerance A_phi = 2.4 n^0.76 sqrt(C) Q degrees, returned in radians (DIN 2194)."""
+    """Return the free-angle tolerance A_phi = 2.4 n^0.76 sqrt(C) Q degrees, returned in radians (DIN 2194)."""
     return np.pi / 180.0 * 2.4 * body_coils**0.76 * np.sqrt(index) * grade_factor

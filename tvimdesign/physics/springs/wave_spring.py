@@ -14,7 +14,7 @@ the length of a wave, freely supported and loaded in the middle (pi^3/4)."""
 def rate(
     youngs_modulus: Any, inner_diameter: Any, outer_diameter: Any, thickness: Any, waves: Any, factor: Any = WAVE_FACTOR
 ) -> Any:
-    """Rate of the spring [N/m], E b t^3 N^4/(K D_m^3) D_o/D_i; modulus [Pa], lengths [m], two to four waves.
+    """Return the rate of the spring [N/m], E b t^3 N^4/(K D_m^3) D_o/D_i; modulus [Pa], lengths [m], two to four waves.
 
     Source: Rotor Clip, formulas for spiral wound wave springs, single turn with gap.
     """
@@ -23,7 +23,7 @@ def rate(
 
 
 def stress(force: Any, inner_diameter: Any, outer_diameter: Any, thickness: Any, waves: Any) -> Any:
-    """Bending stress [Pa] under a force [N], 3 pi F D_m/(4 b t^2 N^2); lengths [m].
+    """Return the bending stress [Pa] under a force [N], 3 pi F D_m/(4 b t^2 N^2); lengths [m].
 
     Source: as `rate`.
     """

@@ -1,4 +1,4 @@
-"""In which form Peltier modules come: cut to the outline of the PCL, or rectangles behind a spreader, as they are sold.
+"""Forms of Peltier modules: cut to the outline of the PCL, or rectangles behind a spreader, as they are sold.
 
 A flexible module is cut to the face of the PCL. A rigid one is a rectangle: as many as have room share a pocket, and a
 spreader of the PCL's outline lies on them, flush with the structure, and takes their heat to what they do not cover.
@@ -109,7 +109,7 @@ def pad_contact(m: Module) -> Scalar:
 
 @flows.helper()
 def to_spreader(m: Module) -> Scalar:
-    """What of that lies between the modules' hot side and the mean of the spreader [m^2 K/W]; nothing without one."""
+    """Part of that between the modules' hot side and the mean of the spreader [m^2 K/W]; zero without one."""
     return 0.0 if m.heater_form == CUT else 1.0 / (m.heater_coverage * m.spreader_contact) + m.spreader_resistance
 
 
@@ -125,7 +125,7 @@ _RATED = ("seebeck", "resistance", "conductance", "hot_side_temperature", "max_c
 
 
 def contradiction(record: Record) -> str:
-    """What is wrong with a Peltier module's cooling power; nothing where it agrees or where the record has none."""
+    """Return the contradiction of a Peltier module's cooling power with its other ratings; empty if there is none."""
     if not set(_RATED) <= record.entries.keys():
         return ""
     *parameters, hot, stated = (record.value(name) for name in _RATED)

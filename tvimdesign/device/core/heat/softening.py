@@ -54,7 +54,7 @@ def soft_threshold(m: Module) -> Scalar:
 
 @quantities.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as soft as `soft_impedance` asks"))
 def soft_reach(m: Module) -> Scalar:
-    """How far below the soft threshold the hot joint is, as the logarithm of the ratio."""
+    """Distance of the hot joint below the soft threshold, as the logarithm of the ratio."""
     return np.log(m.soft_threshold) - np.log(m.joint_impedance_at_hot)
 
 
@@ -108,7 +108,7 @@ def softened_temperature(m: Module) -> Scalar:
     "K",
     advice=(
         Rule(sense=">=", value=0.0, reason="the layer never is at the hot point's temperature during the cycle, so the "
-             "joint is not as soft as it is told to be at `hot`; see softened_stiffness and softened_impedance"),
+             "joint is not as soft as its values at `hot` say; see softened_stiffness and softened_impedance"),
     ),
 )  # fmt: skip
 def hot_point_margin(m: Module) -> Scalar:

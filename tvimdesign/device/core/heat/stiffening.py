@@ -31,7 +31,7 @@ def stiff_threshold(m: Module) -> Scalar:
 
 @quantities.output("1", Rule(sense=">=", value=0.0, reason="the joint never gets as stiff as `stiff_impedance` asks"))
 def stiff_reach(m: Module) -> Scalar:
-    """How far above the stiff threshold the cold joint is, as the logarithm of the ratio."""
+    """Distance of the cold joint above the stiff threshold, as the logarithm of the ratio."""
     return np.log(m.joint_impedance_at_cold) - np.log(m.stiff_threshold)
 
 
@@ -46,7 +46,7 @@ def stiffening_time(m: Module) -> Scalar:
 
 @quantities.event(EQUILIBRIUM_STIFFENING)
 def equilibrium_stiffening_time(m: Module) -> Scalar:
-    """What stiffening would take if the layer froze where it melts: a claim, not a prediction."""
+    """Stiffening time if the layer froze where it melts: a claim, not a prediction."""
     return stiffening_time(m)
 
 
@@ -86,7 +86,7 @@ def stiffening_over_freezing(m: Module) -> Scalar:
     ),
 )  # fmt: skip
 def thresholds_apart(m: Module) -> Scalar:
-    """How far the stiff threshold is above the soft one, as the logarithm of the ratio."""
+    """Distance of the stiff threshold above the soft one, as the logarithm of the ratio."""
     return np.log(m.stiff_threshold) - np.log(m.soft_threshold)
 
 

@@ -73,7 +73,7 @@ def structure_heat_capacity(m: Module) -> Scalar:
 
 @quantities.helper()
 def floor_in_air(m: Module) -> lumps.Surface:
-    """What a square metre of the floor's lower face gives to the air."""
+    """Heat from a square metre of the floor's lower face to the air."""
     return lumps.Surface(1.0, m.housing_coefficient, m.surface_emissivity)
 
 
@@ -95,7 +95,7 @@ def sink(m: Module) -> lumps.Lump | None:
 
 
 def _heat_links(m: Module) -> tuple[lumps.Link, ...]:
-    """What passes heat between the stack and the bodies beside and around it, and among these."""
+    """Return the links between the stack and the bodies beside and around it, and among these."""
     return (*m.floor_links, *m.stack_links, *m.side_links, *m.loss_links)
 
 
@@ -201,7 +201,9 @@ def column_compliances(m: Module) -> list[tuple[Scalar, Scalar]]:
     if m.stack_now.freezing is not None:
         return []
     omega = 2.0 * np.pi * m.frequency_now
-    return [layer.melting_compliance(one, m.stack_now.melting, omega, m.pcl_rheology) for one in m.layer_temperatures]
+    return [
+        layer.melting_compliance(column, m.stack_now.melting, omega, m.pcl_rheology) for column in m.layer_temperatures
+    ]
 
 
 @quantities.helper(instant=True)

@@ -1,4 +1,4 @@
-"""What a hold under load leaves behind: how far the PCL has crept, and what of the joint's impedance it costs.
+"""Creep of the PCL in a hold under load, and its cost in impedance.
 
 The joint is at rest and its PCL free of stress; a load comes on at once, stays for `hold_time`, and goes. Meanwhile the
 PCL relaxes, so that it would be free of stress somewhere else: `set_angle`. Each mode says in its own room how much of

@@ -52,7 +52,7 @@ def pcl_solid_modulus(m: Module) -> polymer.SolidModulus:
 
 
 def melt_modes(pcl_grade: Record, viscosity: Scalar = None, plateau: Scalar = None) -> polymer.Modes:
-    """Relaxation spectrum of a melt from viscosity and plateau modulus, the grade's unless others are given.
+    """Return the relaxation spectrum of a melt from viscosity and plateau modulus, the grade's unless others are given.
 
     A spectrum of the grade's own is scaled to them.
     """
@@ -66,7 +66,7 @@ def melt_modes(pcl_grade: Record, viscosity: Scalar = None, plateau: Scalar = No
 
 
 def solid_modes(pcl_grade: Record) -> polymer.Modes:
-    """Relaxation spectrum of a solid, its moduli relative to one another."""
+    """Return the relaxation spectrum of a solid, its moduli relative to one another."""
     return [(row["relaxation_time"], row["relative_modulus"]) for row in pcl_grade.table("solid_spectrum")]
 
 

@@ -1,7 +1,7 @@
 """Lost motion: the angle the link turns to either side of its rest before the joint takes notice, by source.
 
 What counts is there in every module from the first turn on: friction between legs and pins, play between link and
-core, and play of core or bearings in the hub. What shows otherwise is told apart. Play of a spring's tang is lost
+core, and play of core or bearings in the hub. Other play is reported apart. Play of a spring's tang is lost
 preload, as every spring is wound one way only (`spring_play`, subtracted in `preload_margin`). Blocks leave a gap that
 depends on the hold before, its load and its temperature (`backlash`). Keys lie loose in their pockets only once the
 bond is gone (`key_play`).
@@ -47,7 +47,7 @@ def friction_play(m: Module) -> Scalar:
 
 
 class Support(NamedTuple):
-    """How the core is guided in the hub [m, rad]."""
+    """Guide of the core in the hub [m, rad]."""
 
     clearance: Scalar
     """Radial play in either support."""

@@ -1,7 +1,7 @@
-"""What carries the PCL's torque out to the link: stiffness of core, plate, floor and link, and when the core yields.
+"""Parts that carry the PCL's torque to the link: stiffness of core, plate, floor and link, and yield of the core.
 
 Holes of screws and dowel pins count as empty. The link stands in series beyond the core's top: `joint_stiffness` is
-told there, at the hub, and `joint_stiffness_at_link` at the link's tool hole.
+that at the hub, and `joint_stiffness_at_link` that at the link's tool hole.
 """
 
 from __future__ import annotations
@@ -143,8 +143,8 @@ def core_dowels_holding_torque(m: Module) -> Scalar:
 
 
 CORE_PARTS = ("core_foot_holding_torque", "core_screws_holding_torque", "core_dowels_holding_torque")
-"""What `core_holding_torque` is the least of. A limit on it is one on each: where the least changes from one to another
-it has a kink, and IPOPT goes from side to side of it until its iterations are over."""
+"""Quantities of which `core_holding_torque` is the least. A limit on it is one on each: where the least changes from
+one to another it has a kink, and IPOPT goes from side to side of it until its iterations are over."""
 
 
 @quantities.output("N*m", least_of=CORE_PARTS)

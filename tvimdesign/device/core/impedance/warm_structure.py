@@ -35,9 +35,9 @@ class Compliances(NamedTuple):
     beside: Scalar
     """The rotor plate where it does not lie on the PCL."""
     plate: Scalar
-    """What lies on the PCL: the plate, or the rotor's vanes."""
+    """Part on the PCL: the plate, or the rotor's vanes."""
     walls: Scalar
-    """What stands between the pads."""
+    """Part between the pads."""
     floor: Scalar
     pads: Scalar
 
@@ -55,7 +55,7 @@ class PartTemperatures(NamedTuple):
 
 @quantities.helper()
 def structure_softening(m: Module) -> Softening:
-    """How modulus and loss of the structure change with temperature."""
+    """Change of the structure's modulus and loss with temperature."""
     return Softening(
         m.structure_modulus_slope, m.structure_softening_temperature, m.structure_softening_width,
         m.structure_softened_share, m.structure_loss_factor, m.structure_softening_loss_factor,
@@ -65,7 +65,8 @@ def structure_softening(m: Module) -> Softening:
 def in_series(
     parts: Compliances, temperatures: PartTemperatures, law: Softening, clamped: Scalar, lossless: Scalar = 0.0
 ) -> tuple[Scalar, Scalar]:
-    """Real and imaginary stiffness [N*m/rad] of parts at temperatures of their own; joints add a loss to each."""
+    """Return the real and imaginary stiffness [N*m/rad] of parts at temperatures of their own; joints add a loss to
+    each."""
 
     def of(*slices: Scalar) -> tuple[Scalar, Scalar]:
         moduli = [warm.complex_modulus(temperature, law) for temperature in slices]
@@ -83,7 +84,7 @@ def in_series(
 
 
 def _behind_pcl(m: Module) -> BehindPolymer:
-    """What the PCL heats, as in the stack; and both faces of the link lose heat, which a phase is too short to tell.
+    """Return the bodies that the PCL heats, as in the stack; both faces of the link lose heat.
 
     What is beside the plate loses heat through `plate_losses` as well, such as the gap to the floor and the air there.
     """

@@ -1,4 +1,4 @@
-"""The torsion spring with the leg and the bend it is drawn with: what bends of it, and where its stress is highest.
+"""Torsion spring with the leg and the bend it is drawn with, and the spring from stock, bought whole.
 
 The wire is clamped where the tang enters the floor. The post inside the coil is taken not to be touched.
 
@@ -60,7 +60,8 @@ def tang_stress_per_angle(m: Module) -> Scalar:
 
 
 def leg_azimuth(pin_radius: float, placement_radius: float, rotor_angle: float, offset: float) -> float:
-    """Direction of a right-hand spring's leg in plan view [rad], from its coil to its pin, against the outward radius.
+    """Return the direction of a right-hand spring's leg in plan view [rad], from its coil to its pin, against the
+    outward radius.
 
     Lengths in one unit, `rotor_angle` [rad]; `offset` is that of the line through the pin from the coil's axis.
     """
@@ -68,7 +69,7 @@ def leg_azimuth(pin_radius: float, placement_radius: float, rotor_angle: float, 
 
 
 def pin_distance(pin_radius: float, placement_radius: float, rotor_angle: float) -> float:
-    """Distance of a coil's axis from its pin, which turns with the rotor, in the unit of the radii."""
+    """Return the distance of a coil's axis from its pin, which turns with the rotor, in the unit of the radii."""
     return float(transmission.pin_distance(pin_radius, placement_radius, rotor_angle))
 
 

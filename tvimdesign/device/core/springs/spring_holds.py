@@ -1,4 +1,4 @@
-"""What holds a spring gives with it: its leg bears on a pin of the rotor, its tang turns in the floor.
+"""Compliance and creep of what holds a spring: its leg bears on a pin of the rotor, its tang turns in the floor.
 
 Both are as cold as the air here; the adhesive of a bonded tang counts as stiff as the structure. The coil bears the
 torque of `held_spring_rate`, which every force and stress in the module comes from.
@@ -53,7 +53,7 @@ def preload_give(m: Module) -> Scalar:
 
 
 def _structure_creep(m: Module) -> creep.Creep:
-    """How the structure creeps."""
+    """Return the creep of the structure."""
     return creep.Creep(m.structure_creep_share, m.structure_creep_exponent, m.structure_creep_energy)
 
 
@@ -62,7 +62,7 @@ Holds = tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]]
 
 
 def _spring_holds(m: Module) -> Holds:
-    """What holds a spring after `rest_time` in the air and `hot_time` at the hot point."""
+    """Return the supports of a spring after `rest_time` in the air and `hot_time` at the hot point."""
     rested = creep.aged(m.rest_time, m.ambient_temperature, _structure_creep(m))
     warm = (m.part_temperatures_at_hot.beside, m.part_temperatures_at_hot.floor)
     times = (rested + creep.aged(m.hot_time, temperature, _structure_creep(m)) for temperature in warm)

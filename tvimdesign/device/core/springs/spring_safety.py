@@ -1,4 +1,4 @@
-"""How safe a torsion spring is: its coil and the bend of its tang, each against yield, and against fatigue.
+"""Safety of a torsion spring: its coil and the bend of its tang, against yield and against fatigue.
 
 Which of the two bears more changes with the sizes. Each has quantities of its own, written once as templates, and the
 rules and limits are on these: no kink of the lesser is in the optimiser's way.
