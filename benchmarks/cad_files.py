@@ -39,7 +39,7 @@ def plain(design: Path, out: Path) -> None:
     from OCP.StlAPI import StlAPI_Writer
 
     from tvimdesign.cad.assembly.assembly import drawn_parts, free_spring, place
-    from tvimdesign.cad.assembly.product_data import instances
+    from tvimdesign.cad.assembly.assembly_data import instances
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.geometry.kinds import PRODUCTION
     from tvimdesign.cad.render.pictures import write_exploded, write_preview, write_section

@@ -17,7 +17,7 @@ from numpy.typing import DTypeLike
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
-from tvimdesign.cad.draft.draft_module import Draft, DraftMesh, draft_module
+from tvimdesign.cad.assembly.draft_module import Draft, DraftMesh, draft_module
 from tvimdesign.cad.geometry.dimensions import dimensions_of
 from tvimdesign.cad.geometry.kinds import KINDS, TURNING, kind_of
 

@@ -25,13 +25,13 @@ from ezdxf.tools.text_size import text_size
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv
-from tvimdesign.cad.assembly.product_data import product
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import TITLE_WIDTH, DrawingSheet, Field, around
 from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.placed_view import apart
 from tvimdesign.cad.drawing.projection import from_above, section
 from tvimdesign.cad.drawing.spring_sheet import SpringLine, spring_csv, spring_lines, spring_sheet
+from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import KINDS
 from tvimdesign.study.design import Design

@@ -13,7 +13,7 @@ from cad_designs import BEARING_BLOCKS, BLOCKS, design_of
 from sample_solids import box, of, one_solid
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
-from tvimdesign.cad.assembly.product_data import instances
+from tvimdesign.cad.assembly.assembly_data import instances
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions

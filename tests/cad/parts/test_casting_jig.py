@@ -8,7 +8,7 @@ from cad_designs import BLOCKS, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
-from tvimdesign.cad.inspection.casting import casting_checks, gap
+from tvimdesign.cad.inspection.inspect import casting_checks, casting_gap
 from tvimdesign.cad.parts import casting_jig
 
 CASES = {"keyed arc": ("shear", {}), "plain arc": ("shear", {"key_count": 0.0}), "block": ("compression", BLOCKS)}
@@ -30,7 +30,7 @@ def test_the_jig_goes_together_and_its_gap_is_the_layer_s_thickness(name: str) -
     assert all(solids[piece].isValid() for piece in casting_jig.DRAWN)
     # 1 mm of the default layer; 3.5 mm of the default block above a clearance of 0.4.
     wanted = dims.pcl_thickness if kind == "pcl_arc" else dims.vane_height - dims.running_clearance
-    assert gap(dims, solids["casting_mould"], solids["casting_lid"]) == pytest.approx(wanted, abs=1e-9)
+    assert casting_gap(dims, solids["casting_mould"], solids["casting_lid"]) == pytest.approx(wanted, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", CASES)

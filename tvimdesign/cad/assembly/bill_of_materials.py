@@ -14,7 +14,7 @@ from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.heater_leads import pad_count, thermistor_in_words, up, wire_in_words
-from tvimdesign.cad.assembly.product_data import product
+from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, kind_of
 from tvimdesign.cad.parts import casting_jig
 from tvimdesign.device.components.tang import BONDED

@@ -36,7 +36,8 @@ from OCP.XCAFDoc import (
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.geometry.kinds import Rgb
+from tvimdesign.cad.geometry.kinds import KINDS, Rgb
+from tvimdesign.study.design import Design
 
 _STYLES = re.compile(r"^#(\d+) = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\('',", re.MULTILINE)
 _NUMBER = re.compile(r"#(\d+)")
@@ -109,6 +110,13 @@ class Product:
     material: str
     density: float
     """kg/m^3."""
+
+
+def product(design: Design, kind: str) -> Product:
+    """Return what a STEP file says of a kind of part."""
+    made_of = KINDS[kind]
+    material = design.choices.get(made_of.material, made_of.material)
+    return Product(name=kind, colour=made_of.colour, material=material, density=design.value(made_of.density))
 
 
 class _Document:

@@ -14,7 +14,7 @@ from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.geometry.outlines import Outline, Point, Segment, placement
+from tvimdesign.cad.geometry.exact_kernel import Outline, Point, Segment, placement
 
 CHORD = 0.2
 """Largest distance of a polygon from its circle [mm]."""

@@ -14,8 +14,7 @@ from math import acos, cos, pi, sin, sqrt, tan
 import cadquery as cq
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.geometry.exact_kernel import ExactKernel
-from tvimdesign.cad.geometry.outlines import Kernel, Point, Segment
+from tvimdesign.cad.geometry.exact_kernel import ExactKernel, Kernel, Point, Segment
 
 _UP = cq.Vector(0, 0, 1)
 _EXACT: Kernel = ExactKernel()

@@ -1,4 +1,4 @@
-"""Which checks a part gets by the way it is made, and which the module as a whole."""
+"""Checks of a part by the way it is made, of the springs, of the casting jig, and of the module as a whole."""
 
 from __future__ import annotations
 
@@ -10,23 +10,53 @@ import numpy as np
 
 from tvimdesign.base.units import from_si
 from tvimdesign.cad.assembly.assembly import place
-from tvimdesign.cad.assembly.product_data import instances
-from tvimdesign.cad.cad_report import SolidCheck, at_least, finding
+from tvimdesign.cad.assembly.assembly_data import instances
+from tvimdesign.cad.cad_report import SolidCheck, at_least, at_most, finding
 from tvimdesign.cad.export.mesh import Mesh, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.kinds import PRODUCTION, supported_levels
-from tvimdesign.cad.geometry.solids import polar
+from tvimdesign.cad.geometry.solids import cylinder, polar
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil
 from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
+from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
 from tvimdesign.cad.inspection.walls import wall_checks
+from tvimdesign.cad.parts import casting_jig
 from tvimdesign.cad.parts.common_parts import between_springs, link_screws, mounts
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
+
+_JIG = "casting_jig"
+_NEEDLE = 0.05
+"""Radius of the upright needle by which the gap between mould and lid is measured [mm]."""
+_EXACT = 1e-6
+
+
+def casting_checks(dims: Dimensions, kind: str, solids: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
+    """Hold mould and lid against the part of a kind that is cast in them; all three stand as they are drawn."""
+    part, mould, lid = (solids[name] for name in (kind, "casting_mould", "casting_lid"))
+    yield from interference_checks(dict(solids), "in the casting jig")
+    wanted = dims.pcl_thickness if kind == "pcl_arc" else dims.vane_height - dims.running_clearance
+    measured = casting_gap(dims, mould, lid)
+    off = abs(measured - wanted)
+    text = f"the gap between mould and lid is {measured:.4g} mm, the part's thickness {wanted:.4g} mm"
+    yield finding(_JIG, "gap", off, _EXACT, "mm", at_most(off, _EXACT), text)
+    room = casting_jig.dam(dims, part).cut(mould, part).Volume()
+    text = f"{room:.3g} mm3 of the dam are open beside the part"
+    yield finding(_JIG, "melt", room, TOUCHING, "mm^3", at_most(room, TOUCHING), text)
+
+
+def casting_gap(dims: Dimensions, mould: cq.Solid, lid: cq.Solid) -> float:
+    """Way from the mould's floor to the lid's face, measured near the part's inner edge, where no key is [mm]."""
+    inner, outer = dims.pcl_inner_radius, dims.pcl_outer_radius
+    needle = cylinder(_NEEDLE, -100.0, 100.0, polar(inner + 0.05 * (outer - inner), 0.0))
+    floor, face = mould.intersect(needle).BoundingBox(), lid.intersect(needle).BoundingBox()
+    return float(face.zmin - floor.zmax)
+
 
 TIGHT = 0.04
 """Of its inner diameter, what a coil should leave free around its post; handbook: Shigley, section 10-12, takes 5 %."""

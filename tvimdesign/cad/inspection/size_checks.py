@@ -17,7 +17,7 @@ from OCP.TopTools import TopTools_ListOfShape
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import place
-from tvimdesign.cad.assembly.product_data import instances
+from tvimdesign.cad.assembly.assembly_data import instances
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import CHORD, Instance, Mesh
 from tvimdesign.cad.export.print_files import body_of

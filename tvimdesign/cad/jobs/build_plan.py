@@ -14,24 +14,22 @@ from OCP.TopoDS import TopoDS_Shape
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, one_solid, place
-from tvimdesign.cad.assembly.assembly_data import assembly_data
+from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
 from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.assembly.product_data import glb_bytes, instances, product
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
-from tvimdesign.cad.export.step_file import Product, read_part, validation, write_assembly, write_part
+from tvimdesign.cad.export.step_file import Product, product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, Production, is_of_structure, kind_of
 from tvimdesign.cad.geometry.spring_solids import free_coil
-from tvimdesign.cad.inspection.casting import casting_checks
-from tvimdesign.cad.inspection.inspect import module_checks, part_checks
+from tvimdesign.cad.inspection.inspect import casting_checks, module_checks, part_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.jobs.worker import Job, Turn, Work
 from tvimdesign.cad.parts import casting_jig

@@ -16,8 +16,8 @@ from tvimdesign.cad.assembly.assembly import installed_coils
 from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh, spring_mesh
 from tvimdesign.cad.export.print_files import stl_bytes
 from tvimdesign.cad.geometry.dimensions import Dimensions
+from tvimdesign.cad.geometry.exact_kernel import placement
 from tvimdesign.cad.geometry.kinds import kind_of
-from tvimdesign.cad.geometry.outlines import placement
 
 Array = NDArray[np.float64]
 _MM, _MM3, _MM5 = 1e-3, 1e-9, 1e-15

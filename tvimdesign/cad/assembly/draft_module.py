@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import installed_coils, spring_locations
-from tvimdesign.cad.assembly.exploded_lifts import lifts
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.module_parts import MODULES, lifts
 from tvimdesign.cad.export.mesh import Instance, Mesh, spring_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.draft_kernel import DraftKernel, DraftSolid
+from tvimdesign.cad.geometry.exact_kernel import placement
 from tvimdesign.cad.geometry.kinds import SPRINGS, kind_of
-from tvimdesign.cad.geometry.outlines import placement
 from tvimdesign.cad.geometry.solids import drawn_by
 
 Array = NDArray[np.float64]
