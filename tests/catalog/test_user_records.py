@@ -81,7 +81,7 @@ def test_a_user_record_replaces_a_shipped_one(tmp_path: Path) -> None:
         ("source: scale", "source: scale, sauce: x", "values.mass.sauce: unknown; did you mean source?"),
         ("max_current:", "Max Current:", "small letters"),
         ("values:", "values: {}\nstuff:", "values.seebeck: missing"),
-        ("title: A", "title: A\ntitle: B", "'title' is said twice"),
+        ("title: A", "title: A\ntitle: B", "'title' is given twice"),
     ],
 )
 def test_a_broken_record_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:

@@ -48,7 +48,7 @@ def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
         ("module_mass: 1,", "module_mass: 2,", "minimize", "the objective is module_mass 2, response_time 1 here"),
         ("solver: {starts: 1}", "solver: {starts: 1, cells: 20}", "solver.cells", "20 here, 28 in"),
         ("solver: {starts: 1}", "solver: {starts: 1}\ntolerances: standard\nrobust: {sigma: 2}", "robust",
-         "limits are kept by 2 standard deviations here, limits are kept by 0 standard deviations in"),
+         "limits are satisfied by 2 standard deviations here, limits are satisfied by 0 standard deviations in"),
         ("  current: 1.5 A", "  cooling_current: 0.5 A\n  current: 1.5 A", "module.cooling_current", "0.5 A here"),
     ],
 )  # fmt: skip

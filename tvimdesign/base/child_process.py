@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 PARENT, _ALIVE = "TVIMDESIGN_PARENT", "TVIMDESIGN_ALIVE"
-"""Environment variables of a child: the parent's number; the pipe that ends with it, where the kernel does not tell of
-its end."""
+"""Environment variables of a child: the parent's number; the pipe that ends with it, if the kernel does not signal its
+end."""
 _PR_SET_PDEATHSIG = 1
 
 

@@ -15,7 +15,7 @@ from typing import TypeVar
 from tvimdesign.base.errors import TimeOverError
 
 CLOCK = "TVIMDESIGN_CLOCK"
-"""The environment's word for what time limits count: `processor`, or the time of day where nothing is said."""
+"""The environment's word for what time limits count: `processor`, or the time of day by default."""
 
 
 def counts_processor_time() -> bool:

@@ -42,7 +42,7 @@ class AboveRatingError(InfeasibleError):
 
 
 class BelowYieldError(InfeasibleError):
-    """Fewer modules keep the limits of the best design found than the study asks."""
+    """Fewer modules satisfy the limits of the best design than the study requires."""
 
 
 class TimeOverError(TvimError):

@@ -54,7 +54,7 @@ def _open_no_link(path: str, flags: int) -> int:
 
 
 def _others_write(status: os.stat_result) -> bool:
-    """Return whether others can write; a group of which the user is the only member has no others."""
+    """Return whether others can write; a group with the user as its only member has no others."""
     if not _HAS_OWNERS or not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
         return False
     return bool(status.st_mode & stat.S_IWOTH) or not _is_private_group(status.st_gid)

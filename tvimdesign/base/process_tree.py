@@ -42,7 +42,7 @@ def set_low_priority(process: int, behind: Niceness = Niceness.SOME) -> None:
 
 
 def set_lower_priority(process: int) -> None:
-    """Let a process that gives way a little give way far; others stay as they are."""
+    """Lower the priority of a process at `Niceness.LOW` to `FAR`; leave others unchanged."""
     with contextlib.suppress(psutil.Error):
         if psutil.Process(process).nice() == Niceness.LOW:
             set_low_priority(process, Niceness.FAR)

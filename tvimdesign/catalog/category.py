@@ -60,7 +60,7 @@ class Category:
 
     `laws` are groups of values and tables that belong to one material, by what people call them: a record that is based
     on another material's and has none of a group has that one's law. Of those under a word of `own_laws` a record with
-    that word needs its own. `material` are the values by which two records are told to be of different materials.
+    that word needs its own. `material` are the values by which materials differ.
     """
 
     values: Mapping[str, str] = field(default_factory=dict)

@@ -21,11 +21,11 @@ class InheritedLaw(NamedTuple):
     owner: Record
     """The record it comes from."""
     differs: str
-    """The value by which that is told to be another material."""
+    """The value by which the owner is another material."""
     names: tuple[str, ...]
-    """The values and tables of which the record needs one of its own."""
+    """The values and tables; the record needs one of its own."""
     kind_differs: bool
-    """Whether the two freeze or soften in different ways, so that the law means nothing here."""
+    """True if the two freeze or soften in different ways, so that the law means nothing here."""
 
 
 def inherited_laws(record: Record) -> list[InheritedLaw]:

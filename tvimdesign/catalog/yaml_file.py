@@ -79,6 +79,6 @@ def _plain(node: Any) -> Tree:
         if not isinstance(key, yaml.ScalarNode):
             raise CatalogError(f"{line}: a key must be a plain word")
         if key.value in tree:
-            raise CatalogError(f"{line}: {key.value[:40]!r} is said twice")
+            raise CatalogError(f"{line}: {key.value[:40]!r} is given twice")
         tree[str(key.value)] = _plain(child)
     return tree

@@ -45,7 +45,7 @@ class PartsMaker:
         self._send({"kind": "parts", **self.shown})
 
     def _make(self, loop: asyncio.AbstractEventLoop, design: dict[str, str]) -> None:
-        """In the thread: make them, and hand what is to be told to the loop."""
+        """Make the parts in the thread, and hand progress to the loop."""
 
         def tell(text: str, busy: bool) -> None:
             with contextlib.suppress(RuntimeError):  # the loop is closed: nobody listens any more

@@ -39,7 +39,7 @@ class Session:
     ) -> None:  # fmt: skip
         """Open the study, go on from what was kept in the folder, and start the solver. Raises InputError.
 
-        `send` hands what all pages are told on to them. To be made in an event loop.
+        `send` sends a message to all pages. Needs an event loop.
         """
         self.source: Source = open_source(source, settings)
         self.folder, self._send = folder, send
@@ -73,7 +73,7 @@ class Session:
     # --- what a page asks ---
 
     def receive(self, text: str) -> list[Reply]:
-        """Do what a message says; returns what the page that sent it is told alone."""
+        """Do what a message says; returns the replies to the page that sent it alone."""
         try:
             message = messages.read_message(text)
             return self._do(message)

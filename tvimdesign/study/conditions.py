@@ -109,7 +109,7 @@ def _given_twice(entrants: Sequence[Case]) -> Iterator[Mistake]:
 
 
 def _evaluated_only(entrants: Sequence[Case]) -> Iterator[Mistake]:
-    """Of studies some of which are optimised: those that are not."""
+    """Yield the studies that are only evaluated beside others that are optimised."""
     optimised = [entrant for entrant in entrants if entrant.study.vary]
     for entrant in entrants:
         if optimised and not entrant.study.vary:
@@ -164,8 +164,8 @@ def _conditions(of: Case) -> Iterator[_Condition]:
 
 def _robust_in_words(robust: Robust | None) -> str:
     if robust is not None and robust.share is not None:
-        return f"{robust.share:.3g} of the modules keep the limits"
-    return f"limits are kept by {robust.sigma if robust and robust.sigma else 0.0:.3g} standard deviations"
+        return f"{robust.share:.3g} of the modules satisfy the limits"
+    return f"limits are satisfied by {robust.sigma if robust and robust.sigma else 0.0:.3g} standard deviations"
 
 
 def _is_condition(row: Input | Choice) -> bool:

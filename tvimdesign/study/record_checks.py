@@ -14,8 +14,8 @@ from tvimdesign.study.study import Study
 
 
 def record_checks(study: Study) -> list[str]:
-    """A sentence for each chosen record that contradicts itself, has another material's law, cannot do what is asked of
-    it, or names no limit."""
+    """Return a warning for each chosen record that contradicts itself, has another material's law, cannot do its task,
+    or names no limit."""
     values = given(study)
     records = [record for record in values.values() if isinstance(record, Record)]
     messages = [contradiction(record) for record in records if record.category == "peltiers"]

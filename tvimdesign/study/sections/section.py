@@ -46,7 +46,7 @@ class Section:
 
 
 def mapping(properties: Schema, patterns: Schema | None = None) -> Schema:
-    """Return the schema of a section with these keys, all of which may be left out, as may the section."""
+    """Return the schema of a section with these keys. Each may be left out, and so may the section."""
     schema = {"type": ["object", "null"], "additionalProperties": False, "properties": properties}
     return schema | ({"patternProperties": patterns} if patterns else {})
 

@@ -35,9 +35,9 @@ class SweptAxis:
     unit: str
     """Of its numbers; empty for words and for settings."""
     whole: bool
-    """Whether it counts things."""
+    """True if it counts things."""
     number: bool
-    """Whether it is a size of the module or a condition, which a search begun elsewhere can follow."""
+    """True for a size of the module or a condition, which a search from a neighbour can follow."""
     sense: Sense = ""
     """Of a limit."""
     values: tuple[Text, ...] = ()

@@ -131,7 +131,7 @@ def _ends(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, ro
 
 
 def _steps(reading: Reading, node: Mapping, parts: dict[str, Node], path: str, row: Input) -> Options | None:
-    """Sizes evenly spaced between two ends, as quarters of a coil; whole things one by one unless said otherwise."""
+    """Return sizes evenly spaced between two ends, such as quarters of a coil; whole things by default one by one."""
     place = parts.get("step", node)
     width = 1.0
     if "step" in parts:

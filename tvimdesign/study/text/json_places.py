@@ -40,9 +40,7 @@ class JsonPlaces:
         return space.end()
 
     def _member(self, at: int, name: str) -> tuple[int, int] | None:
-        """Where the key and the value of that name begin, or the item of that number twice; what is between is read
-        past.
-        """
+        """Return where the key and the value of a name begin, or the item of a number twice."""
         opening = self._text[at]
         if opening not in "{[":
             return None
