@@ -146,16 +146,16 @@ class UncertaintyModel:
         values = every(drawn)
         found = intervals(every, moved, drawn, values, float(resolved.values["horizon"]))
         by_name = dict(zip(self.outputs, found, strict=True))
-        told = {name: by_name[name] for name in self.asked}
+        asked = {name: by_name[name] for name in self.asked}
         hanging = [limit for limit in limits if _behind(resolved.table, limit.output, set(places))]
         if not hanging:
-            return told, None, {}, moved
+            return asked, None, {}, moved
         kept = _kept(hanging, self.outputs, values)
         shares = {limit.name: float(np.mean(row)) for limit, row in zip(hanging, kept, strict=True)}
         broken = sorted((item for item in shares.items() if item[1] < 1.0), key=lambda item: item[1])
         in_doubt = {limit.output for limit in hanging for name, _ in broken[:1] if limit.name == name}
-        told |= {name: by_name[name] for name in in_doubt}
-        return told, spread.share_kept(np.all(kept, axis=0)), dict(broken), moved
+        asked.update({name: by_name[name] for name in in_doubt})
+        return asked, spread.share_kept(np.all(kept, axis=0)), dict(broken), moved
 
 
 def _kept(limits: Sequence[Constraint], outputs: Sequence[str], values: Array) -> NDArray[np.bool_]:

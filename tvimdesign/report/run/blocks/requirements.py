@@ -70,7 +70,7 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
 
 def requirements_grid(rows: Sequence[Requirement]) -> Grid:
     """Return the table that a page shows."""
-    heads = [Head(text, i == 2) for i, text in enumerate((*HEADS, "depends on (assumed)"))]
+    heads = [Head(text, i == 2) for i, text in enumerate(("output", *HEADS[1:], "depends on (assumed)"))]
     cells = [
         [
             *(Cell(text, tone=row.tone if i == len(HEADS) - 1 else "") for i, text in enumerate(row.cells)),

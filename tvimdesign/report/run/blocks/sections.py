@@ -132,13 +132,13 @@ def assumptions_section(answered: AnsweredStudy) -> Section:
     if not uncertainty:
         words = "How sure the design is was not computed in this run; `tvimdesign tolerate` computes it."
         return Section("assumptions", "Assumptions", [Words([words])])
-    grids = [
-        tables.intervals_grid(uncertainty["intervals"]),
+    more = [
         tables.unmeasured_grid(uncertainty, answered.reported["values"]),
         tables.assumptions_grid(uncertainty.get("assumptions", {})),
         tables.held_grid(uncertainty),
     ]
-    return Section("assumptions", "Assumptions", [grid for grid in grids if grid.rows])
+    folded = [Folded(grid.caption, [grid]) for grid in more if grid.rows]
+    return Section("assumptions", "Assumptions", [tables.intervals_grid(uncertainty["intervals"]), *folded])
 
 
 def front_section(front: FrontEntry, names: list[str], drawn: Block | None = None) -> Section:
