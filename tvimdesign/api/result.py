@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from tvimdesign.report.output.results_format import LimitEntry, RunResults
-    from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
+    from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
 
 
 class NoDesignError(InfeasibleError):

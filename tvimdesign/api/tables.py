@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from tvimdesign.report.output.number_format import NumberEntry
-    from tvimdesign.report.output.uncertainty_format import IntervalEntry
+    from tvimdesign.report.output.results_format import IntervalEntry
 
 
 def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:

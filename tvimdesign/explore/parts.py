@@ -12,8 +12,7 @@ from typing import Any
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.explore.states.history import PARTS
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.run.parts_of_design import make_parts_of
-from tvimdesign.report.run.solid_checks import in_short
+from tvimdesign.report.run.parts_of_design import in_short, make_parts_of
 
 
 class PartsMaker:

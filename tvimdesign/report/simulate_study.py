@@ -13,15 +13,14 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
-from tvimdesign.page.blocks import Block, Drawn, Page, Points, Section
+from tvimdesign.page.blocks import Block, Drawn, Grid, Page, Points, Section
 from tvimdesign.report.command import Command, design_file
 from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.number_entry import finite
-from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.page_sections import grid_of, made_by_words, study_section, there, versions_section
+from tvimdesign.report.output.number_format import finite, head
+from tvimdesign.report.output.page_sections import grid, made_by_words, study_section, there, versions_section
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
@@ -163,7 +162,7 @@ def _page(folder: ResultsFolder, name: str, trial: Trial, figure: Mapping[str, A
     drawn = Drawn("curves", "lines.js", trial.title, figure, libraries=["echarts"])
     files = {f"{sheet.name}.csv": f"{sheet.name.replace('_', ' ')} as CSV" for sheet in trial.sheets}
     sections = [Section("curves", "Curves", [drawn]), study_section(study), versions_section(folder)]
-    first: list[Block] = [grid_of(findings_table(trial)), Points(trial.notes)]
+    first: list[Block] = [findings_table(trial), Points(trial.notes)]
     return Page(
         f"{name}: {trial.title}", f"virtual test {trial.test}", "TESTED", "", first, None, sections,
         made_by_words(folder), there(folder, files),
@@ -173,15 +172,15 @@ def _page(folder: ResultsFolder, name: str, trial: Trial, figure: Mapping[str, A
 def _print_trial(trial: Trial, console: Console) -> None:
     """Print what was read off for people: an interval, and no one number, where history decides."""
     console.print(f"[bold]{escape(trial.title)}[/bold]")
-    print_table(findings_table(trial), console)
+    print_grid(findings_table(trial), console)
     for note in trial.notes:
         console.print(f"[dim]{escape(note)}[/dim]")
 
 
-def findings_table(trial: Trial) -> SummaryTable:
+def findings_table(trial: Trial) -> Grid:
     """What was read off, a row for each finding."""
     rows = [(found.name, _value(found), pretty(found.unit), found.meaning) for found in trial.findings]
-    return SummaryTable("", ("finding", "value", "unit", "meaning"), rows, (1,))
+    return grid("", ("finding", "value", "unit", "meaning"), rows, right=(1,))
 
 
 def _value(found: Finding) -> str:

@@ -12,7 +12,7 @@ from support import wait_until
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.output import progress
-from tvimdesign.report.output.remaining_time import RemainingTime, clock, duration
+from tvimdesign.report.output.progress import RemainingTime, clock, duration
 
 
 def test_what_is_left_is_the_mean_of_the_steps_that_are_done() -> None:

@@ -9,7 +9,7 @@ from tvimdesign.page.blocks import Block, Drawn, Folded, Listing, Page, Points, 
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import side_by_side, told_rows, warnings_of
-from tvimdesign.report.output.page_sections import grid_of, made_by_words, there, tone_of, versions_section
+from tvimdesign.report.output.page_sections import made_by_words, there, tone_of, versions_section
 from tvimdesign.report.output.results_folder import ResultsFolder
 
 _FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "fronts.csv": "the fronts"}
@@ -39,9 +39,8 @@ def comparison_page(folder: ResultsFolder, outcome: Outcome, texts: Mapping[str,
 
 def _side_by_side(outcome: Outcome) -> Section:
     """Headlines and what is asked; then everything that all studies have."""
-    toned = range(len(outcome.entrants) + 3, 2 * len(outcome.entrants) + 4, 2)
-    told = [grid_of(table, toned=toned) for table in told_rows(outcome)]
-    every = [grid_of(side_by_side(COMPARISONS[which], rows), toned=toned) for which, rows in outcome.rows.items()]
+    told = told_rows(outcome)
+    every = [side_by_side(COMPARISONS[which], rows) for which, rows in outcome.rows.items()]
     blocks: list[Block] = [*told, *([Folded("Every output that all studies have", every)] if every else [])]
     return Section("side-by-side", "Side by side", blocks)
 

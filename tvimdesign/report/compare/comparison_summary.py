@@ -11,14 +11,13 @@ from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
+from tvimdesign.page.blocks import Grid
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_table import Row
-from tvimdesign.report.output.console import OwnMarkupConsole
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.progress import WIDTH
-from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import number
-
-_COLOURS = {"better": "green", "worse": "red"}
+from tvimdesign.report.output.terminal import OwnMarkupConsole, print_grid
 
 
 def print_comparison(outcome: Outcome, console: Console) -> None:
@@ -28,7 +27,7 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
         console.print(f"- {escape(sentence)}")
     console.print()
     for table in told_rows(outcome):
-        print_table(table, console, _COLOURS)
+        print_grid(table, console)
     for which, alone in outcome.alone.items():
         shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
         if shown:
@@ -50,7 +49,7 @@ def summary_text(outcome: Outcome) -> str:
     return stream.getvalue()
 
 
-def told_rows(outcome: Outcome) -> list[SummaryTable]:
+def told_rows(outcome: Outcome) -> list[Grid]:
     """Headlines and what is asked, side by side, a table for each comparison."""
     asked = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
     return [
@@ -59,7 +58,7 @@ def told_rows(outcome: Outcome) -> list[SummaryTable]:
     ]
 
 
-def side_by_side(title: str, rows: Sequence[Row]) -> SummaryTable:
+def side_by_side(title: str, rows: Sequence[Row]) -> Grid:
     """Outputs of all studies beside one another, with what each is over the first."""
     labels = list(rows[0].values) if rows else []
     heads = ["", *labels, "unit"]
@@ -72,7 +71,8 @@ def side_by_side(title: str, rows: Sequence[Row]) -> SummaryTable:
             against += ["" if ratio is None else number(ratio, 3), row.verdict(label)]
         cells.append([row.name, *(_value(row, label) for label in labels), pretty(row.unit), *against])
     ratios = range(len(labels) + 2, len(heads), 2)
-    return SummaryTable(title, heads, cells, (*range(1, len(labels) + 1), *ratios))
+    right, toned = (*range(1, len(labels) + 1), *ratios), range(len(labels) + 3, len(heads), 2)
+    return grid(title, heads, cells, right=right, toned=toned)
 
 
 def _value(row: Row, label: str, *, with_unit: bool = False) -> str:

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.output.number_entry import finite, number_entry
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.number_format import finite, head, number_entry
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.measure_files import Measured
 

@@ -14,9 +14,10 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.command import Command
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.fit.fit_data import figure_data, fit_data, residuals_csv
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.progress import wide_console
-from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
 from tvimdesign.simulation.measurement.reading.column_map import read_column_map
@@ -85,7 +86,7 @@ def _print(measured: Measured, written: Mapping[str, Path], console: Console) ->
         ends = ["open" if end is None else number(from_si(end, one.unit)) for end in (one.low, one.high)]
         rows.append((one.name, number(from_si(one.value, one.unit)), *ends, pretty(one.unit), one.meaning))
     heads = ("parameter", "value", "95 % from", "to", "unit", "meaning")
-    print_table(SummaryTable("", heads, rows, (1, 2, 3)), console)
+    print_grid(grid("", heads, rows, right=(1, 2, 3)), console)
     for line in (*found.notes, *found.fit.words):
         console.print(escape(line), soft_wrap=True)
     for i, path in enumerate(written.values()):

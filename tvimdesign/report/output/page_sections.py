@@ -9,7 +9,6 @@ from typing import Any
 from tvimdesign.page.blocks import Cell, Facts, Grid, Head, Listing, Page, Section, Tone, Words
 from tvimdesign.page.page_file import FILE, page_html
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.summary_table import SummaryTable
 
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
 _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
@@ -41,11 +40,6 @@ def grid(
     ]
     named = [text or ("name" if i in code else "state" if i in toned else "") for i, text in enumerate(heads)]
     return Grid(caption, [Head(text, i in right) for i, text in enumerate(named)], cells, note)
-
-
-def grid_of(table: SummaryTable, *, toned: Collection[int] = (), code: Collection[int] = (0,), note: str = "") -> Grid:
-    """A table of the summary as a grid."""
-    return grid(table.title, table.heads, table.rows, right=table.right, toned=toned, code=code, note=note)
 
 
 def sort_key(text: str) -> float | None:

@@ -12,12 +12,10 @@ from typing import Any, cast
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Table
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
-from tvimdesign.report.output.number_entry import finite, number_entry
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.number_format import finite, head, number_entry
 from tvimdesign.report.output.provenance import FindRecord, provenance
-from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, ValueEntry, Yield
+from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, IntervalEntry, ValueEntry, Yield
 from tvimdesign.report.output.thresholds import notes
-from tvimdesign.report.output.uncertainty_format import IntervalEntry
 from tvimdesign.solve.nlp.solution import ActiveConstraint, YieldReached
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import catalog_of

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 from rich.console import Console
+from rich.errors import MarkupError
 from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
@@ -101,3 +104,21 @@ def print_lines(lines: Iterable[str], console: Console, styles: dict[str, str] |
         for style, pattern in (styles or {}).items():
             text.highlight_regex(pattern, style)
         console.print(text, soft_wrap=True)
+
+
+_OTHER_TAG = re.compile(r"(?<!\\)(\\\\)*\[(?!/?(?:bold|dim|red|yellow|green)\]|/\])")
+
+
+class OwnMarkupConsole(Console):
+    """A rich console on which names, paths and sentences of a user never are markup, and never an error."""
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """A text with this package's own tags obeyed; without any where they do not match, as in a file's name."""
+        markup = options.pop("markup", None)
+        options |= {"emoji": False}  # or `:key:` would be a picture
+        if not (markup or (markup is None and self._markup)):
+            return super().render_str(text, markup=False, **options)
+        try:
+            return super().render_str(_OTHER_TAG.sub(r"\1\\[", text), markup=True, **options)
+        except MarkupError:
+            return super().render_str(text, markup=False, **options)

@@ -10,10 +10,11 @@ from rich.markup import escape
 
 from tvimdesign.report.command import Command, design_file
 from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.summary_table import SummaryTable, print_table
 from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.report.robot import state_tables
 from tvimdesign.report.robot.fmu.fmu_file import WrittenFmu, write_fmu
 from tvimdesign.report.robot.joint_model import JointModel, joint_model, refuse_step
@@ -98,7 +99,7 @@ def _print_model(model: JointModel, fmu: WrittenFmu, console: Console) -> None:
         temperature, frequency, stiffness, damping = row[:4]
         rows.append((state.point, *map(number, (temperature, stiffness, damping, frequency))))
     heads = ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz")
-    print_table(SummaryTable("", heads, rows, (1, 2, 3, 4)), console)
+    print_grid(grid("", heads, rows, right=(1, 2, 3, 4)), console)
     for sentence in model.left_out:
         console.print(f"[dim]{escape(sentence)}[/dim]")
     console.print(escape(fmu.told), soft_wrap=True)

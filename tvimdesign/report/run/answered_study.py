@@ -12,12 +12,10 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.device import Table
 from tvimdesign.report.command import noting
 from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.progress import Progress
-from tvimdesign.report.output.remaining_time import duration
+from tvimdesign.report.output.progress import Progress, duration
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.results_format import RunResults
+from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
 from tvimdesign.report.output.tables import results
-from tvimdesign.report.output.uncertainty_format import UncertaintyEntry
 from tvimdesign.report.run.blocks.warnings import RunWarning, warnings_of
 from tvimdesign.report.run.front_report import FrontOfRun
 from tvimdesign.report.run.infeasible_report import conflicts_reported, starts_reported

@@ -25,15 +25,16 @@ def check_study(path: Path, settings: Sequence[str] = (), *, as_json: bool) -> N
 
 
 def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
-    """Return the study. Raises InputError for what it asks and no module can be, InfeasibleError likewise.
+    """Return the study. Raises InputError for requirements that no module can meet, InfeasibleError for conflicts.
 
-    Limits that arithmetic alone cannot keep are looked for as well, which takes half a second, unless `proof` is not
-    asked.
+    With `proof`, conflicts that arithmetic alone shows are looked for as well, which takes half a second.
     """
-    from tvimdesign.report.run.refusal import refuse_unfit
+    from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
     from tvimdesign.solve.nlp.constraints import refuse_impossible
 
-    (refuse_unfit if proof else refuse_impossible)(study)
+    refuse_impossible(study)
+    if proof:
+        refuse_infeasible(study)
     return study
 
 

@@ -9,10 +9,10 @@ from rich.console import Console
 
 from tvimdesign.page.blocks import Facts, Warned
 from tvimdesign.page.page_file import FILE as PAGE
-from tvimdesign.report.output.console import OwnMarkupConsole
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import (
     DOT,
+    OwnMarkupConsole,
     columns,
     joined,
     print_block,

@@ -18,8 +18,7 @@ from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.axis_labels import axis_label
-from tvimdesign.report.output.number_entry import finite
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.number_format import finite, head
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults

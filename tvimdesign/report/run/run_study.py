@@ -56,10 +56,9 @@ def run_study(
         from tvimdesign.report.run.answered_study import answer_study, drawings
         from tvimdesign.report.run.first_screen import print_result, write_summary
         from tvimdesign.report.run.keep_best import keeping_best
-        from tvimdesign.report.run.refusal import write_failure
         from tvimdesign.report.run.run_page import write_run_page
         from tvimdesign.report.run.uncertainty_process import uncertainty_process
-        from tvimdesign.report.run.write_answer import finish, write_answer, write_results
+        from tvimdesign.report.run.write_answer import finish, write_answer, write_failure, write_results
         from tvimdesign.solve.search import optimize
 
         best = stack.enter_context(keeping_best(folder))
@@ -210,8 +209,7 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
 def _parts(making: BackgroundPartsJob, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
     """Wait for the parts and print what was found. Raises GeometryError where a check fails."""
     from tvimdesign.report.output.terminal import block, print_lines
-    from tvimdesign.report.run.parts_of_design import plain_report, refuse_failed
-    from tvimdesign.report.run.solid_checks import in_short, print_solid_checks
+    from tvimdesign.report.run.parts_of_design import in_short, plain_report, print_solid_checks, refuse_failed
 
     report = making.finish(progress)
     console = wide_console()

@@ -9,8 +9,8 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.number_entry import finite, number_entry
-from tvimdesign.report.output.uncertainty_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
+from tvimdesign.report.output.number_format import finite, number_entry
+from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import Yield
 from tvimdesign.solve.uncertainty.contributors import contributors_of

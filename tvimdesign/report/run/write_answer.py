@@ -1,17 +1,25 @@
-"""Writes an answered study into its folder: the study, tables, curves and the design, but no plots and no parts."""
+"""Writes a study into its folder: answered, with tables, curves and the design, or refused, with the reason."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.device import Choice
+from tvimdesign.report.output.number_format import FORMAT, UNITS
+from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.results_format import RefusedRun
 from tvimdesign.report.output.tables import curves_csv, results_csv
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.why import why_csv
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS
+from tvimdesign.study import Study
 from tvimdesign.study.design import write_design
-from tvimdesign.study.tree import study_file
+from tvimdesign.study.tree import StudyTree, study_file
 
 
 def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
@@ -55,3 +63,30 @@ def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
         if isinstance(row, Choice) and row.category and choices[row.name] not in row.options
     }
     return {"study": path, **records} if path else records
+
+
+@contextmanager
+def write_failure(
+    folder: ResultsFolder, tree: StudyTree, study: Study, progress: Progress, *, as_json: bool
+) -> Iterator[None]:
+    """Where a study is found to have no design, write why, and the study, before the error goes on."""
+    try:
+        yield
+    except InfeasibleError as error:
+        from tvimdesign.report.output.page_sections import write_page
+        from tvimdesign.report.run.run_page import refused_page
+
+        progress("")  # raises KeyboardInterrupt where a solver swallowed one, and its failure looks like a conflict
+        refused: RefusedRun = {
+            "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
+            "status": "infeasible", "feasible": False, "reason": str(error),
+        }  # fmt: skip
+        folder.write("study.yaml", study_file(tree))
+        folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
+        folder.write_json("results.json", refused)
+        folder.write("summary.txt", f"{study.name}: no design.\n{error}\n")
+        write_page(folder, refused_page(folder, tree, study, str(error)))
+        folder.finish("infeasible", {"study": tree.path} if tree.path else {}, study.model_dump(mode="json"))
+        if as_json:
+            print(json.dumps({**refused, "folder": str(folder.out)}, indent=2))
+        raise

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.remaining_time import duration
+from tvimdesign.report.output.progress import duration
 from tvimdesign.report.output.tables import number, percent
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD

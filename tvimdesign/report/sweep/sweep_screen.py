@@ -10,7 +10,7 @@ from rich.markup import escape
 
 from tvimdesign.base.units import pretty
 from tvimdesign.page.page_file import FILE
-from tvimdesign.report.output.remaining_time import duration
+from tvimdesign.report.output.progress import duration
 from tvimdesign.report.output.tables import number
 from tvimdesign.sweep.plan import SweepPlan
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Folded, Page, Picture, Points, Section
-from tvimdesign.report.output.page_sections import grid, grid_of, made_by_words, study_section, there, versions_section
+from tvimdesign.report.output.page_sections import grid, made_by_words, study_section, there, versions_section
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.tolerate.tolerance_screen import (
@@ -32,8 +32,8 @@ def tolerance_page(
     share = data["yield"]
     low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
     said = f"{100.0 * share['share']:.3g} % OF MODULES KEEP ALL LIMITS ({low} to {high})"
-    varies: list[Block] = [grid_of(spread_table(found, data), code=(0, 8))]
-    varies += [grid_of(one) for one in (concern_table(found, table), robustness_table(data)) if one.rows]
+    varies: list[Block] = [spread_table(found, data)]
+    varies += [one for one in (concern_table(found, table), robustness_table(data)) if one.rows]
     picture = folder.path / _FIGURE
     if picture.exists():
         says = "Who contributes how much to each output's spread, and how modules drawn at random spread"
@@ -42,7 +42,7 @@ def tolerance_page(
     unknown = unknown_table(data["not_known"])
     sections = [
         Section("parts", "From part to part", varies),
-        *([Section("assumptions", "What nobody knows", [grid_of(unknown, code=(0, 5))])] if unknown.rows else []),
+        *([Section("assumptions", "What nobody knows", [unknown])] if unknown.rows else []),
         study_section(study),
         versions_section(folder),
     ]

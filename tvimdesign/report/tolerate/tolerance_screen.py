@@ -9,8 +9,10 @@ from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.device import Table
-from tvimdesign.report.output.summary_table import SummaryTable, print_table
+from tvimdesign.page.blocks import Grid
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.report.tolerate.tolerance_tables import spreads
 from tvimdesign.report.tolerate.unknown import unknown_rows
 from tvimdesign.report.tolerate.words import of_concern
@@ -23,13 +25,13 @@ def print_tolerances(found: Spread, data: Mapping[str, Any], table: Table, conso
     for note in data["notes"]:
         console.print(f"[dim]{escape(note)}[/dim]")
     for shown in (spread_table(found, data), concern_table(found, table), robustness_table(data)):
-        print_table(shown, console)
+        print_grid(shown, console)
     for sentence in data["sentences"]:
         console.print(escape(sentence))
-    print_table(unknown_table(data["not_known"]), console)
+    print_grid(unknown_table(data["not_known"]), console)
 
 
-def spread_table(found: Spread, data: Mapping[str, Any]) -> SummaryTable:
+def spread_table(found: Spread, data: Mapping[str, Any]) -> Grid:
     """What is asked or minimised and spreads: by worst case, root-sum-square and modules drawn at random."""
     heads = ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by")
     rows = [
@@ -39,26 +41,26 @@ def spread_table(found: Spread, data: Mapping[str, Any]) -> SummaryTable:
         for i, row in enumerate(data["outputs"])
         if row["output"] in found.asked and spreads(found, i)
     ]  # fmt: skip
-    return SummaryTable("What spreads from part to part", heads, rows, range(1, 7))
+    return grid("What spreads from part to part", heads, rows, right=range(1, 7), code=(0, 8))
 
 
-def concern_table(found: Spread, table: Table) -> SummaryTable:
+def concern_table(found: Spread, table: Table) -> Grid:
     """Limits that too many modules break, and what carries their spread."""
     rows = [
         (in_words(kept.limit, table), f"{100.0 * kept.share.share:.4g} %", f"{kept.capability:.2f}",
          _most_by(found, found.outputs.index(kept.limit.output)))
         for kept in of_concern(found)
     ]  # fmt: skip
-    return SummaryTable("Limits that too many modules break", ("", "yield", "C_pk", "most by"), rows, (1, 2))
+    return grid("Limits that too many modules break", ("", "yield", "C_pk", "most by"), rows, right=(1, 2))
 
 
-def robustness_table(data: Mapping[str, Any]) -> SummaryTable:
+def robustness_table(data: Mapping[str, Any]) -> Grid:
     """Minimised outputs without and with the robustness that a study asks for."""
     rows = [
         (row["output"], number(row["nominal"]), number(row["robust"]), row["unit"])
         for row in data.get("cost_of_robustness", ())
     ]
-    return SummaryTable("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"), rows, (1, 2))
+    return grid("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"), rows, right=(1, 2))
 
 
 def _most_by(found: Spread, i: int) -> str:
@@ -67,7 +69,7 @@ def _most_by(found: Spread, i: int) -> str:
     return f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
 
 
-def unknown_table(data: Mapping[str, Any]) -> SummaryTable:
+def unknown_table(data: Mapping[str, Any]) -> Grid:
     """What outputs may be, over the ranges of what nobody has measured."""
     rows = []
     for row in unknown_rows(data):
@@ -78,7 +80,7 @@ def unknown_table(data: Mapping[str, Any]) -> SummaryTable:
         cells = (str(row["output"]), _shown(row["as_drawn"]), alone, _span(row["low"], row["high"]))
         rows.append((*cells, str(row["unit"]), first))
     heads = ("", "as drawn", "one at a time", "all together, 95 %", "unit", "measure first")
-    return SummaryTable("What nobody knows", heads, rows, (1, 2, 3))
+    return grid("What nobody knows", heads, rows, right=(1, 2, 3), code=(0, 5))
 
 
 def _shown(value: float | None) -> str:

@@ -12,8 +12,9 @@ from rich.markup import escape
 from tvimdesign.base.units import pretty
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.summary_table import SummaryTable, print_table
+from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.report.verify.comparison import Compared
 
 FAR = 0.10
@@ -56,7 +57,7 @@ def table_csv(rows: Sequence[Compared]) -> str:
 
 def print_rows(rows: Sequence[Compared], console: Console) -> None:
     """Print the rows for people, worst first, and what to make of them."""
-    print_table(SummaryTable("", HEADS, [cells(row) for row in rows], (1, 2, 4, 5)), console)
+    print_grid(grid("", HEADS, [cells(row) for row in rows], right=(1, 2, 4, 5)), console)
     console.print(escape(summary(rows)))
 
 

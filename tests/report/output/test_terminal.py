@@ -6,7 +6,7 @@ import pytest
 from rich.markup import escape
 from rich.table import Table
 
-from tvimdesign.report.output.console import OwnMarkupConsole
+from tvimdesign.report.output.terminal import OwnMarkupConsole
 
 TEXTS = ["[/bold]", "a [/] b", "[link=http://x]u[/link]", "x[1, 2]", "[[", "]", "[bold", "[/red] [/bold]", ":key:"]
 
