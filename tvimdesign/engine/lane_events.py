@@ -14,7 +14,7 @@ from tvimdesign.engine import lanes
 from tvimdesign.engine.integrator import System
 from tvimdesign.engine.interpreter import Array, Code
 from tvimdesign.engine.lane_steps import GAMMA, newton, step
-from tvimdesign.engine.lanes import load, run
+from tvimdesign.engine.lanes import load, put, run
 from tvimdesign.engine.sparse_lu import Integers
 from tvimdesign.engine.vectors import LANES
 
@@ -57,7 +57,8 @@ def search(
     at, stride = np.empty(LANES, np.int64), np.empty(LANES, np.int64)
     for start in range(0, count, LANES):
         lanes_here = min(LANES, count - start)
-        stride[:] = 1
+        for j in range(LANES):
+            stride[j] = 1
         loaded = False
         while True:
             left = False
@@ -103,7 +104,7 @@ def _slope(share: float, one: float, other: float, here: float, there: float) ->
 @njit(cache=True, nogil=True, error_model="numpy")
 def _slopes(m: System, v: Array, state: Array, h: Array, slopes: Array) -> None:
     """Fill what a state moves by in a step at its rates; entries without mass are taken to stay."""
-    v[: m.mass.size] = state
+    put(v, state, m.mass.size)
     run(m.rates, v)
     for i in range(m.mass.size):
         for j in range(LANES):
@@ -181,10 +182,11 @@ def cross(
         for _ in range(_LAST_STEPS):
             if not wanted.any():
                 break
-            w[:total] = curve[0]
-            w[w.shape[0] - 1] = GAMMA * share * h
+            put(w, curve[0], total)
+            for j in range(LANES):
+                w[w.shape[0] - 1, j] = GAMMA * share[j] * h[j]
             step(m, w)
-            g[:size] = w[:size]
+            put(g, w, size)
             run(code, g)
             for j in range(LANES):
                 if not wanted[j]:
@@ -206,22 +208,30 @@ def _standing(m: System, w: Array, v: Array, y: Array, u: Array, moved: Array, t
     """Fill in states one Newton step nearer to one that stays at the currents `u`, and their slopes by these."""
     total, length = m.mass.size, w.shape[0] - 1
     entries = length - m.pattern.size
-    w[:total], w[total], w[length] = y, u, -1.0
+    put(w, y, total)
+    put(v, y, total)
+    for j in range(LANES):
+        w[total, j], w[length, j] = u[j], -1.0
     newton(m, w, _STANDING)
-    moved[:] = w[:total]
-    v[:total] = y
-    v[total] = u + _APART
+    put(moved, w, total)
+    for j in range(LANES):
+        v[total, j] = u[j] + _APART
     run(m.rates, v)
     for i in range(total):
-        to[i] = v[m.rate_places[i]]
-    v[total] = u - _APART
+        for j in range(LANES):
+            to[i, j] = v[m.rate_places[i], j]
+    for j in range(LANES):
+        v[total, j] = u[j] - _APART
     run(m.rates, v)
+    right = entries - total
     for p in range(total):
         i = m.pattern.order[p]
-        w[entries - total + p] = -(to[i] - v[m.rate_places[i]]) / (2.0 * _APART)
-    lanes.solve(m.pattern, w, entries, entries - total)
+        for j in range(LANES):
+            w[right + p, j] = (v[m.rate_places[i], j] - to[i, j]) / (2.0 * _APART)
+    lanes.solve(m.pattern, w, entries, right)
     for p in range(total):
-        to[m.pattern.order[p]] = w[entries - total + p]
+        for j in range(LANES):
+            to[m.pattern.order[p], j] = w[right + p, j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -246,10 +256,14 @@ def settle(
                 y[i, j] = rest[i, k]
         for _ in range(_BALANCE):
             _standing(m, w, v, y, u, moved, to)
-            g[:size], g[size] = moved[:size], u
+            put(g, moved, size)
+            for j in range(LANES):
+                g[size, j] = u[j]
             run(code, g)
-            before[:] = g[result]
-            g[:size], g[size] = moved[:size] + _APART * to[:size], u + _APART
+            for j in range(LANES):
+                before[j], g[size, j] = g[result, j], u[j] + _APART
+                for i in range(size):
+                    g[i, j] = moved[i, j] + _APART * to[i, j]
             run(code, g)
             left = False
             for j in range(LANES):

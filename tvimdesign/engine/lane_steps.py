@@ -39,7 +39,9 @@ def newton(m: System, w: Array, share: float) -> None:
     entries = length - m.pattern.size
     right, base = entries - size, entries - 2 * size
     run(m.slopes, w)
-    w[entries:length] = 0.0
+    for e in range(entries, length):
+        for j in range(LANES):
+            w[e, j] = 0.0
     for i in range(size):
         w[entries + m.diagonal[i]] = share * m.mass[i]
     for i in range(m.slope_places.size):
