@@ -93,7 +93,7 @@ def melt_data(noise: np.random.Generator) -> Made:
 
 def amplitude_sweep_data(noise: np.random.Generator) -> Made:
     """A sweep at 100 degC from 0.1 to 300 %; moduli to 1 %."""
-    truth = {"linear_strain": 0.3, "storage_modulus": 5e3, "loss_modulus": 1.2e4}
+    truth = {"linear_strain": 0.3, "drop_power": 2.0, "storage_modulus": 5e3, "loss_modulus": 1.2e4}
     strain = np.geomspace(1e-3, 3.0, 30)
     left = polymer.damping_function(strain, truth["linear_strain"])
     storage, loss = (

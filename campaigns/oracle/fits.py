@@ -24,7 +24,7 @@ _LOGGED = {
     "study": str(CODE / "studies/paper_as_published.yaml"),
     "fitted": "rotor_contact rotor_coefficient cold_side_coefficient",
 }
-_WORDING = {"notes", "words", "read", "files", "meaning", "format", "tvimdesign", "units"}
+_WORDING = {"notes", "words", "misfit", "read", "files", "meaning", "format", "tvimdesign", "units"}
 """Keys of the JSON that are for readers."""
 
 

@@ -86,7 +86,7 @@ def test_a_panel_is_titled_by_its_file_and_labelled_by_what_was_measured() -> No
     one = Channel(
         "angle of /home/me/lab of 2026/swing, cold.csv, run 2", "deg", angle, lambda _: angle, at, "time", "s"
     )
-    fit = SimpleNamespace(problem=SimpleNamespace(channels=[one]), predicted=[angle], noise=[1.0])
+    fit = SimpleNamespace(problem=SimpleNamespace(channels=[one]), predicted=[angle], noise=[1.0], misfit="")
     made = SimpleNamespace(kind=SimpleNamespace(name="release"), measurement=SimpleNamespace(fit=fit))
     (panel,) = figure_data(made)["panels"]
     assert (panel["title"], panel["y_label"], panel["x_label"]) == ("swing, cold.csv, run 2", "angle / °", "time / s")

@@ -122,6 +122,18 @@ def test_what_contradicts_the_base_leaves_no_record(tmp_path: Path) -> None:
     assert not list((tmp_path / "my_records").rglob("*.yaml"))
 
 
+def test_data_that_the_equations_do_not_describe_write_no_record(tmp_path: Path) -> None:
+    # A spring that stiffens as its coils touch: no one modulus is its wire's.
+    angle = np.linspace(0.02, 1.0, 40)
+    rows = "\n".join(f"{5.0 * x + 4.0 * x**3:.6g};{x:.6g}" for x in angle)
+    path = tmp_path / "stiff.csv"
+    path.write_text(f"torque [N.m];angle [rad]\n{rows}\n")
+    fitted = tvim.fit(path, wire_diameter="2 mm", coil_diameter="20 mm", coil_count="5")
+    assert "The equations do not describe angle of" in fitted.data["misfit"]
+    with pytest.raises(InputError, match=r"No record is written\. The figure and residuals\.csv show"):
+        fitted.record("my_wire", catalog=tmp_path / "my_records")
+
+
 def test_the_door_for_python_users(tmp_path: Path) -> None:
     fitted = tvim.fit(str(pad_file(tmp_path)), "pad", leak="0.001 W/K")
     table = fitted.table()

@@ -39,6 +39,7 @@ def fit_data(measured: Measured) -> dict[str, Any]:
         ],
         "notes": list(found.notes),
         "words": list(found.fit.words),
+        "misfit": found.fit.misfit,
         "read": measured.read(),
     }  # fmt: skip
 
@@ -74,7 +75,9 @@ def from_si_array(values: Any, unit: str) -> Any:
 
 def figure_data(measured: Measured) -> dict[str, Any]:
     """Return the panels of the figure: values and curves, each with its residuals below."""
-    return {"title": f"{measured.kind.name}: measured and fitted", "panels": list(_panels(measured.measurement.fit))}
+    fit = measured.measurement.fit
+    why = "; the equations do not describe the data: no record" if fit.misfit else ""
+    return {"title": f"{measured.kind.name}: measured and fitted{why}", "panels": list(_panels(fit))}
 
 
 def _panels(fit: Fit) -> Iterator[dict[str, Any]]:

@@ -87,6 +87,8 @@ def write_record(measured: Measured, folder: Path, name: str, based_on: str = ""
 
 def _records(measured: Measured, name: str, based_on: str) -> list[tuple[str, str, str, str]]:
     """Return category, choice, base and text of every record that follows. Raises InputError where none does."""
+    if measured.measurement.fit.misfit:
+        raise InputError(f"{measured.kind.name}: {measured.measurement.fit.misfit}")
     category, found = measured.kind.category, []
     base = based_on or BASED_ON.get(category, "")
     others = [one for one in measured.measurement.more_records if any(_value_lines(measured, one.values))]

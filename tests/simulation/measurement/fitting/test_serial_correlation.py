@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import t as student
 
-from tvimdesign.simulation.measurement.fitting.fit import fitted
+from tvimdesign.simulation.measurement.fitting.fit import Fit, fitted
 from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Parameter, Problem
 from tvimdesign.simulation.measurement.fitting.serial_correlation import (
     INDEPENDENT,
@@ -161,3 +161,26 @@ def test_words_tell_what_is_sure_from_what_cannot_be_told() -> None:
     assert any(said.startswith("Residuals follow one another, most those of y") for said in sure.words)
     said = [word for seed in range(60) for word in fitted(drifting(12, 0.3, seed), profiles=False).words]
     assert any("too few to tell whether they follow one another" in word for word in said)
+
+
+def straight(x: Array, measured: Array, *, relative: bool = False) -> Fit:
+    line = [Parameter("slope", "1", "", 1.0), Parameter("zero", "1", "", 1.0)]
+    channel = Channel("y", "1", measured, lambda values: values["zero"] + values["slope"] * x, x, "x", "1", relative)
+    return fitted(Problem(line, [channel]), profiles=False)
+
+
+@pytest.mark.parametrize("count", [12, 40, 200])
+@pytest.mark.parametrize("relative", [False, True])
+def test_a_law_that_bends_away_from_its_data_is_a_misfit(count: int, relative: bool) -> None:
+    x = np.linspace(0.0, 1.0, count)
+    bent = 2.0 + x + 0.5 * x**2 + 0.002 * noise_of(count, 0.0, 1)
+    assert "do not describe y" in straight(x, bent, relative=relative).misfit
+    assert not straight(x, 2.0 + x, relative=relative).misfit
+    assert not straight(x, 2.0 + x + 1e-4 * x**2, relative=relative).misfit  # no more than a thousandth of the range
+
+
+@pytest.mark.parametrize(("count", "rho"), [(12, 0.0), (60, 0.3), (60, 0.6), (200, 0.8)])
+def test_noise_that_follows_itself_is_no_misfit(count: int, rho: float) -> None:
+    x = np.linspace(0.0, 1.0, count)
+    misfits = [straight(x, 2.0 + x + 0.05 * noise_of(count, rho, seed)).misfit for seed in range(100)]
+    assert sum(map(bool, misfits)) <= 8

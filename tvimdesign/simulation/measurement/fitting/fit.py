@@ -19,6 +19,13 @@ _CHANCE = 0.05
 """Correlation from which on it is named, and the probability that it is none up to which it is sure."""
 _SAME = 0.05
 """Share to which parameters must change alike for their ratios to be what is known."""
+_TOO_ALIKE = 0.9
+"""Correlation of residuals from which on they are no noise."""
+_NEGLIGIBLE = 2e-3
+"""Share of the range, or of the value, up to which residuals do not count as a misfit."""
+_RARE = 3.1
+"""Deviations: 1 in 1000 by chance."""
+_FEWEST_RUNS = 8
 _UNKNOWN = float(np.log(1e6))
 """Half the width of a logarithm's interval from which on the data say nothing of what follows."""
 
@@ -50,6 +57,8 @@ class Fit:
     autocorrelation: tuple[float, ...]
     """Of each channel's noise from one value to the next, as the intervals count it."""
     words: tuple[str, ...]
+    misfit: str = ""
+    """Why the equations do not describe the data, so that no record may follow; empty where they do."""
 
     def value(self, name: str) -> float:
         """Return the value of a parameter, or of what follows [SI]."""
@@ -102,11 +111,53 @@ def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
         ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
         words += _unbounded(one, ends)
         parameters.append(_estimate(one, best.inner[i], ends))
+    misfit = _misfit(residuals, best, known)
     return Fit(
         fit.problem, tuple(parameters), _derived(residuals, best, known), correlation(known.covariance),
         tuple(fit.predicted()), tuple(map(float, best.noise)),
-        tuple(one.rho for one in known.follows), tuple(words),
+        tuple(one.rho for one in known.follows), (*words, *([misfit] if misfit else [])), misfit,
     )  # fmt: skip
+
+
+def _misfit(residuals: Residuals, best: RobustFit, known: Spread) -> str:
+    """Say which channel the equations do not describe: by correlation, or by runs of one sign in what it leaves.
+
+    Noise may follow itself, and intervals count that up to `_TOO_ALIKE`; a runs test (Wald and Wolfowitz, Ann. Math.
+    Statist. 11 (1940) 147) of the residuals less their correlation finds what is no such noise.
+    """
+    values = residuals.at(best.inner)
+    for group in residuals.groups:
+        channel, follows = residuals.problem.channels[group[0]], known.follows[group[0]]
+        size = 1.0 if channel.relative else max(float(np.ptp(residuals.problem.channels[i].measured)) for i in group)
+        if best.noise[group[0]] <= _NEGLIGIBLE * size:
+            continue
+        why = ""
+        if follows.rho > _TOO_ALIKE and follows.by_chance <= _CHANCE:
+            why = f"follow one another (correlation {follows.rho:.2f})"
+        parts = [values[residuals.parts[i]] for i in group]
+        short = _missing_runs([part[1:] - follows.rho * part[:-1] for part in parts])
+        if not why and short > _RARE:
+            why = f"keep their sign for longer than chance explains ({short:.1f} deviations)"
+        if why:
+            return (
+                f"The equations do not describe {channel.name}: its residuals {why}. No record is written. The figure "
+                "and residuals.csv show where the data part from the equations; leave those rows out."
+            )
+    return ""
+
+
+def _missing_runs(series: Sequence[Array]) -> float:
+    """Return by how many deviations the runs of one sign are fewer than those of independent values."""
+    missing, variance = 0.0, 0.0
+    for values in series:
+        above = values[values != 0.0] > 0.0
+        n, up = len(above), int(np.sum(above))
+        if n < _FEWEST_RUNS or up in {0, n}:
+            continue
+        both = 2.0 * up * (n - up)
+        missing += 1.0 + both / n - (1 + int(np.sum(above[1:] != above[:-1])))
+        variance += both * (both - n) / (n**2 * (n - 1.0))
+    return missing / float(np.sqrt(variance)) if variance > 0.0 else 0.0
 
 
 def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profiles: bool) -> tuple[float, float]:

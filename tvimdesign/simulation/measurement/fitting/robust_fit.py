@@ -75,12 +75,14 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
         least, most = one.bounds
         if not least < most:
             raise InputError(f"{one.name}: the data suggest {one.start:.0e} {one.unit}; look for a wrong number")
+    least = _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts])
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
+    noise = np.where(noise > 0.0, noise, least)
     inner = start
     for _ in range(_PASSES):
         inner = solved(residuals, inner, noise)
         now = _noises(residuals, inner, parameters_of(residuals, inner, noise))
-        now = np.maximum(now, _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts]))
+        now = np.maximum(now, least)
         settled = np.all(np.abs(now / noise - 1.0) < _SETTLED)
         noise = now
         if settled:
@@ -149,22 +151,21 @@ def cost(residuals: Residuals, inner: Array, noise: Array) -> float:
 def _noises(residuals: Residuals, inner: Array, taken: Array) -> Array:
     """Return each channel's noise, from the residuals of all that err alike; `taken` is as of `parameters_of`."""
     values = residuals.at(inner)
-    return np.array(
-        [
-            _noise_of(np.concatenate([values[residuals.parts[i]] for i in alike]), float(np.sum(taken[alike])))
-            for alike in residuals.alike
-        ]
-    )
+    noises = [
+        _noise_of(np.concatenate([values[residuals.parts[i]] for i in alike]), float(np.sum(taken[alike])))
+        for alike in residuals.alike
+    ]
+    return np.array(noises)
 
 
 def _noise_of(values: Array, parameters: float) -> float:
     """Return deviation of a channel, for which the mean square of the influence is what it is of a normal error [H].
 
-    Parameters take their share of the residuals away. Begins at the median of the sizes; 1 where all are zero.
+    Parameters take their share of the residuals away. Begins at the median of the sizes; 0 where all are zero.
     """
     share = max(1.0 - parameters / len(values), 0.1)
-    noise = float(_NORMAL * np.median(np.abs(values))) or float(np.std(values)) or 1.0
-    for _ in range(_ROUNDS):
+    noise = float(_NORMAL * np.median(np.abs(values))) or float(np.std(values))
+    for _ in range(_ROUNDS if noise > 0.0 else 0):
         pull, _ = influence(values / noise)
         noise *= float(np.sqrt(np.mean(pull**2) / (share * _MEAN_SQUARE)))
     return noise

@@ -91,21 +91,45 @@ def test_a_ramp_has_the_energy_that_made_it_and_leaves_out_what_is_frozen(tmp_pa
         measured(path, least_temperature="200 degC")
 
 
-def test_amplitude_sweeps_find_the_strain_that_five_percent_are_gone_at(tmp_path: Path) -> None:
-    # G' = G0/(1 + (0.05/0.95) (gamma/0.4)^2) has lost 5 % at 0.4, whatever the frequency.
-    strain = np.geomspace(0.01, 4.0, 40)
-    left = 1.0 / (1.0 + 0.05 / 0.95 * (strain / 0.4) ** 2)
-    noise = np.random.default_rng(4)
-    storage, loss = (size * left * np.exp(noise.normal(0.0, 5e-3, 40)) for size in (3e3, 9e3))
-    columns = {"strain__%": 100.0 * strain, "G'__Pa": storage, "G''__Pa": loss}
-    hot = measured(csv(tmp_path / "a.csv", **columns, temperature__degC=np.full(40, 100.0)))
-    assert hot.kind.name == "amplitude_sweep"
-    assert hot.measurement.record_values["linear_strain_melt"].value == pytest.approx(0.4, rel=0.02)
-    between = found(csv(tmp_path / "b.csv", **columns, temperature__degC=np.full(40, 58.0)), "amplitude_sweep")
+LAWS: dict[str, Any] = {
+    "square": lambda x: 1.0 / (1.0 + 0.05 / 0.95 * x**2),
+    "linear": lambda x: 1.0 / (1.0 + 0.05 / 0.95 * x),
+    "steep": lambda x: 1.0 / (1.0 + 0.05 / 0.95 * x**3),
+    "slipping": lambda x: 1.0 / (1.0 + 0.05 / 0.95 * np.minimum(x, 2.1) ** 2) * np.minimum(1.0, 2.1 / x) ** 3,
+    "flat tail": lambda x: 1.0 / (1.0 + 0.05 / 0.95 * np.minimum(x, 2.1) ** 2) * np.minimum(1.0, 2.1 / x) ** 0.5,
+}
+
+
+def strained(path: Path, law: str, noise: float, celsius: float = 100.0) -> Path:
+    """A sweep that has lost 5 % of its storage modulus at a strain of 0.029; the loss modulus overshoots."""
+    strain, draw = np.geomspace(1e-4, 1.0, 45), np.random.default_rng(4)
+    x = strain / 0.029
+    moduli = 3e3 * LAWS[law](x), 9e3 * (1.0 + 0.3 * (x / 2.0) ** 2 / (1.0 + (x / 2.0) ** 4))
+    storage, loss = (one * np.exp(draw.normal(0.0, noise, 45)) for one in moduli)
+    return csv(path, **{"strain__%": 100.0 * strain, "G'__Pa": storage, "G''__Pa": loss},
+               temperature__degC=np.full(45, celsius))  # fmt: skip
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("noise", [0.0, 5e-3])
+def test_the_linear_range_ends_where_five_percent_are_gone(tmp_path: Path, law: str, noise: float) -> None:
+    result = measured(strained(tmp_path / "a.csv", law, noise))
+    assert result.kind.name == "amplitude_sweep"
+    limit = result.measurement.record_values["linear_strain_melt"]
+    assert limit.value == pytest.approx(0.029, rel=20.0 * noise + 1e-3)
+    assert (limit.low or 1.0) * (1.0 - 1e-3) < 0.029 < (limit.high or 0.0) * (1.0 + 1e-3)
+    assert result.measurement.fit.value("loss_modulus") == pytest.approx(9e3, rel=2.0 * noise + 1e-3)
+    assert not result.measurement.fit.misfit
+
+
+def test_a_limit_of_neither_phase_or_hardly_seen_is_no_record_s(tmp_path: Path) -> None:
+    between = found(strained(tmp_path / "b.csv", "square", 5e-3, 58.0), "amplitude_sweep")
     assert not between.record_values
-    short = found(csv(tmp_path / "s.csv", **{name: one[:15] for name, one in columns.items()}), "amplitude_sweep",
-                  temperature="100 degC")  # fmt: skip
+    path = strained(tmp_path / "s.csv", "square", 5e-3)
+    path.write_text("\n".join(path.read_text().splitlines()[:25]))
+    short = found(path, "amplitude_sweep")
     assert any("hardly seen" in note for note in short.notes)
+    assert not short.record_values
 
 
 def test_a_known_energy_is_not_fitted(tmp_path: Path) -> None:

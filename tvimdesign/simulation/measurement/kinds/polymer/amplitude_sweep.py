@@ -1,74 +1,132 @@
 """Amplitude sweeps: storage and loss modulus over strain at one frequency, and the end of the linear range.
 
-Strain takes the same share of both, `polymer.damping_function`, as the virtual rheometer has it; its limit is the
-strain at which the storage modulus has fallen by `polymer.LINEAR_DROP`.
+G' = G'_0/(1 + d/(1 - d) (gamma/gamma_L)^m), d = `polymer.LINEAR_DROP`: the share d is gone at gamma_L, whatever the
+power m, which the data tell; the product takes m = 2 (`polymer.damping_function`). Rows beyond the strain at which a
+fifth of G' is gone are left out, for the tail has another law. G'' has a law of its own over the rows up to gamma_L:
+its plateau, and a change by a power of its own.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.ndimage import median_filter
 
-from tvimdesign.physics.polymers import polymer
+from tvimdesign.base.errors import InputError
+from tvimdesign.physics.polymers.polymer import LINEAR_DROP
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, rows_of
+from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS, Measurement, Settings, endings, rows_of
 from tvimdesign.simulation.measurement.kinds.polymer.melt_tests import temperature_of, title_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
-_SEEN = 0.9
-"""Share of the linear modulus that must be left at the largest strain, or less, for the limit to be seen."""
+_GONE = 0.2
+"""Share of the storage modulus that is gone at the last row used."""
+_SMOOTHED = 3
+"""Rows of the median by which a single row does not end the linear range."""
+_POWERS = (0.3, 8.0)
+
+
+class Sweep(NamedTuple):
+    """One sweep up to where a fifth of its storage modulus is gone."""
+
+    temperature: float
+    where: str
+    end: str
+    strain: Array
+    storage: Array
+    loss: Array
+    linear: int
+    """Count of the rows up to the limit."""
+    limit: float
+    """Strain at which `LINEAR_DROP` is gone, roughly."""
+    left: float
+    """Share of the storage modulus that is left at the last row used."""
+    beyond: int
+    """Rows left out."""
+
+    def parameters(self) -> list[Parameter]:
+        """Return the plateaus, and the change of the loss modulus up to the limit with its power."""
+        first = max(self.linear // 2, 1)
+        return [
+            *(
+                Parameter(f"{name}_modulus{self.end}", "Pa", f"Linear {name} modulus of {self.where}",
+                          float(np.median(moduli[:first])))
+                for name, moduli in (("storage", self.storage), ("loss", self.loss))
+            ),
+            Parameter(f"loss_change{self.end}", "1", "Change of the loss modulus up to the limit", 0.0, positive=False,
+                      scale=LINEAR_DROP, nuisance=True),
+            Parameter(f"loss_power{self.end}", "1", "Power of the strain by which it changes", 2.0, least=_POWERS[0],
+                      most=_POWERS[1], nuisance=True),
+        ]  # fmt: skip
+
+    def channels(self) -> list[Channel]:
+        """Return both moduli over the strain."""
+        strain, linear = self.strain, self.strain[: self.linear]
+
+        def storage(values: Values) -> Any:
+            risen = (ca.DM(strain) / values["linear_strain"]) ** values["drop_power"]
+            return values[f"storage_modulus{self.end}"] / (1.0 + LINEAR_DROP / (1.0 - LINEAR_DROP) * risen)
+
+        def loss(values: Values) -> Any:
+            risen = (ca.DM(linear) / linear[-1]) ** values[f"loss_power{self.end}"]
+            return values[f"loss_modulus{self.end}"] * np.exp(values[f"loss_change{self.end}"] * risen)
+
+        def channel(name: str, moduli: Array, predicted: Callable[[Values], Any], at: Array) -> Channel:
+            return Channel(f"{name} modulus of {self.where}", "Pa", moduli, predicted, at, "strain", "%", relative=True,
+                           noise_of=f"{name}_modulus")  # fmt: skip
+
+        return [channel("storage", self.storage, storage, strain),
+                channel("loss", self.loss[: self.linear], loss, linear)]  # fmt: skip
 
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit sweeps of one state of the polymer, together: one limit, moduli for each. Raises InputError."""
-    parameters: list[Parameter] = []
-    channels: list[Channel] = []
-    left = 1.0
-    temperatures, limits = [], []
-    for i, block in enumerate(blocks, start=1):
-        strain, storage, loss = _sweep(block)
-        temperatures.append(temperature_of(block, settings))
-        where = title_of(block, temperatures[-1])
-        end = "" if len(blocks) == 1 else f"_{i}"
-        first = max(len(strain) // 5, 1)
-        for name, moduli in (("storage_modulus", storage), ("loss_modulus", loss)):
-            start = float(np.median(moduli[:first]))
-            words = name.replace("_", " ")
-            parameters.append(Parameter(name + end, "Pa", f"Linear {words} of {where}", start))
-            channels.append(
-                Channel(f"{words} of {where}", "Pa", moduli, _predicted(name + end, strain), strain, "strain", "%",
-                        relative=True, noise_of=name)
-            )  # fmt: skip
-        fallen = storage / np.median(storage[:first])
-        left = min(left, float(np.min(fallen)))
-        limits.append(_limit(strain, fallen))
-    limit = Parameter("linear_strain", "%", "Strain at which 5 % of the storage modulus are gone", min(limits))
-    found = fitted(Problem([limit, *parameters], channels), profiles=profiles)
-    name, notes = _phase(temperatures, settings)
-    if left > _SEEN:
-        notes.append("No sweep leaves the linear range by a tenth: the limit is hardly seen; go to larger strains.")
+    sweeps = [_sweep(block, settings, end) for block, end in zip(blocks, endings(blocks), strict=True)]
+    limit = min(sweep.limit for sweep in sweeps)
+    parameters = [
+        Parameter("linear_strain", "%", "Strain at which 5 % of the storage modulus are gone", limit),
+        Parameter("drop_power", "1", "Power of the strain by which it goes", 2.0, least=_POWERS[0], most=_POWERS[1]),
+        *(parameter for sweep in sweeps for parameter in sweep.parameters()),
+    ]
+    found = fitted(Problem(parameters, [one for sweep in sweeps for one in sweep.channels()]), profiles=profiles)
+    name, notes = _phase([sweep.temperature for sweep in sweeps], settings)
+    beyond = sum(sweep.beyond for sweep in sweeps)
+    if beyond:
+        notes.append(f"{beyond} rows beyond the strain at which a fifth of the storage modulus is gone are left out.")
+    if min(sweep.left for sweep in sweeps) > 1.0 - LINEAR_DROP:
+        notes.append(
+            f"No sweep loses {100.0 * LINEAR_DROP:g} % of its storage modulus: the limit is hardly seen, and no "
+            "record's; go to larger strains."
+        )
+        name = ""
     return Measurement(found, tuple(notes), {name: found["linear_strain"]} if name else {})
 
 
-def _predicted(name: str, strain: Array) -> Callable[[Values], Any]:
-    return lambda values: values[name] * polymer.damping_function(ca.DM(strain), values["linear_strain"])
+def _sweep(block: Block, settings: Settings, end: str) -> Sweep:
+    """Return the rows of a table up to where a fifth is gone. Raises InputError where there are too few."""
+    columns = rows_of(block, ["strain", "storage_modulus", "loss_modulus"])
+    good = np.all([column > 0.0 for column in columns], axis=0)
+    order = np.argsort(columns[0][good], kind="stable")
+    strain, storage, loss = (column[good][order] for column in columns)
+    if len(strain) < LEAST_ROWS:
+        raise InputError(f"{block.place}: {len(strain)} rows have strain and both moduli above zero")
+    left = median_filter(storage / np.median(storage[: max(len(strain) // 5, 1)]), _SMOOTHED, mode="nearest")
+    last = max(_until(left, 1.0 - _GONE), LEAST_ROWS)
+    linear = max(_until(left, 1.0 - LINEAR_DROP), LEAST_ROWS)
+    limit = float(strain[min(linear, len(strain) - 1)])
+    temperature = temperature_of(block, settings)
+    return Sweep(temperature, title_of(block, temperature), end, strain[:last], storage[:last], loss[:last],
+                 min(linear, last), limit, float(np.min(left[:last])), len(strain) - last)  # fmt: skip
 
 
-def _sweep(block: Block) -> tuple[Array, Array, Array]:
-    strain, storage, loss = rows_of(block, ["strain", "storage_modulus", "loss_modulus"])
-    good = (strain > 0.0) & (storage > 0.0) & (loss > 0.0)
-    order = np.argsort(strain[good], kind="stable")
-    return strain[good][order], storage[good][order], loss[good][order]
-
-
-def _limit(strain: Array, fallen: Array) -> float:
-    """Return a start: by the first row that has lost a tenth, or the largest strain."""
-    gone = np.flatnonzero(fallen < _SEEN)
-    return float(0.7 * strain[gone[0]]) if len(gone) else float(strain[-1])
+def _until(left: Array, share: float) -> int:
+    """Return the count of rows before the first at which less than a share is left."""
+    less = np.flatnonzero(left < share)
+    return int(less[0]) if len(less) else len(left)
 
 
 def _phase(temperatures: Sequence[float], settings: Settings) -> tuple[str, list[str]]:
