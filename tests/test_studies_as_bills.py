@@ -51,7 +51,7 @@ def bought(path: Path) -> list[Item]:
 
 
 @pytest.mark.parametrize("path", ORDERED, ids=lambda path: str(path.stem))
-def test_what_is_bought_has_a_number_a_standard_or_sizes_and_ratings_to_order_by(path: Path) -> None:
+def test_bought_items_have_a_number_a_standard_or_sizes_to_order_by(path: Path) -> None:
     found = bought(path)
     assert {"peltier_pad", "polymer", "thermal_cutout", "spring_right", "link_screw"} <= {one.kind for one in found}
     for one in found:

@@ -30,7 +30,7 @@ def _of(name: str) -> Study:
 
 
 @to_order
-def test_a_study_accepts_no_rating_and_asks_for_a_yield_of_95_percent(path: Path) -> None:
+def test_a_study_accepts_no_rating_and_requires_a_yield_of_95_percent(path: Path) -> None:
     study = read_study(path)
     assert not study.accept
     assert study.robust is not None
@@ -39,7 +39,7 @@ def test_a_study_accepts_no_rating_and_asks_for_a_yield_of_95_percent(path: Path
 
 
 @to_order
-def test_the_heater_has_a_number_or_is_made_to_an_outline_and_the_structure_is_not_petg(path: Path) -> None:
+def test_the_heater_can_be_bought_and_the_structure_is_not_petg(path: Path) -> None:
     study = read_study(path)
     free = study.vary.get("peltier_module")
     heaters = free.values if isinstance(free, Options) else [study.module.get("peltier_module", "flexible_1600")]

@@ -50,7 +50,7 @@ def blocks() -> Design:
     params=["quick paper", *(pytest.param(name, marks=pytest.mark.slow) for name in ("paper", "blocks"))],
 )
 def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
-    """The parts of the paper's size in either mode; the quick ones without most of the checks on the solids."""
+    """Return the parts of the paper's size in either mode; the quick ones without most of the checks on the solids."""
     folder, name = tmp_path_factory.mktemp("cad"), request.param.removeprefix("quick ")
     design = whole(request.getfixturevalue(name))
     write_design(design, folder / "design.json")

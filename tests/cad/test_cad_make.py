@@ -63,7 +63,7 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
 
 
 @pytest.mark.gate
-def test_what_changes_its_place_or_shape_is_held_against_what_it_could_meet(made: Made) -> None:
+def test_moving_parts_are_compared_with_all_they_could_meet(made: Made) -> None:
     pairs = {
         "shear": {"rotor | spring_right_1", "housing | spring_left_2"},
         "compression": {"rotor | pcl_block_1", "peltier_pad_2 | pcl_block_1", "housing | pcl_block_1"},
@@ -142,7 +142,7 @@ def test_picture_shows_the_parts(made: Made) -> None:
 
 
 @pytest.mark.slow
-def test_the_same_design_gives_the_same_bytes_in_another_process_on_another_day(
+def test_a_design_gives_the_same_bytes_on_another_day(
     made: Made, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write_design(made.design, tmp_path / "design.json")
@@ -171,7 +171,7 @@ def test_colours_are_put_in_the_order_of_their_parts() -> None:
     assert one.endswith(end)
 
 
-def test_a_colour_that_parts_share_stands_with_the_first_of_them_whichever_the_kernel_met_first() -> None:
+def test_a_shared_colour_is_written_with_the_first_part() -> None:
     styles, colour = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION", "COLOUR_RGB('',0.3);\n"
     head, end = "#1 = A();\n#2 = B();\n", "ENDSEC;\n"
     one = in_fixed_order(f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}")
@@ -208,7 +208,7 @@ def test_a_process_that_reports_no_progress_is_an_error(
         job(limit=0.05)
 
 
-def test_a_child_that_says_what_it_does_is_given_time_and_one_that_falls_silent_is_not(
+def test_a_child_that_reports_progress_gets_more_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.05)

@@ -45,7 +45,7 @@ def test_a_design_that_is_not_sound_is_told() -> None:
     assert [text.split(":")[0] for text in wrong] == ["housing_volume"]
 
 
-def test_random_choices_are_refused_by_name_or_have_a_design_that_keeps_the_rules() -> None:
+def test_random_choices_are_refused_by_name_or_satisfy_the_rules() -> None:
     drawn = [random_choices.drawn(index, 3, inspect=True) for index in range(12)]
     ended = [one for one in drawn if isinstance(one, random_choices.Ended)]
     assert len(ended) < len(drawn)

@@ -1,4 +1,4 @@
-"""What making the parts gives back: plain records, without the CAD kernel."""
+"""Records that making the parts returns, without the CAD kernel."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Level = Literal["pass", "warning", "failure"]
 
 @dataclass(frozen=True)
 class SolidCheck:
-    """One thing that was held against the design."""
+    """One comparison of the solids with the design."""
 
     name: str
     value: float
@@ -33,15 +33,15 @@ class SolidCheck:
 
     @property
     def level(self) -> Level:
-        """What to make of it."""
+        """ "pass", "warning" or "failure"."""
         return "failure" if not self.ok else "warning" if self.warned else "pass"
 
     def fields(self) -> dict[str, Any]:
-        """What it is made of again."""
+        """Return the fields it is made of again."""
         return dict(vars(self))
 
     def plain(self) -> dict[str, Any]:
-        """All of it, for a JSON file."""
+        """Return all of it for a JSON file."""
         return self.fields() | {"level": self.level, "basis": "sampled" if self.resolution else "exact"}
 
 
@@ -67,14 +67,17 @@ class CadReport:
 
 
 def at_least(value: float, limit: float, failing: float | None = None) -> Level:
-    """Level of a value that must not be less than a limit; a failure below `failing`, which is the limit itself."""
+    """Return the level of a value that must not be less than a limit.
+
+    A failure below `failing`, which is the limit itself.
+    """
     if value >= limit:
         return "pass"
     return "failure" if failing is None or not value >= failing else "warning"
 
 
 def at_most(value: float, limit: float) -> Level:
-    """Level of a value that must not be more than a limit, a failure where it is."""
+    """Return the level of a value that must not be more than a limit, a failure where it is."""
     return "pass" if value <= limit else "failure"
 
 

@@ -30,7 +30,7 @@ HALF_MADE = ".parts.{}."
 """Prefix of the folder in which a process makes parts, where none are kept between runs."""
 JOB = "tvimdesign.cad.jobs.main"
 WAITING = "--wait"
-"""First argument of a child that is told on standard input what to make: a line of JSON with design, folder and
+"""First argument of a child that reads from standard input what to make: a line of JSON with design, folder and
 limit of processor time of a part. The second is the mode of the design that will come, or empty."""
 
 
@@ -45,7 +45,7 @@ def make_cad(
 ) -> CadReport:
     """Build, check and write the parts of the design file into the folder `out`.
 
-    `progress` is told each step. The files are written even where a check fails (`report.failed`), so that one can look
+    `progress` gets each step. The files are written even where a check fails (`report.failed`), so that one can look
     at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
     (`MODULES` in `cad/assembly/module_parts.py`) and call this one's `main`. Raises GeometryError where a part cannot
     be built or takes more than `part_limit` of processor time [s], naming the part, once the files of the others are
@@ -101,13 +101,13 @@ class PartsProcess:
         make_folder(out)
         self._out = out
         assert self._process.stdin is not None
-        with contextlib.suppress(BrokenPipeError):  # that it has died is told at the end
+        with contextlib.suppress(BrokenPipeError):  # that it has died shows at the end
             asked = [str(design_path.resolve()), str(out.resolve()), str(part_limit)]
             self._process.stdin.write(json.dumps(asked) + "\n")
             self._process.stdin.flush()
 
     def finish(self, progress: Callable[[str], None] | None = None, limit: float = LIMIT) -> CadReport:
-        """Wait for what came of it; `progress` is told each step. Raises as `make_cad` does."""
+        """Wait for what came of it; `progress` gets each step. Raises as `make_cad` does."""
         assert self._out is not None
         state: dict[str, Any] = {"progress": "starting"}
         watch = ProcessorLimit(self._process.pid, limit)
@@ -148,7 +148,7 @@ def _report(out: Path, state: dict[str, Any], why: str, tail: str) -> CadReport:
 
 
 def _tail(progress_output: IO[bytes]) -> str:
-    """Last line of what the child wrote to standard error."""
+    """Return last line of what the child wrote to standard error."""
     progress_output.seek(0)
     written = progress_output.read().decode(errors="replace").strip().splitlines()
     return written[-1] if written else ""

@@ -1,4 +1,4 @@
-"""What programs that show the assembly are told, held against the GLB, the note and the CAD kernel's own wire."""
+"""Data for programs that show the assembly, compared with the GLB, the note and the CAD kernel's own wire."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def dims() -> Dimensions:
 
 @pytest.fixture(scope="module")
 def told(dims: Dimensions) -> dict[str, Any]:
-    """The data of the paper's module; springs and a housing stand for all its parts."""
+    """Return the data of the paper's module; springs and a housing stand for all its parts."""
     meshes = {kind: spring_mesh(coil) for kind, coil in installed_coils(dims).items()}
     placed = {name: Instance(meshes[name.rpartition("_")[0]], np.eye(4)) for name in spring_locations(dims)}
     box = cq.Workplane().box(60, 60, 20).val().tessellate(0.1)

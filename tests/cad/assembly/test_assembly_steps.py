@@ -23,21 +23,21 @@ SWITCHED = {"current": 2.5, "response_time": 37.6, "hold_current": 0.75, "pin_fo
 
 
 def steps(design: Design) -> list[str]:
-    """The steps of a design with all its parts."""
+    """Return the steps of a design with all its parts."""
     dims = dimensions(design)
     items = [Item(kind, 4, False, "", "", 1.0, ()) for kind in MODULES[design.mode].kinds(dims)]
     return [step.text for step in written_steps(design, dims, items)]
 
 
 def made(changes: dict[str, Any], mode: str = "shear", tolerance: dict[str, Any] | None = None) -> Design:
-    """A design that was taken through its cycle, and whose study says how far its preload is off."""
+    """Return a design that was taken through its cycle, and whose study says how far its preload is off."""
     design = design_of("made", changes, mode)
     study = {"tolerances": {"preload_angle": tolerance}} if tolerance else {}
     return design.model_copy(update={"values": design.values | SWITCHED, "study": study})
 
 
 def where(texts: Sequence[str], words: str) -> int:
-    """The one step with these words."""
+    """Return the one step with these words."""
     (found,) = [index for index, text in enumerate(texts) if words in text]
     return found
 

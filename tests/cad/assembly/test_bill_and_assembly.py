@@ -62,7 +62,7 @@ def test_a_spring_from_stock_is_ordered_by_its_maker_s_number() -> None:
     assert (line.value, line.note.split(";")[0]) == ("Torsion spring T10180", "Central Springs")
 
 
-def test_a_bearing_s_seats_and_what_locks_screws_are_on_the_bill_of_a_milled_module() -> None:
+def test_a_milled_module_s_bill_has_seats_and_thread_locker() -> None:
     design = design_of("milled", BEARING_BLOCKS, "compression")
     found = fits(design, dimensions(design))
     # Bearing 6802: 24 mm outside in H6, 15 mm inside on h5.

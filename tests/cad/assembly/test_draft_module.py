@@ -28,7 +28,7 @@ def _volume(solid: DraftSolid) -> float:
 
 
 def _short(radius: float) -> float:
-    """Share that a polygon's area may fall short of its circle's: with a chord c off the arc, 4 c / (3 r)."""
+    """Return the share that a polygon's area may lack of its circle's: with a chord c off the arc, 4 c / (3 r)."""
     return 4.0 * CHORD / (3.0 * radius)
 
 

@@ -1,4 +1,4 @@
-"""What a heater takes beside its pads is in the list: cut-out, thermistor, wires, and what a foil is ordered by."""
+"""Items that a heater takes beside its pads: cut-out, thermistor, wires, and how a foil is ordered."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FUSE = Catalog().record("thermal_fuses", "ultimheat_5ma3")
 
 
 def switched(changes: dict[str, Any], hottest: float = 105.2, mode: str = "shear") -> Design:
-    """A design that was taken through its cycle: its heater's highest temperature [degC] at 2.1 A."""
+    """Return a design that was taken through its cycle: its heater's highest temperature [degC] at 2.1 A."""
     design = design_of("switched", changes, mode)
     design.values.update(peak_peltier_temperature=hottest + ZERO_CELSIUS, peak_cold_side_temperature=330.0)
     design.values.update(peak_current=2.1, stiffening_peak_current=0.2, peak_voltage=9.0, stiffening_peak_voltage=1.0)
@@ -30,7 +30,7 @@ def switched(changes: dict[str, Any], hottest: float = 105.2, mode: str = "shear
 
 
 def listed(design: Design) -> dict[str, str]:
-    """Titles by kind: what is beside the parts, and the cut-out where the module has one."""
+    """Return the titles by kind: what is beside the parts, and the cut-out where the module has one."""
     titles = _titles(design)
     drawn = "thermal_cutout" in MODULES[design.mode].drawn(dimensions(design))
     placed = {"thermal_cutout": cq.Solid.makeCylinder(2.1, 11.2)} if drawn else {}
@@ -56,7 +56,7 @@ def test_a_cut_out_that_opens_below_every_rating_has_no_such_word() -> None:
     assert "ask the maker" not in cutout
 
 
-def test_none_is_listed_where_the_study_has_none_and_no_type_where_nothing_is_known_of_the_cycle() -> None:
+def test_no_cut_out_without_a_choice_and_no_type_without_a_cycle() -> None:
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
     assert fuse_in_words(FUSE, switched({}, 226.0)).startswith("none fits: ")
@@ -84,7 +84,7 @@ def test_a_bead_that_is_drawn_is_in_the_list_of_parts_with_its_size() -> None:
         ((0.0, 4.0), "silicone_9ar_08_24v", "AMF58B-103F3950"),  # that heater bears 160 degC
     ],
 )
-def test_a_thermistor_is_ordered_by_the_number_of_one_that_fits_and_bears_the_heat(
+def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(
     bead: tuple[float, float], heater: str, number: str | None
 ) -> None:
     sizes = {"thermistor_diameter": 1e-3 * bead[0], "thermistor_length": 1e-3 * bead[1]}
@@ -113,7 +113,7 @@ def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current() -> N
         assert wire.section == pytest.approx(math.pi / 4 * diameter**2, rel=0.01)
 
 
-def test_film_for_the_cut_out_is_listed_where_there_is_one_and_release_for_the_mould() -> None:
+def test_film_is_listed_with_a_cut_out_and_mould_release_always() -> None:
     assert "polyimide_film" in listed(switched({}))
     assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
     design = switched({})
@@ -121,7 +121,7 @@ def test_film_for_the_cut_out_is_listed_where_there_is_one_and_release_for_the_m
     assert (release.kind, release.made) == ("mould_release", False)
 
 
-def test_a_spreader_is_ordered_by_its_thickness_and_its_adhesive_by_an_area() -> None:
+def test_a_spreader_is_ordered_by_thickness_its_adhesive_by_area() -> None:
     design = switched(TILES)
     (item,) = bill(design, _titles(design), {"spreader_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     assert item.title.endswith(f", {1e3 * design.values['spreader_thickness']:.3g} mm thick")
@@ -129,7 +129,7 @@ def test_a_spreader_is_ordered_by_its_thickness_and_its_adhesive_by_an_area() ->
     assert f"over {area:.4g} mm² in all" in listed(design)["heat_conducting_adhesive"]
 
 
-def test_the_liners_adhesive_is_weighed_by_area_film_and_density_where_that_is_known() -> None:
+def test_the_liners_adhesive_is_weighed_if_its_density_is_known() -> None:
     design = design_of("lined", {"liner_material": "peek", "adhesive_density": 1040.0})
     (item,) = (one for one in beside(design, {}) if one.kind == "liner_adhesive")
     area, film = design.values["pcl_area"], 0.1e-3  # `liner_film`; a liner covers its arc

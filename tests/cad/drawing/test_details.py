@@ -22,7 +22,7 @@ ASKED = DrawingRequirements(tolerances="ISO 2768-1 m", surface="as printed", pri
 
 
 def stepped(step: float) -> cq.Solid:
-    """A disc of 60 mm with a raised rim, and a hole."""
+    """Return a disc of 60 mm with a raised rim, and a hole."""
     rim = cq.Solid.makeCylinder(30.0, 5.0 + step).cut(cq.Solid.makeCylinder(28.0, 5.0 + step))
     disc = cq.Solid.makeCylinder(30.0, 5.0).cut(cq.Solid.makeCylinder(4.0, 5.0))
     return disc.fuse(rim).clean().Solids()[0]
@@ -57,7 +57,7 @@ def test_a_step_that_the_sheet_shows_large_enough_has_no_detail() -> None:
     assert "X" not in said
 
 
-def test_steps_are_found_once_for_each_pair_of_heights_and_only_where_heights_are_told() -> None:
+def test_each_pair_of_dimensioned_heights_has_one_small_step() -> None:
     solid = stepped(0.4)
     view = section(solid)
     (step,) = small_steps([view], levels(solid), 1.0)

@@ -121,7 +121,7 @@ def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None
     assert all((asked.thread(one) is not None) == one.is_central for one in wide)
 
 
-def test_a_hole_as_wide_as_a_dowel_pin_is_its_seat_on_the_pins_circle_alone() -> None:
+def test_a_hole_is_a_dowel_s_seat_on_the_pins_circle_alone() -> None:
     mode, overrides = CASES["paper"]
     design = design_of("paper", {**overrides, "key_diameter": 2e-3, "link_dowel": "iso_8734_2"}, mode)
     dims = dimensions(design)

@@ -55,7 +55,7 @@ def module(request: pytest.FixtureRequest) -> tuple[Design, Solids]:
 
 @pytest.fixture(scope="module")
 def drawings(module: tuple[Design, Solids]) -> dict[str, Drawing]:
-    """The drawings read back from DXF, by kind of part."""
+    """Return the drawings read back from DXF, by kind of part."""
     design, solids = module
     sheets = {kind: sheet_of(design, kind, solids[kind]) for kind in DRAWN}
     return {kind: ezdxf.read(io.StringIO(sheet.dxf().decode())) for kind, sheet in sheets.items()}
@@ -66,7 +66,7 @@ def texts(document: Drawing) -> list[str]:
 
 
 def measured(document: Drawing) -> list[float]:
-    """What the dimensions measure; of an ordinate the height over the lowest face."""
+    """Return what the dimensions measure; of an ordinate the height over the lowest face."""
     dimensions_drawn = document.modelspace().query("DIMENSION")
     found = [one.get_measurement() if isinstance(one, Dimension) else 0.0 for one in dimensions_drawn]
     return [one.y if isinstance(one, Vec3) else float(one) for one in found]
@@ -261,7 +261,7 @@ def test_the_note_takes_every_part_in_order(module: tuple[Design, Solids]) -> No
 
 
 @pytest.mark.parametrize("changes", [{}, {"cover": "plate", "core_radius": 10.5e-3}, {"preload_adjuster": "rotary"}])
-def test_the_note_says_of_every_screw_its_length_its_key_and_the_torque_of_its_row(changes: dict[str, Any]) -> None:
+def test_the_note_has_length_key_and_torque_of_every_screw(changes: dict[str, Any]) -> None:
     design = design_of("screwed", changes)
     dims = dimensions(design)
     kinds = ("link_screw", "retainer_screw", "cover_screw", "adjuster_screw")
@@ -288,7 +288,7 @@ def test_the_note_says_of_every_screw_its_length_its_key_and_the_torque_of_its_r
         assert f"{value[f'{kind}_torque']:.2g} N·m" in note, kind
 
 
-def test_an_adjuster_s_spring_has_its_tang_in_the_adjuster_and_not_in_the_floor() -> None:
+def test_an_adjuster_holds_the_tang_of_its_spring() -> None:
     for changes, words in (({}, "holes of the floor"), ({"preload_adjuster": "rotary"}, "adjusters' holes")):
         design = design_of("adjusted", changes)
         dims = dimensions(design)
@@ -298,7 +298,7 @@ def test_an_adjuster_s_spring_has_its_tang_in_the_adjuster_and_not_in_the_floor(
         assert found == [words]
 
 
-def test_a_supply_is_asked_for_by_the_highest_voltage_and_current_of_the_whole_cycle() -> None:
+def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     design = design_of("fed", {})
     switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}
     fed = design.model_copy(update={"values": design.values | switch | {"stiffening_peak_current": math.nan}})
@@ -381,7 +381,7 @@ def test_azimuths_are_written_as_short_as_their_pattern(azimuths: list[float], w
     assert around(azimuths) == words
 
 
-def test_letters_are_narrowed_where_a_field_of_the_title_block_is_too_short() -> None:
+def test_letters_are_narrowed_in_short_fields_of_the_title_block() -> None:
     sheet = DrawingSheet(1.0)
     sheet.title_block("pad", [[Field("Material", "Thermoelectric module " * 4), Field("Module", "An elbow")]])
     no_text_lies_on_another("pad", sheet.document)

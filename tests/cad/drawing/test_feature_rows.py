@@ -45,7 +45,7 @@ def told(solid: cq.Shape) -> list[str]:
     return [row.text for row in feature_rows(solid.Solids()[0], BARE)]
 
 
-def test_a_plate_s_pockets_slots_and_holes_are_told_with_width_depth_and_azimuth() -> None:
+def test_rows_have_width_depth_and_azimuth_of_pockets_and_holes() -> None:
     # A disc of 80 mm, 10 high: three pockets of 60 degrees, 3 deep, two notches of 8 mm, four holes, a slot.
     pockets = [
         turned(sector(12.0, 20.0, pi / 3.0, 7.0, 10.0), azimuth) for azimuth in (pi / 6.0, 5.0 * pi / 6.0, -pi / 2.0)
@@ -65,7 +65,7 @@ def test_a_plate_s_pockets_slots_and_holes_are_told_with_width_depth_and_azimuth
     ))  # fmt: skip
 
 
-def test_walls_are_told_by_a_distance_and_the_way_they_face_and_no_two_alike() -> None:
+def test_walls_have_distance_and_direction_and_no_two_rows_alike() -> None:
     # A pocket of 60 degrees from x on, 3 deep; a hole through the wall at its end makes two walls of that.
     pocket = turned(sector(12.0, 30.0, pi / 3.0, 7.0, 10.0), pi / 6.0)
     x, y = 20.0 * cos(pi / 3.0), 20.0 * sin(pi / 3.0)
@@ -129,7 +129,7 @@ def test_every_upright_face_of_every_part_has_a_dimension(mode: str, changes: Ma
 
 
 def faces_are_told(kind: str, solid: cq.Solid, rows: list[FeatureRow], document: Drawing) -> None:
-    """Hold every upright face against the figures in the rows' texts, those about the axis against dimensions."""
+    """Compare every upright face with the figures in the rows' texts, those about the axis against dimensions."""
     lowest, dimensioned = solid.BoundingBox().zmin, measured(document)
     for face in solid.Faces():
         box = face.BoundingBox()
@@ -159,7 +159,7 @@ def cylinder_is_told(row: FeatureRow, radius: float, from_axis: float) -> bool:
 
 
 def width_is_told(row: FeatureRow, face: cq.Face, solid: cq.Solid) -> bool:
-    """Whether a row without a place, as of what is bought, tells how wide the part is across a face."""
+    """Return whether a row without a place, as of what is bought, tells how wide the part is across a face."""
     normal = face.normalAt()
     across = [vertex.X * normal.x + vertex.Y * normal.y for vertex in solid.Vertices()]
     return not row.place and row.size == f"{figure(max(across) - min(across))} wide"
@@ -231,7 +231,7 @@ def test_no_number_lies_where_a_section_is_marked(case: str, kind: str) -> None:
     no_leader_crosses_another(kind, document)
 
 
-def test_a_housing_with_vanes_and_threads_has_a_section_through_the_middle_of_a_vane() -> None:
+def test_a_housing_with_vanes_is_cut_through_the_middle_of_a_vane() -> None:
     design = design_of("vanes", BEARING_BLOCKS, "compression")
     dims = dimensions(design)
     solid = drawn_part(dims, "housing")
@@ -250,7 +250,7 @@ def test_a_housing_with_vanes_and_threads_has_a_section_through_the_middle_of_a_
 
 
 def area(corners: Sequence[Sequence[float]]) -> float:
-    """Of a polygon."""
+    """Return of a polygon."""
     x, y = np.array([corner[:2] for corner in corners]).T
     return abs(0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
@@ -281,7 +281,7 @@ def test_hidden_lines_are_dashed_along_circles_and_corners() -> None:
     assert all(one.dxf.flags & 128 for one in hidden if one.dxftype() == "LWPOLYLINE")
 
 
-def test_threads_are_drawn_as_three_quarters_of_their_diameter_and_placed_by_half_of_their_screws_play() -> None:
+def test_threads_are_drawn_by_iso_6410_and_placed_by_half_their_play() -> None:
     design = design_of("threads", BEARING_BLOCKS, "compression")
     dims = dimensions(design)
     solid = drawn_part(dims, "rotor")

@@ -18,7 +18,7 @@ PEN = BackendProperties()
 
 
 def content(data: bytes) -> list[str]:
-    """The lines of the page's content."""
+    """Return the lines of the page's content."""
     found = re.search(rb"/Length (\d+) /Filter /FlateDecode >>\nstream\n", data)
     assert found
     return zlib.decompress(data[found.end() : found.end() + int(found[1])]).decode().splitlines()

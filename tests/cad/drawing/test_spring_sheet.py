@@ -1,4 +1,4 @@
-"""What the spring maker's sheet tells of bend and mandrels, and that nothing on it leaves the frame."""
+"""Bend and mandrels on the spring maker's sheet; nothing on it leaves the frame."""
 
 from __future__ import annotations
 

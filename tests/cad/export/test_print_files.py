@@ -1,4 +1,4 @@
-"""What a printer gets, against closed forms: wider holes, the right side down, a mesh error that was measured."""
+"""Print files against closed forms: wider holes, the right side down, a mesh error that was measured."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ PRODUCT = Product(name="bracket & <foot>", colour=(1.0, 0.5, 0.0), material="PET
 
 
 def bracket() -> cq.Solid:
-    """A block of 40 x 30 x 10 mm on z = 5 with a through hole of 6, a blind one of 4 from above, a boss of 8."""
+    """Return a block of 40 x 30 x 10 mm on z = 5 with a through hole of 6, a blind one of 4 from above, a boss of 8."""
     block = cq.Solid.makeBox(40, 30, 10, cq.Vector(0, 0, 5))
     through = cq.Solid.makeCylinder(3, 10, cq.Vector(10, 15, 5))
     blind = cq.Solid.makeCylinder(2, 4, cq.Vector(30, 15, 11))
@@ -46,7 +46,7 @@ def bracket() -> cq.Solid:
 
 
 def cup() -> cq.Solid:
-    """A cup of 20 mm with a post in it: its inside is no hole."""
+    """Return a cup of 20 mm with a post in it: its inside is no hole."""
     body = cq.Solid.makeCylinder(10, 10).cut(cq.Solid.makeCylinder(8, 8, cq.Vector(0, 0, 2)))
     return body.fuse(cq.Solid.makeCylinder(2, 5, cq.Vector(0, 0, 2))).Solids()[0]
 
@@ -67,7 +67,7 @@ BLOCK = cq.Solid.makeBox(40, 30, 10)
 
 
 def bored(*more: cq.Solid) -> cq.Solid:
-    """The block with a through hole of 16 in its middle, and what else stands in that."""
+    """Return the block with a through hole of 16 in its middle, and what else stands in that."""
     return BLOCK.cut(cq.Solid.makeCylinder(8, 10, cq.Vector(20, 15, 0))).fuse(*more).Solids()[0]
 
 
@@ -229,7 +229,7 @@ def cut_in_half() -> cq.Solid:
 
 
 def test_the_tip_of_a_drilled_hole_does_not_open_the_mesh() -> None:
-    """A cone that stands apart from an axis of its plate has a triangle of no size at its tip."""
+    """Check a cone apart from its plate's axis, which has a triangle of no size at its tip."""
     tip = cq.Solid.makeCone(1.25, 0.0, 0.75, cq.Vector(4.907, -4.856, 2.0), cq.Vector(0, 0, -1))
     drilled = cq.Workplane().box(20.0, 20.0, 8.0).val().cut(
         cq.Solid.makeCylinder(1.25, 2.0, cq.Vector(4.907, -4.856, 2.0)), tip

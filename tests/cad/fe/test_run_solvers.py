@@ -17,7 +17,7 @@ from tvimdesign.cad.fe import run_solvers
 
 
 def python_that(tmp_path: Path, does: str) -> str:
-    """A stand-in for an interpreter."""
+    """Return a stand-in for an interpreter."""
     fake = tmp_path / "python"
     fake.write_text(f"#!{sys.executable}\n{does}\n")
     fake.chmod(0o755)

@@ -17,7 +17,7 @@ def sides(box: Any) -> list[float]:
 
 
 def pin_on_plate(plate: float) -> cq.Solid:
-    """A pin of 4 mm with a fillet of 1.5 mm at its foot, on a square plate of a side [mm]."""
+    """Draw a pin of 4 mm with a fillet of 1.5 mm at its foot, on a square plate of a side [mm]."""
     body = cq.Workplane().box(plate, plate, 4.0).faces(">Z").workplane().circle(2.0).extrude(9.0)
     return body.edges(cq.selectors.RadiusNthSelector(0)).edges("<Z").fillet(1.5).solids().val()
 

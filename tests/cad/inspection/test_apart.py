@@ -23,7 +23,7 @@ def at(solid: cq.Solid, x: float) -> Instance:
 @pytest.mark.parametrize(
     ("gap", "apart"), [(-1.0, False), (0.0, False), (0.5 * ROOM, False), (1.5 * ROOM, True), (5.0, True)]
 )
-def test_parts_are_apart_where_their_meshes_are_further_than_they_may_be_off(gap: float, apart: bool) -> None:
+def test_parts_are_apart_if_their_meshes_are_further_than_their_error(gap: float, apart: bool) -> None:
     placed = {"rotor": at(cylinder(5.0), 0.0), "cover": at(cylinder(5.0), 10.0 + gap)}
     assert PlacedBodies(placed).apart("rotor", "cover") == apart
 
@@ -56,7 +56,7 @@ def test_a_mesh_that_does_not_close_is_never_told_apart() -> None:
     assert not PlacedBodies({"housing": at(cylinder(5.0), 0.0), "cover": open_mesh}).apart("housing", "cover")
 
 
-def test_only_what_may_meet_is_held_against_each_other_and_the_check_says_the_same() -> None:
+def test_only_parts_that_may_meet_are_compared_with_the_same_result() -> None:
     ring = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
     solids = {"housing": ring, "link_screw_1": cylinder(2.0, 30.0), "rotor": cylinder(3.5, 30.0)}
     bodies = PlacedBodies({name: at(solid, 0.0) for name, solid in solids.items()})
@@ -73,7 +73,7 @@ def test_only_what_may_meet_is_held_against_each_other_and_the_check_says_the_sa
 
 
 @pytest.mark.parametrize("cut", [None, 1, 2, 3])
-def test_of_copies_held_against_a_part_at_once_the_one_that_cuts_it_is_found(cut: int | None) -> None:
+def test_the_copy_that_cuts_a_part_is_found_among_all(cut: int | None) -> None:
     solids = {"housing": cylinder(20.0)}
     for number in (1, 2, 3):
         x, y = 25.0 * np.cos(2.0 * number), 25.0 * np.sin(2.0 * number)

@@ -1,4 +1,4 @@
-"""What lies in a pocket goes in: gaps measured on the solids, and pockets of the pad's own outline are found."""
+"""Parts in pockets go in: gaps measured on the solids, and pockets of the pad's own outline are found."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def placed(design: Design, dims: Dimensions) -> dict[str, cq.Solid]:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_what_lies_in_a_pocket_has_the_clearance_of_its_process_to_every_wall(case: str) -> None:
+def test_parts_in_pockets_have_the_process_s_clearance_all_round(case: str) -> None:
     mode, changes, kinds = CASES[case]
     design = design_of(case, changes, mode)
     dims = dimensions(design)

@@ -80,7 +80,7 @@ def test_a_thin_web_beside_a_hole_is_found_between_the_two() -> None:
     assert place_of(found)[:2] == pytest.approx([0.0, 9.55], abs=0.6)
 
 
-def test_beside_a_driver_s_slot_the_middle_of_a_post_is_its_wall_and_the_slot_s_ends_are_edges() -> None:
+def test_a_slotted_post_has_a_wall_in_its_middle_and_edges_at_its_ends() -> None:
     post = cq.Workplane().circle(2.5).extrude(8.0).cut(box(6.0, 0.8, 2.0).translate((0, 0, 7.0)))
     found = walls(post)["wall"]
     assert found.level == "pass"
@@ -245,7 +245,7 @@ def test_the_printed_rotor_needs_support_under_its_plate(
 
 
 @pytest.mark.slow
-def test_pads_of_a_milled_module_stand_on_walls_that_the_mill_makes_where_the_rule_says_so() -> None:
+def test_walls_below_milled_pads_are_thick_enough_by_the_rule() -> None:
     for offset, kept in ((0.02, False), (-0.4, True)):
         sizes = {"corner_radius": 0.8e-3, "running_clearance": 1e-3, "slot_corner_offset": offset * 1e-3}
         milled = design_of("deep slots", {**BEARING_BLOCKS, **sizes}, "compression")

@@ -52,7 +52,7 @@ def test_rays_meet_what_every_triangle_held_against_every_ray_says() -> None:
 
 
 def _along(origin: Array, way: Array, corners: Array) -> float:
-    """Distance to a triangle, by Cramer's rule."""
+    """Return the distance to a triangle, by Cramer's rule."""
     sides = np.stack((-way, corners[1] - corners[0], corners[2] - corners[0]), axis=1)
     if abs(np.linalg.det(sides)) < 1e-12:
         return np.inf

@@ -24,7 +24,7 @@ def test_a_box_off_the_axis_has_the_inertia_of_the_textbook() -> None:
 
 
 def _wedge() -> cq.Solid:
-    """A body without any symmetry, so that every product of inertia counts."""
+    """Return a body without any symmetry, so that every product of inertia counts."""
     return cq.Workplane().polyline([(0, 0), (30, 4), (6, 22)]).close().extrude(9.0).edges(">Z").chamfer(1.0).val()
 
 

@@ -37,7 +37,7 @@ def test_pictures_are_begun_before_all_else_once_the_parts_are_there() -> None:
     assert makers == {f"{name}_for_makers" for name in plan[0].needs}
 
 
-def test_the_first_part_is_a_small_one_and_the_two_largest_are_made_beside_each_other() -> None:
+def test_a_small_part_is_made_first_the_two_largest_in_parallel() -> None:
     plan = build_plan(dimensions(design_of("paper", {})))
     kinds = set(plan[0].needs)
     begun = [work.name for work in sorted(plan, key=lambda work: work.turn) if not work.needs]
@@ -48,7 +48,7 @@ def test_the_first_part_is_a_small_one_and_the_two_largest_are_made_beside_each_
 
 
 @pytest.mark.skipif(not hasattr(os, "getsid"), reason="Windows has no sessions")
-def test_parts_are_made_in_this_session_which_shares_out_processors_by_niceness() -> None:
+def test_parts_are_made_in_the_run_s_session() -> None:
     with PartsProcess() as waiting:
         assert os.getsid(waiting.process) == os.getsid(0)
         assert os.getpgid(waiting.process) == waiting.process  # an interrupt at the terminal is the parent's to handle

@@ -100,7 +100,7 @@ def test_work_is_done_after_what_it_needs_and_kept(run: Run) -> None:
     assert again.results["plate"].checks == first.results["plate"].checks
 
 
-def test_what_nothing_waits_for_is_begun_last_and_stands_where_the_plan_has_it(tmp_path: Path) -> None:
+def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
     begun: list[str] = []
     late = replace(STACK, turn=Turn.LATE)
     subject = TrackedDesign(design_of("toy", {}), TITLES)
@@ -224,7 +224,7 @@ def test_a_crash_and_a_refusal_are_named_and_leave_nothing_half_made(run: Run, t
     ]
 
 
-def test_a_child_does_one_piece_of_work_after_another_and_another_takes_the_place_of_one_that_ended(
+def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(
     tmp_path: Path,
 ) -> None:
     subject = TrackedDesign(design_of("toy", {}), TITLES)
@@ -281,7 +281,7 @@ if __name__ == "__main__":
 
 
 def test_a_spawned_child_is_gone_with_its_parent_though_it_is_at_work(tmp_path: Path) -> None:
-    """The kernel tells of a parent's end on Linux alone; here it is told as elsewhere."""
+    """Linux alone signals a parent's end; here a child watches its parent, as elsewhere."""
     (tmp_path / "spawning.py").write_text(SPAWNING)
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests/helpers")])}
     command = [sys.executable, "spawning.py"]
@@ -298,7 +298,7 @@ def test_a_spawned_child_is_gone_with_its_parent_though_it_is_at_work(tmp_path: 
 
 
 def of_elsewhere(folder: Path, monkeypatch: pytest.MonkeyPatch) -> WorkerPool:
-    """The pool of a system that is no Linux, with one child."""
+    """Return the pool of a system that is no Linux, with one child."""
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     with monkeypatch.context() as patched:
         patched.setattr("tvimdesign.cad.jobs.worker.sys.platform", "darwin")
@@ -342,9 +342,7 @@ sys.exit(job.main(sys.argv[1:]))
 
 
 @pytest.mark.slow
-def test_a_part_that_never_comes_is_an_error_with_its_name_and_the_others_are_there(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_stuck_part_is_named_and_the_others_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "stuck_job.py").write_text(STUCK.format(kind="retainer"))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     write_design(whole(design_of("paper", {})), tmp_path / "design.json")

@@ -24,7 +24,7 @@ MM = 1e-3
 
 @pytest.fixture(scope="module")
 def rest(blocks: Design) -> dict[str, cq.Solid]:
-    """The parts at rest; tests replace parts in copies of it."""
+    """Return the parts at rest; tests replace parts in copies of it."""
     return build(blocks)
 
 
@@ -37,7 +37,7 @@ def holders(parts: dict[str, cq.Solid], point: cq.Vector) -> list[str]:
 
 
 def failed(parts: dict[str, cq.Solid], among: str) -> set[str]:
-    """Interferences that are found among the parts whose names begin with one of some words."""
+    """Return the interferences that are found among the parts whose names begin with one of some words."""
     looked_at = {name: solid for name, solid in parts.items() if name.startswith(tuple(among.split()))}
     return {check.name for check in interference_checks(looked_at, "here") if not check.ok}
 
@@ -71,13 +71,13 @@ def test_the_slot_takes_the_middle_of_the_vane_and_leaves_its_ends(rest: dict[st
     assert inside == [True, True, False, False, True, True]
 
 
-def test_every_part_but_housing_and_rotor_is_there_as_often_as_the_vanes_ask(rest: dict[str, cq.Solid]) -> None:
+def test_the_number_of_parts_follows_from_the_vanes(rest: dict[str, cq.Solid]) -> None:
     assert sum(name.startswith("pcl_block") for name in rest) == 12
     assert sum(name.startswith("peltier_pad") for name in rest) == 12
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_the_stroke_squeezes_the_block_ahead_of_a_vane_and_parts_from_the_one_behind(
+def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
     blocks: Design, rest: dict[str, cq.Solid], side: float
 ) -> None:
     angle = side * 0.104
@@ -95,9 +95,7 @@ def test_the_stroke_squeezes_the_block_ahead_of_a_vane_and_parts_from_the_one_be
     assert parts["peltier_pad_2"].distance(parts["pcl_block_1"]) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_the_room_of_squeezed_blocks_is_what_a_solid_of_their_volume_leaves_up_to_the_springs(
-    blocks: Design, rest: dict[str, cq.Solid]
-) -> None:
+def test_squeezed_blocks_leave_the_room_that_the_quantity_gives(blocks: Design, rest: dict[str, cq.Solid]) -> None:
     # Springs of 12.02 mm and wire of 2.413 mm at 57 mm reach in to 48.09 mm, and 1 mm is to stay.
     outer = 57.0 - 8.914 - 1.0 - 1e3 * blocks.values["squeezed_block_gap"]
     bulged = sector(13.0, outer, 4.0 / 18.5 - 0.104, 0.4, 12.364)
@@ -155,7 +153,7 @@ def test_what_cannot_be_drawn_names_the_part(blocks: Design, row: str, value: fl
         build(design)
 
 
-def test_a_pocket_of_the_least_width_can_be_rounded_and_one_as_wide_as_its_cutter_cannot() -> None:
+def test_a_pocket_must_be_wider_than_its_cutter_to_be_rounded() -> None:
     width = POCKET_WIDTH * 1.5
     pocket = rounded(block((0.0, 10.0), width, 0.0, 4.0), 1.5)
     assert pocket.isValid()
@@ -184,7 +182,7 @@ def test_a_slot_s_rounded_corner_leaves_no_sliver_beside_the_slot_above(rest: di
     assert min(edge.Length() for edge in rest["housing"].Edges()) > 0.04
 
 
-def test_a_slot_may_keep_half_of_its_corners_beside_the_pads_which_stand_on_more() -> None:
+def test_corners_of_a_slot_leave_the_pads_their_seat() -> None:
     design = design_of("deep corners", {"corner_radius": 1.0 * MM, "slot_corner_offset": -0.5 * MM}, "compression")
     drawn = drawn_parts(dimensions(design))
     volume = next(check for check in size_checks(design, drawn) if check.name == "housing_volume")

@@ -1,4 +1,4 @@
-"""What a module stands on or is driven by: the solids of a torque sensor's flange, and of a motor below the feet."""
+"""Solids below a module: a torque sensor's flange, and a motor below the feet."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tvimdesign.cad.inspection.milling import corner_checks
 from tvimdesign.cad.inspection.size_checks import _polar_moment, interference_checks
 
 
-def test_the_pattern_stands_at_its_azimuth_with_the_pin_midway_between_two_screws() -> None:
+def test_the_sensor_s_pin_is_midway_between_two_screws() -> None:
     dims = dimensions(design_of("flange", {**FLANGE, "flange_azimuth": 0.3}))
     ground = -dims.floor_thickness - dims.foot_height
     found = [one for one in holes(drawn_part(dims, "housing")) if abs(hypot(one.x, one.y) - 20.0) < 1e-3]
@@ -57,7 +57,7 @@ def test_the_note_says_what_bears_the_module(flange: bool, words: str) -> None:
 
 
 @pytest.mark.parametrize("case", [DRIVEN, ON_SENSOR], ids=["alone", "on a sensor"])
-def test_hub_and_housing_of_the_motor_are_one_sound_solid_each_and_as_heavy_as_their_rows(
+def test_the_motor_s_hub_and_housing_weigh_what_the_table_gives(
     case: dict[str, float | str],
 ) -> None:
     design = design_of("driven", case)
@@ -68,7 +68,7 @@ def test_hub_and_housing_of_the_motor_are_one_sound_solid_each_and_as_heavy_as_t
 
 
 @pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
-def test_the_spokes_of_the_motor_s_hub_leave_no_corner_that_a_cutter_cannot_cut(process: str) -> None:
+def test_the_spokes_of_the_motor_s_hub_have_no_sharp_corner(process: str) -> None:
     design = design_of("driven", DRIVEN | {"process": process, "corner_radius": 1e-3})
     dims = dimensions(design)
     hub = drawn_part(dims, "motor_hub")
@@ -78,7 +78,7 @@ def test_the_spokes_of_the_motor_s_hub_leave_no_corner_that_a_cutter_cannot_cut(
     assert dims.motor_corner_radius == pytest.approx({"print_petg": 1.0, "machine_6061": 2.0}[process])  # 6 mm high
 
 
-def test_a_sensor_below_the_motor_has_its_pattern_in_the_base_and_its_recess_below_the_board() -> None:
+def test_a_sensor_below_the_motor_has_pattern_and_recess_in_the_base() -> None:
     dims = dimensions(design_of("driven", ON_SENSOR))
     bottom = dims.motor_bottom_level
     found = [one for one in holes(drawn_part(dims, "motor_housing")) if one.bottom == pytest.approx(bottom)]
@@ -94,7 +94,7 @@ def test_a_sensor_below_the_motor_has_its_pattern_in_the_base_and_its_recess_bel
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", ["driven", "driven blocks"])
-def test_a_motor_goes_together_in_the_order_of_the_note_and_its_screws_are_reached_and_hold(case: str) -> None:
+def test_a_motor_goes_together_in_order_and_its_screws_hold(case: str) -> None:
     mode, overrides = CASES[case]
     design = design_of(case, overrides, mode)
     dims = dimensions(design)

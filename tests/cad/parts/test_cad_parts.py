@@ -57,7 +57,7 @@ def test_a_wrong_model_is_found(paper: Design, row: str) -> None:
 
 
 def with_rotor(one: str, other: str) -> bool:
-    """Pairs with the rotor: booleans of all pairs take three times as long."""
+    """Return the pairs with the rotor: booleans of all pairs take three times as long."""
     return "rotor" in (one, other)
 
 

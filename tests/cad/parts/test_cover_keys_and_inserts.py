@@ -25,7 +25,7 @@ MM = 1e-3
 
 @pytest.fixture(scope="module")
 def design() -> Design:
-    """Printed, with keys, a cover and inserts everywhere but in posts."""
+    """Return printed, with keys, a cover and inserts everywhere but in posts."""
     return design_of(
         "covered",
         {"cover": "plate", "thread_insert": "heat_set", "retainer_screw_length": 12.0 * MM, "core_radius": 10.5 * MM},
@@ -45,7 +45,7 @@ def drawn(dims: Dimensions) -> dict[str, cq.Solid]:
 
 
 def shared(placed: Mapping[str, cq.Shape], *kinds: str) -> dict[str, float]:
-    """Common volume of the pairs of parts of some kinds that share one [mm^3]."""
+    """Return common volume of the pairs of parts of some kinds that share one [mm^3]."""
     solids = {name: shape.Solids()[0] for name, shape in placed.items()}
 
     def wanted(one: str, other: str) -> bool:
@@ -68,7 +68,7 @@ def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
     assert max(abs(check.value) for check in sizes.values()) < 1e-9
 
 
-def test_every_hole_that_the_device_lists_is_drawn_where_it_says_and_none_of_size_zero(dims: Dimensions) -> None:
+def test_the_cover_has_every_listed_hole_and_none_of_size_zero(dims: Dimensions) -> None:
     numbers = {"count": 3.0, "radius": 0.0, "circle_radius": 30.0, "azimuth": 0.1}
     listed = {f"cover_hole_circles.2.{name}": value for name, value in numbers.items()}
     with_none = Dimensions("shear", {**dims.by_name, **listed, "cover_hole_circles.length": 3.0})

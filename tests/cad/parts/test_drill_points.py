@@ -18,7 +18,7 @@ def cones(solid: cq.Solid) -> list[cq.Face]:
 
 
 @pytest.mark.parametrize("process", ["print_petg", "machine_6061"])
-def test_the_core_has_a_point_below_each_of_its_blind_holes_where_it_is_milled(process: str) -> None:
+def test_a_milled_core_has_drill_points_below_its_blind_holes(process: str) -> None:
     dims = dimensions(design_of("points", {"process": process, "corner_radius": 0.5e-3}))
     found = cones(drawn_part(dims, "rotor"))
     if process == "print_petg":

@@ -28,12 +28,12 @@ def placed_of(design: Design, angle: float = 0.0) -> dict[str, cq.Solid]:
 
 
 def between(first: cq.Solid, second: cq.Solid) -> float:
-    """Volume that two solids share [mm^3]."""
+    """Return the volume that two solids share [mm^3]."""
     return sum(solid.Volume() for solid in first.intersect(second).Solids())
 
 
 def _wider(design: Design) -> float:
-    """Area of a recess over that of its liner: a slip clearance more on every side."""
+    """Return the area of a recess over that of its liner: a slip clearance more on every side."""
     inner, outer, span, slip = (
         design.values[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span", "slip_clearance")
     )
@@ -66,7 +66,7 @@ def test_liners_lie_in_the_rotor_a_film_from_its_recess_and_turn_with_it(
 
 
 def _polar(solid: cq.Solid) -> float:
-    """Moment of the volume about the module's axis [mm^5]."""
+    """Return the moment of the volume about the module's axis [mm^5]."""
     middle = solid.Center()
     return cq.Shape.matrixOfInertia(solid)[2][2] + solid.Volume() * (middle.x**2 + middle.y**2)
 

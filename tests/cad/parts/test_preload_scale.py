@@ -13,7 +13,7 @@ from tvimdesign.cad.geometry.features import Cylinder, holes
 from tvimdesign.cad.geometry.spring_solids import installed_coil
 
 
-def test_dots_are_thirty_degrees_apart_beside_the_coils_and_each_pocket_has_its_mark() -> None:
+def test_the_scale_has_dots_every_thirty_degrees_and_a_mark() -> None:
     dims = dimensions(design_of("scale", BEARINGS))
     is_dot = 0.5 * dims.scale_dot_diameter
     dots = [one for one in holes(drawn_part(dims, "adjuster")) if one.radius == pytest.approx(is_dot)]
@@ -29,5 +29,5 @@ def test_dots_are_thirty_degrees_apart_beside_the_coils_and_each_pocket_has_its_
 
 
 def _in_order(marks: list[Cylinder]) -> list[tuple[float, float]]:
-    """Their places, counted around the axis."""
+    """Return their places, counted around the axis."""
     return sorted(((one.x, one.y) for one in marks), key=lambda at: atan2(at[1], at[0]) % 6.283185307179586)

@@ -58,7 +58,7 @@ def test_a_bead_without_room_breaks_a_rule(rule: str, changes: dict[str, float])
     assert rule not in broken_rules(design_of("none", {**BLOCKS, **bare}, "compression"))
 
 
-def test_the_note_says_where_it_goes_and_nothing_is_glued_into_the_slot_then() -> None:
+def test_the_note_places_it_and_glues_nothing_into_the_slot() -> None:
     texts = [step["text"] for step in steps_of({"housing", "peltier_pad", "pcl_block", "thermistor"})]
     assert sum("outer end of the first vane" in text for text in texts) == 1
     assert not any("thermistor of the bill" in text for text in texts)

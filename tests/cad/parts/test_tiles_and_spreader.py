@@ -49,9 +49,7 @@ def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
     assert [check.text for check in interference_checks(placed, "here") if not check.ok] == []
 
 
-def test_tiles_stand_on_the_floor_under_the_spreader_each_over_an_open_window(
-    dims: Dimensions, placed: dict[str, cq.Solid]
-) -> None:
+def test_each_tile_stands_over_an_open_window_under_the_spreader(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     for name in (name for name in placed if kind_of(name) == "peltier_pad"):
         tile, box = placed[name], placed[name].BoundingBox()
         assert (box.zmin, box.zmax) == pytest.approx((-dims.pad_depth, -dims.spreader_depth))

@@ -72,7 +72,7 @@ def test_each_tile_touches_its_spreader_and_each_spreader_its_block(placed: dict
 
 
 def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:
-    """Area [mm^2] of a tile's two large faces that the housing lies behind, to a sliver's depth."""
+    """Return area [mm^2] of a tile's two large faces that the housing lies behind, to a sliver's depth."""
     faces = sorted(tile.Faces(), key=lambda face: face.Area())[-2:]
     found = 0.0
     for face in faces:

@@ -40,7 +40,7 @@ def sprung(request: pytest.FixtureRequest) -> Sprung:
     return Sprung(request.param, design, dims, drawn, place(dims, drawn))
 
 
-def test_what_a_wave_spring_changes_is_as_large_as_its_rows_and_cuts_nothing(sprung: Sprung) -> None:
+def test_parts_around_a_wave_spring_fit_their_quantities(sprung: Sprung) -> None:
     case, design, dims, drawn, parts = sprung
     assert broken_rules(design) == []
     for kind in ("housing", "rotor", "preload_spring"):
@@ -99,7 +99,7 @@ def test_every_part_comes_into_its_place_once(sprung: Sprung) -> None:
     assert order.index("preload_spring") < order.index(seat) < order.index(above)
 
 
-def test_lips_leave_a_running_clearance_above_the_floor_and_end_at_the_layer() -> None:
+def test_lips_end_at_the_layer_a_clearance_above_the_floor() -> None:
     dims, bare = (dimensions(design_of("lips", {"melt_lip": word})) for word in ("rings", "none"))
     lips = drawn_part(dims, "rotor").Volume() - drawn_part(bare, "rotor").Volume()
     inner = dims.pcl_inner_radius**2 - (dims.pcl_inner_radius - dims.rotor_rim) ** 2

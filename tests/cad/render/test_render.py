@@ -1,4 +1,4 @@
-"""What is drawn of placed parts: copies share it, each stands in its place, and back faces are not seen."""
+"""Pictures of placed parts: copies share meshes, each stands in its place, and back faces are not seen."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def quarter_turn(x: float) -> Array:
     return np.array([[0.0, -1.0, 0.0, x], [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 2.0], [0.0, 0.0, 0.0, 1.0]])
 
 
-def test_copies_of_a_part_share_what_draws_them_and_stand_where_they_are_placed() -> None:
+def test_copies_of_a_part_share_their_mappers() -> None:
     mesh = block()
     first, second = (actors(mesh, quarter_turn(x), GREEN) for x in (0.0, 50.0))
     for one, other in zip(first, second, strict=True):

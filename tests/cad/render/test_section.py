@@ -1,4 +1,4 @@
-"""Where the module is cut open for its picture, and what is left of a spring there."""
+"""The cut of the section's picture, and the springs that it leaves."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tvimdesign.cad.render.pictures import _spring_outside, wedge_of
 
 
 def _upright(azimuth: float, radius: float = 30.0) -> Instance:
-    """A closed cylinder whose axis stands at an azimuth [deg]."""
+    """Return a closed cylinder whose axis stands at an azimuth [deg]."""
     body = trimesh.creation.cylinder(radius=5.0, height=10.0, sections=64)
     matrix = np.eye(4)
     matrix[:2, 3] = radius * cos(radians(azimuth)), radius * sin(radians(azimuth))
@@ -30,7 +30,7 @@ def _upright(azimuth: float, radius: float = 30.0) -> Instance:
         ((0.0, 60.0), (30.0, 200.0), (60.0, 200.0)),
     ],
 )  # fmt: skip
-def test_the_wedge_is_between_a_spring_and_the_polymer_and_shows_both_faces(
+def test_the_wedge_shows_a_cut_spring_and_cut_polymer(
     springs: tuple[float, ...], polymer: tuple[float, ...], wedge: tuple[float, float]
 ) -> None:
     placed = {f"spring_right_{i}": _upright(at) for i, at in enumerate(springs)}
@@ -40,7 +40,7 @@ def test_the_wedge_is_between_a_spring_and_the_polymer_and_shows_both_faces(
     assert np.exp(1j * np.array([first, last])) == pytest.approx(np.exp(1j * np.radians(wedge)), abs=1e-6)
 
 
-def test_a_spring_on_the_cut_is_halved_one_behind_is_whole_and_one_in_the_wedge_is_gone() -> None:
+def test_springs_are_halved_whole_or_gone_by_their_place() -> None:
     first, last = 0.0, radians(135.0)
     cut = vtk_to_numpy(_spring_outside(_upright(0.0), first, last).GetPoints().GetData())
     assert cut[:, 1].max() == pytest.approx(0.0, abs=2e-3)

@@ -22,7 +22,7 @@ Progress = Callable[[str], None]
 def build(design: Design, rotor_angle: float = 0.0, progress: Progress | None = None) -> dict[str, cq.Solid]:
     """Build and place every part of the module, the rotor turned by `rotor_angle` [rad].
 
-    Returns the solids by name: `rotor`, `pcl_arc_1`, `spring_right_3` ... `progress` is told the part being built.
+    Returns the solids by name: `rotor`, `pcl_arc_1`, `spring_right_3` ... `progress` gets the part being built.
     Copies of one part share their geometry. Raises GeometryError where a part cannot be built.
     """
     dims = dimensions(design)
@@ -48,12 +48,12 @@ def free_spring(dims: Dimensions, kind: str) -> cq.Solid:
 
 
 def installed_coils(dims: Dimensions, rotor_angle: float = 0.0) -> dict[str, Coil]:
-    """Shape of the springs on their pins, by kind; the left-hand one is the mirror image of what is returned."""
+    """Return shape of the springs on their pins, by kind; the left-hand one is the mirror image of what is returned."""
     return {"spring_right": installed_coil(dims, rotor_angle), "spring_left": installed_coil(dims, -rotor_angle)}
 
 
 def spring_locations(dims: Dimensions) -> dict[str, cq.Location]:
-    """Where the springs stand, by name."""
+    """Return where the springs stand, by name."""
     locations = {}
     for index, azimuth in enumerate(dims.azimuths("spring_count")):
         x, y = polar(dims.placement_radius, azimuth)

@@ -28,7 +28,7 @@ def instances(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], placed: Mapping[str, cq.Solid],
     known: Mapping[str, Mesh] | None = None, rotor_angle: float = 0.0,
 ) -> dict[str, Instance]:  # fmt: skip
-    """Mesh and place of every part, by name; `placed` are the solids with the rotor at its angle [rad].
+    """Return mesh and place of every part, by name; `placed` are the solids with the rotor at its angle [rad].
 
     `known` are meshes of drawn parts that are made already.
     """
@@ -59,7 +59,7 @@ def glb_bytes(placed: Mapping[str, Instance]) -> bytes:
 
 
 def _linear(part: float) -> float:
-    """One part of a colour of the screen (sRGB, IEC 61966-2-1) in the linear light that glTF asks for."""
+    """Return one part of a colour of the screen (sRGB, IEC 61966-2-1) in the linear light that glTF asks for."""
     return part / 12.92 if part <= 0.04045 else float(((part + 0.055) / 1.055) ** 2.4)
 
 
@@ -69,7 +69,7 @@ _DIGITS = 3  # of millimetres
 
 
 def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], placed: Mapping[str, Instance]) -> bytes:
-    """The data as JSON. Lengths in mm, masses in g, angles in rad; names are those of the parts in the GLB."""
+    """Return the data as JSON. Lengths in mm, masses in g, angles in rad; names are those of the parts in the GLB."""
     by_kind = {one.kind: one for one in items}
     apart = lifts(placed)
     data = {
@@ -86,7 +86,7 @@ def assembly_data(design: Design, dims: Dimensions, items: Sequence[Item], place
 
 
 def _part(item: Item) -> dict[str, Any]:
-    """What there is to say of a part of one kind."""
+    """Return what there is to say of a part of one kind."""
     return {
         "kind": item.kind, "title": item.title, "made": item.made, "mass": round(item.mass, _DIGITS),
         "turns": item.kind in TURNING, "files": list(item.papers),
@@ -94,13 +94,15 @@ def _part(item: Item) -> dict[str, Any]:
 
 
 def brought(step: WrittenStep, names: Collection[str]) -> dict[str, Any]:
-    """A step's text, the parts among `names` that it brings into their place, and the side the first comes from."""
+    """Return a step's text, the parts among `names` that it brings into their place, and the side the first comes
+    from."""
     found = [(name, one["from"]) for one in step.place for name in names if one["part"] in (name, kind_of(name))]
     return {"text": step.text, "parts": [name for name, _ in found], "from": found[0][1] if found else ""}
 
 
 def _moved(dims: Dimensions, kind: str) -> list[list[float]]:
-    """For each share of the stroke, how far each ring of a spring's mesh has moved from rest [mm]: x, y, z in turn."""
+    """Return how far each ring of a spring's mesh has moved from rest [mm]: x, y, z in turn, for each share of the
+    stroke."""
     rest = installed_coils(dims)[kind]
     points = coil_points(rest)
     at_rest = wire_centre(rest)[0]

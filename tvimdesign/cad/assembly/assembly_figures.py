@@ -1,4 +1,4 @@
-"""What the steps of an assembly note say in figures: rows of the table, and words that follow from some of them."""
+"""Figures in the steps of an assembly note: quantities of the table, and words that follow from some of them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Figures(dict[str, Any]):
         self._units = {row.name: row.unit for row in rows}
 
     def __missing__(self, name: str) -> str:
-        """What a text has in place of a name: words, or the value of a row."""
+        """Return the words a text has in place of a name, or the value of a quantity."""
         if name in _WORDS:
             return _WORDS[name](self._design, self._dims)
         unit = self._units.get(name)
@@ -41,7 +41,7 @@ class Figures(dict[str, Any]):
 
 
 def preload_tolerance(design: Design) -> float | None:
-    """What the study counts a spring's preload off by, to either side [rad]; None where it says nothing.
+    """Return what the study counts a spring's preload off by, to either side [rad]; None where it says nothing.
 
     What is adjusted is no further off than what adjusting leaves, as where the yield is counted.
     """
@@ -58,7 +58,8 @@ def preload_tolerance(design: Design) -> float | None:
 
 
 def _preload_force(design: Design, _: Dimensions) -> str:
-    """Force that takes a leg off its pin at rest, `pin_force`, and within what the study's tolerance leaves of it.
+    """Return the force that takes a leg off its pin at rest, `pin_force`, and within what the study's tolerance leaves
+    of it.
 
     The preload and this force are in proportion, as the spring is straight: torque over the arm of the leg.
     """
@@ -76,7 +77,7 @@ def _preload_force(design: Design, _: Dimensions) -> str:
 
 
 def _sorting(design: Design, dims: Dimensions) -> str:
-    """Which springs are good enough, by what the study counts on; else how the rotor is brought to its place."""
+    """Return which springs are good enough, by what the study counts on; else how the rotor is brought to its place."""
     off = preload_tolerance(design)
     if off is None or off >= design.value("free_angle_tolerance"):
         return "choose pairs that agree, or bend the legs until the rotor rests with its pins in line with the posts"
@@ -89,7 +90,10 @@ def _sorting(design: Design, dims: Dimensions) -> str:
 
 
 def _bonding_heat(design: Design, _: Dimensions) -> str:
-    """How the PCL is melted through, by the study's own currents and times; by hand where it was not switched."""
+    """Return how the PCL is melted through, by the study's own currents and times.
+
+    By hand where it was not switched.
+    """
     current, time, hold = (design.values.get(name, math.nan) for name in _HEATED)
     if not all(math.isfinite(one) and one > 0.0 for one in (current, time, hold)):
         return "heat the pads until the rotor turns by hand against its springs alone, and hold that for two minutes"
@@ -98,18 +102,21 @@ def _bonding_heat(design: Design, _: Dimensions) -> str:
 
 
 def _cutout_place(_: Design, dims: Dimensions) -> str:
-    """Where the cut-out is drawn."""
+    """Return where the cut-out is drawn."""
     return "in the window, to the outer side of the heater" if fits_in_window(dims) else "below the floor"
 
 
 def _ledge_pull(design: Design, _: Dimensions) -> str:
-    """How strongly the freezing layer pulls at what lies on the ledges; nothing where the design does not say."""
+    """Return how strongly the freezing layer pulls at what lies on the ledges.
+
+    Nothing where the design does not say.
+    """
     tension = design.values.get("ledge_tension", math.nan)
     return f", by {1e-6 * tension:.2g} MPa there at most" if math.isfinite(tension) else ""
 
 
 def _heated_parts(_: Design, dims: Dimensions) -> str:
-    """What the PCL lies on."""
+    """Return what the PCL lies on."""
     return "spreaders" if dims.spreader_depth else "pads"
 
 

@@ -46,12 +46,12 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
 
 
 def _about(mass: float) -> str:
-    """What is used of something, where that is known."""
+    """Return what is used of something, where that is known."""
     return f", about {mass:.2f} g" if mass else ""
 
 
 def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]:
-    """How the made parts are made: the structure by the process, what is of PCL printed or cut either way."""
+    """Return how the made parts are made: the structure by the process, what is of PCL printed or cut either way."""
     is_milled = design.choices["making_method"] == "milled"
     milled = [kind for kind in kinds if is_milled and is_of_structure(kind)]
     lines = []
@@ -67,7 +67,7 @@ def _making(design: Design, dims: Dimensions, kinds: Sequence[str]) -> list[str]
 
 
 def _walls(dims: Dimensions) -> str:
-    """How many lines of plastic go around everything: as many as make the thinnest wall of the process."""
+    """Return how many lines of plastic go around everything: as many as make the thinnest wall of the process."""
     count, least = math.ceil(dims.minimum_wall / _LINE - _ROUNDING), f"{dims.minimum_wall:.3g}"
     return (
         f" Set at least {count} walls, with lines of {_LINE} mm: the thinnest wall there may be, {least} mm, "
@@ -76,7 +76,7 @@ def _walls(dims: Dimensions) -> str:
 
 
 def _weigh(design: Design, kinds: Sequence[str], milled: Sequence[str]) -> str:
-    """By what a print that is not solid is found out."""
+    """Return by what a print that is not solid is found out."""
     if "housing" not in kinds or "housing" in milled:
         return ""
     mass = 1e3 * design.value("housing_volume") * design.value("structure_density")
@@ -97,7 +97,7 @@ class WrittenStep(NamedTuple):
 
 
 def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:
-    """Steps for the kinds this module has, and one for each kind that no step takes."""
+    """Return steps for the kinds this module has, and one for each kind that no step takes."""
     counts: dict[str, object] = {f"number_of_{one.kind}": one.quantity for one in items}
     counts |= {f"grams_of_{one.kind}": f"{one.mass:.2f}" for one in items}
     wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, design, dims)]
@@ -109,7 +109,7 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
 
 
 def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:
-    """Whether a step is for a module with these dimensions and choices, beside its kinds of part."""
+    """Return whether a step is for a module with these dimensions and choices, beside its kinds of part."""
     wanted = [getattr(dims, row) > 0.0 for row in step.get("where", ())]
     unwanted = [getattr(dims, row) > 0.0 for row in step.get("unless", ())]
     chosen = all(design.choices.get(row) == word for row, word in step.get("chosen", {}).items())
@@ -117,13 +117,13 @@ def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:
 
 
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
-    """Steps of a module of these kinds of part, in order, as the data file has them."""
+    """Return steps of a module of these kinds of part, in order, as the data file has them."""
     return [step for step in told() if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))]
 
 
 @cache
 def told() -> list[dict[str, Any]]:
-    """All steps of the data file."""
+    """Return all steps of the data file."""
     written: list[dict[str, Any]] = plain_data(_STEPS.read_text("utf-8"))
     return written
 

@@ -82,7 +82,7 @@ def bill(
 
 
 def as_ordered(items: Sequence[Item]) -> list[Item]:
-    """The items as a shop sells them: a bearing's two rings are one bearing."""
+    """Return the items as a shop sells them: a bearing's two rings are one bearing."""
     by_kind = {one.kind: one for one in items}
     inner, outer = (by_kind.get(kind) for kind in _RINGS)
     if not (inner and outer):
@@ -95,7 +95,7 @@ def as_ordered(items: Sequence[Item]) -> list[Item]:
 
 
 def _titled(design: Design, kind: str, title: str) -> str:
-    """What a part is ordered by: a spring is no piece of wire, so its sizes go with the wire's name."""
+    """Return what a part is ordered by: a spring is no piece of wire, so its sizes go with the wire's name."""
     if kind == "thermistor":
         return thermistor_in_words(design)
     if kind == "peltier_pad" and design.values.get("peltier_seebeck") == 0.0:
@@ -109,7 +109,7 @@ def _titled(design: Design, kind: str, title: str) -> str:
 
 
 def _spring(design: Design, kind: str, title: str) -> str:
-    """What a spring is ordered by, of a wire by its title, or the title of a stock spring."""
+    """Return what a spring is ordered by, of a wire by its title, or the title of a stock spring."""
     if design.choices.get("stock_spring", "none") != "none":
         return f"{title}, wound {_HANDS[kind]}; one leg cut, the other one bent down, by the spring's sheet"
     wire, coil = 1e3 * design.value("wire_diameter"), 1e3 * design.value("coil_diameter")
@@ -119,13 +119,14 @@ def _spring(design: Design, kind: str, title: str) -> str:
 
 
 def _resistance(design: Design) -> float:
-    """Resistance of one foil heater [ohm], which goes with its area."""
+    """Return the resistance of one foil heater [ohm], which goes with its area."""
     scale = design.value("peltier_volume") / (design.value("peltier_thickness") * design.value("peltier_area"))
     return design.value("peltier_resistance") * scale / pad_count(design)
 
 
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
-    """What is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the pads."""
+    """Return what is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the
+    pads."""
     items = [_polymer(design, titles), *_under_pads(design), *_with_spreaders(design)]
     items += [*_of_the_heater(design), *_supply(design), *_glues(design)]
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
@@ -141,7 +142,8 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
 
 
 def _liner_adhesive_mass(design: Design, film: float) -> float:
-    """Mass [g] of the film [m] under all liners, whose area is their volume over their thickness; zero where the table
+    """Return mass [g] of the film [m] under all liners, whose area is their volume over their thickness; zero where
+    the table
     has no density of it: it has that of the tangs' adhesive, which may be the same."""
     if design.choices["liner_adhesive"] != design.choices.get("tang_adhesive"):
         return 0.0
@@ -150,7 +152,10 @@ def _liner_adhesive_mass(design: Design, film: float) -> float:
 
 
 def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
-    """What the PCL is cast with: the jig, which is made, and mould release. No part of it, and not in its mass."""
+    """Return what the PCL is cast with: the jig, which is made, and mould release.
+
+    No part of it, and not in its mass.
+    """
     record = str(design.choices["structure_material"])
     bears = f"of {titles.get('structure_material', record)} where that bears 80 °C, else of aluminium, PC or ABS"
     jig = [
@@ -163,7 +168,7 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
 
 
 def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
-    """The polymer that arcs or blocks are cut or cast from."""
+    """Return the polymer that arcs or blocks are cut or cast from."""
     record = str(design.choices["pcl_grade"])
     grams = 1e3 * design.value("pcl_volume") * design.value("pcl_density")
     title = f"{titles.get('pcl_grade', record)}, sheet or granulate: {grams:.2f} g for all of it, order twice as much"
@@ -171,7 +176,7 @@ def _polymer(design: Design, titles: Mapping[str, str]) -> Item:
 
 
 def _glues(design: Design) -> list[Item]:
-    """What else holds: the locking of screws in metal, and the motor's bonded parts."""
+    """Return what else holds: the locking of screws in metal, and the motor's bonded parts."""
     items = []
     if design.choices["making_method"] == "milled":
         bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
@@ -185,7 +190,8 @@ def _glues(design: Design) -> list[Item]:
 
 
 def _under_pads(design: Design) -> list[Item]:
-    """What lies between pads and housing: adhesive on the ledges that a freezing layer pulls at, grease in vanes.
+    """Return what lies between pads and housing: adhesive on the ledges that a freezing layer pulls at, grease in
+    vanes.
 
     Pads and spreaders in vanes are glued at their ends, and the block presses them in.
     """
@@ -201,12 +207,12 @@ def _under_pads(design: Design) -> list[Item]:
 
 
 def _hottest(design: Design) -> str:
-    """What must bear the heater's rating, in words."""
+    """Return what must bear the heater's rating, in words."""
     return f"{up(design.value('peltier_max_temperature') - ZERO_CELSIUS)} °C"
 
 
 def _with_spreaders(design: Design) -> list[Item]:
-    """What rigid Peltier modules below spreaders take beside: the adhesive between them."""
+    """Return what rigid Peltier modules below spreaders take beside: the adhesive between them."""
     if design.choices.get("heater_form", "flexible") == "flexible":
         return []
     area = 1e6 * design.value("peltier_area") * design.value("heater_count")
@@ -215,7 +221,7 @@ def _with_spreaders(design: Design) -> list[Item]:
 
 
 def _of_the_heater(design: Design) -> list[Item]:
-    """Wires, and a thermistor where none is drawn; through a hole of its own below a spreader."""
+    """Return wires, and a thermistor where none is drawn; through a hole of its own below a spreader."""
     items = []
     if design.values.get("thermistor_diameter", 0.0) <= 0.0:
         hole = design.values.get("lead_hole_diameter", 0.0) if _has_lead_holes(design) else 0.0
@@ -230,12 +236,12 @@ def _of_the_heater(design: Design) -> list[Item]:
 
 
 def _has_lead_holes(design: Design) -> bool:
-    """Whether the floor has a hole for a thermistor at each spreader: below arcs, not beside vanes."""
+    """Return whether the floor has a hole for a thermistor at each spreader: below arcs, not beside vanes."""
     return design.mode == "shear" and design.values.get("spreader_depth", 0.0) > 0.0
 
 
 def _supply(design: Design) -> list[Item]:
-    """Supply and bridge by what the switch asks of them; none where the design was not taken through it."""
+    """Return supply and bridge by what the switch asks of them; none where the design was not taken through it."""
     volts, amperes = (
         max(
             (abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))),
@@ -256,7 +262,7 @@ def _supply(design: Design) -> list[Item]:
 
 
 def _papers(kind: str) -> tuple[str, ...]:
-    """Files a part is made from, or ordered by."""
+    """Return files a part is made from, or ordered by."""
     if kind in SPRINGS:
         return (file_names.SPRING_SHEET, file_names.SPRING_TABLE)
     drawing = (file_names.drawing_pdf(kind),) if PRODUCTION[kind].drawn else ()
@@ -272,7 +278,7 @@ def _come_by(one: Item) -> str:
 
 
 def bill_csv(items: Sequence[Item]) -> bytes:
-    """The bill as CSV, a row for each thing made or bought; `solids` names what it is in the assembly."""
+    """Return the bill as CSV, a row for each thing made or bought; `solids` names what it is in the assembly."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["item", "part", "quantity", "made_or_bought", "catalogue_record", "title", "fit", "mass_each_g",

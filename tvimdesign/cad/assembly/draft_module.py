@@ -80,14 +80,14 @@ def _drawn(kind: str, draw: object, dims: Dimensions) -> DraftSolid:
 
 
 def _mesh(body: Manifold) -> DraftMesh:
-    """Triangles with a normal at each corner, which a sharp edge parts."""
+    """Return triangles with a normal at each corner, which a sharp edge parts."""
     shaded = body.calculate_normals(0, SHARP).to_mesh()
     table = np.asarray(shaded.vert_properties, dtype=float)
     return DraftMesh(table[:, :3], table[:, 3:6], np.asarray(shaded.tri_verts, dtype=np.int64), _edges(body))
 
 
 def _edges(body: Manifold) -> Array:
-    """Edges whose two triangles meet at a sharp angle."""
+    """Return edges whose two triangles meet at a sharp angle."""
     mesh = body.to_mesh()
     points, corners = np.asarray(mesh.vert_properties, dtype=float)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64)
     across = np.cross(points[corners[:, 1]] - points[corners[:, 0]], points[corners[:, 2]] - points[corners[:, 0]])
@@ -103,7 +103,7 @@ def _edges(body: Manifold) -> Array:
 
 
 def _tube(mesh: Mesh) -> DraftMesh:
-    """A spring's wire, shaded round; its edges are not drawn."""
+    """Return a spring's wire, shaded round; its edges are not drawn."""
     a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
     across = np.cross(b - a, c - a)
     normals = np.zeros_like(mesh.vertices)

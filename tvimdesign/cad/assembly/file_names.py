@@ -1,4 +1,4 @@
-"""Where every file of a module's parts stands, relative to the folder they are written into."""
+"""Names of all files of a module's parts, relative to the folder they are written into."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ SPRING_TABLE = "springs/spring.csv"
 
 
 def step(kind: str) -> str:
-    """The part as it is to be, for machining and for reading into other CAD."""
+    """Return the part as it is to be, for machining and for reading into other CAD."""
     return f"step/{kind}.step"
 
 
 def print_stl(kind: str) -> str:
-    """The part lying as it is printed, its holes larger by the process's compensation."""
+    """Return the part lying as it is printed, its holes larger by the process's compensation."""
     return f"print/{kind}.stl"
 
 
 def print_3mf(kind: str) -> str:
-    """The same with unit, name, material and colour."""
+    """Return the same with unit, name, material and colour."""
     return f"print/{kind}.3mf"
 
 
 def mesh_stl(kind: str) -> str:
-    """Triangles of a part that is bought, as it is: to look at and to simulate with."""
+    """Return triangles of a part that is bought, as it is: to look at and to simulate with."""
     return f"mesh/{kind}.stl"
 
 
 def drawing_dxf(kind: str) -> str:
-    """Drawing of a part that is made of the structure's material."""
+    """Return the drawing of a part that is made of the structure's material."""
     return f"drawings/{kind}.dxf"
 
 
 def drawing_pdf(kind: str) -> str:
-    """The same drawing, to print."""
+    """Return the same drawing, to print."""
     return f"drawings/{kind}.pdf"

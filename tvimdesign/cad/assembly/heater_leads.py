@@ -1,4 +1,4 @@
-"""What a heater takes beside its pads, in words of an order: thermal cut-out, thermistor, wires."""
+"""Orders for what a heater takes beside its pads: thermal cut-out, thermistor, wires."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ _THERMISTORS = Path(__file__).with_name("thermistors.yaml")
 
 
 def up(value: float) -> str:
-    """A figure that a rating must reach, to a tenth upwards."""
+    """Return a figure that a rating must reach, to a tenth upwards."""
     return f"{math.ceil(10.0 * value - _ROUNDING) / 10.0:g}"
 
 
 def largest(design: Design, names: tuple[str, ...]) -> float | None:
-    """The largest of some values that happen; None where the design was not taken through its cycle."""
+    """Return the largest of some values that happen; None where the design was not taken through its cycle."""
     found = [abs(design.values[name]) for name in names if math.isfinite(design.values.get(name, math.nan))]
     return max(found, default=None)
 
 
 def fuse_in_words(record: Record, design: Design) -> str:
-    """The cut-out that a design's heater takes; why there is none; empty where nothing is known of its cycle."""
+    """Return the cut-out that a design's heater takes; why there is none; empty where nothing is known of its cycle."""
     hottest, current = largest(design, _HOTTEST), largest(design, _STRONGEST)
     if hottest is None or current is None:
         return ""
@@ -63,7 +63,7 @@ def fuse_in_words(record: Record, design: Design) -> str:
 
 
 def _ratings(design: Design) -> dict[str, float]:
-    """What must not become too hot, in words, with what it bears [K]; only what the design has."""
+    """Return what must not become too hot, in words, with what it bears [K]; only what the design has."""
     return {
         words: design.values[name]
         for words, name in _BEARS.items()
@@ -72,7 +72,8 @@ def _ratings(design: Design) -> dict[str, float]:
 
 
 def thermistor_in_words(design: Design) -> str:
-    """A thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where one is."""
+    """Return a thermistor for the temperature the heater is rated for: its number, and the bead that is drawn where
+    one is."""
     rated = design.value("peltier_max_temperature")
     bears = f"for {up(rated - ZERO_CELSIUS)} °C"
     bead = None
@@ -85,13 +86,13 @@ def thermistor_in_words(design: Design) -> str:
 
 
 class Bead(NamedTuple):
-    """How large the bead of a thermistor is, or may be [m]."""
+    """Size of the bead of a thermistor, or the largest it may have [m]."""
 
     diameter: float
     length: float
 
     def in_words(self) -> str:
-        """Both sizes."""
+        """Return both sizes."""
         return f"{1e3 * self.diameter:.3g} x {1e3 * self.length:.3g} mm"
 
 
@@ -109,7 +110,10 @@ class Thermistor(NamedTuple):
     """The most that its bead measures; None where that is not known."""
 
     def fits(self, bead: Bead | None, rated: float) -> bool:
-        """Whether it bears a temperature [K] and goes where a bead of that size is drawn; None where none is drawn."""
+        """Return whether it bears a temperature [K] and goes where a bead of that size is drawn.
+
+        None where none is drawn.
+        """
         if self.temperature < rated:
             return False
         if bead is None or self.bead is None:
@@ -117,7 +121,7 @@ class Thermistor(NamedTuple):
         return self.bead.diameter <= bead.diameter and self.bead.length <= bead.length
 
     def in_words(self) -> str:
-        """What to order, and what to know of it."""
+        """Return what to order, and what to know of it."""
         size = f", bead of at most {self.bead.in_words()}" if self.bead else ""
         most = f"to {self.temperature - ZERO_CELSIUS:.3g} °C"
         return f"{self.number} of {self.maker} ({self.curve}, {most}{size}, {self.wires})"
@@ -125,7 +129,7 @@ class Thermistor(NamedTuple):
 
 @cache
 def thermistors() -> tuple[Thermistor, ...]:
-    """The thermistors of the data file, the first choice first."""
+    """Return the thermistors of the data file, the first choice first."""
     found = []
     for one in plain_data(_THERMISTORS.read_text("utf-8"))["thermistors"]:
         sizes = [parse_quantity(one[name], "m") for name in ("diameter", "length") if name in one]
@@ -136,14 +140,14 @@ def thermistors() -> tuple[Thermistor, ...]:
 
 
 def pad_count(design: Design) -> int:
-    """Heaters of a design: those of the arcs, or two for each vane."""
+    """Return the heaters of a design: those of the arcs, or two for each vane."""
     if design.mode == "compression":
         return 2 * round(design.value("vane_count"))
     return round(design.value("heater_count"))
 
 
 def wire_in_words(design: Design, pads: int) -> str:
-    """The wires of the pads, by the current of the whole heater; empty where that is not known."""
+    """Return the wires of the pads, by the current of the whole heater; empty where that is not known."""
     current = largest(design, _STRONGEST)
     if current is None:
         return ""
@@ -165,7 +169,7 @@ class Wire(NamedTuple):
 
 @cache
 def wires() -> tuple[Wire, ...]:
-    """The sizes of the data file, the thinnest first."""
+    """Return the sizes of the data file, the thinnest first."""
     listed = plain_data(_WIRES.read_text("utf-8"))["wires"]
     return tuple(
         Wire(one["gauge"], parse_quantity(one["section"], "m^2"), parse_quantity(one["current"], "A")) for one in listed
@@ -174,5 +178,5 @@ def wires() -> tuple[Wire, ...]:
 
 @cache
 def _source() -> str:
-    """Where the ratings are from, in words."""
+    """Return where the ratings are from, in words."""
     return str(plain_data(_WIRES.read_text("utf-8"))["source"])

@@ -1,4 +1,4 @@
-"""Of which parts the module of each mode is built, how each is drawn, and where they stand."""
+"""Parts of the module of each mode: how each is drawn, where it stands, and how far it is lifted to be seen apart."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ _APART = 0.12
 
 
 def lifts(placed: Mapping[str, Instance]) -> dict[str, float]:
-    """How far each part is lifted along the axis [mm], so that no kind reaches into the one below it."""
+    """Return how far each part is lifted along the axis [mm], so that no kind reaches into the one below it."""
     names = sorted(placed, key=lambda name: (_rank(kind_of(name)), name))
     points = {name: placed[name].points() for name in names}
     width = max(float(np.ptp(at[:, 0])) for at in points.values())

@@ -1,4 +1,4 @@
-"""Numbers beside the plan, each with a leader to what its row of the table tells of; no leader crosses another."""
+"""Numbers beside the plan, each with a leader to the feature of its row in the table; no leader crosses another."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _ARROW = 1.4
 
 @dataclass
 class _Placed:
-    """What is on paper already."""
+    """Lines and numbers that are on paper already."""
 
     feet: dict[int, list[Point]]
     """Where each row can be pointed at."""
@@ -69,7 +69,7 @@ def draw_balloons(
 
 
 def _outlines(plan: PlacedView) -> cKDTree:
-    """Points of the plan's visible and hidden lines on paper."""
+    """Return points of the plan's visible and hidden lines on paper."""
     view, scale = plan.view, plan.sheet.scale
     points: list[Point] = []
     for curve in (*view.arcs, *view.chains, *view.hidden):
@@ -86,7 +86,7 @@ def _outlines(plan: PlacedView) -> cKDTree:
 
 
 def _leaders(placed: _Placed, index: int, room: tuple[float, float, float, float]) -> Iterator[Line]:
-    """Leaders of a row from foot to number, those first that are short and whose number covers few lines."""
+    """Yield the leaders of a row from foot to number, those first that are short and whose number covers few lines."""
     left, right, bottom, top = room
     angles = 2.0 * pi * (np.arange(_WAYS) + 0.5) / _WAYS
     reaches, feet = np.array(_REACHES), np.array(placed.feet[index]).reshape(-1, 2)
@@ -115,14 +115,14 @@ def _is_free(placed: _Placed, leader: Line) -> bool:
 
 
 def _towards(number: Point, foot: Point) -> Point:
-    """Where a leader ends at the circle around its number."""
+    """Return where a leader ends at the circle around its number."""
     reach = dist(number, foot)
     share = (reach - _RADIUS) / reach
     return foot[0] + share * (number[0] - foot[0]), foot[1] + share * (number[1] - foot[1])
 
 
 def _away(point: Point, line: Line) -> float:
-    """Distance of a point from a line between two others."""
+    """Return the distance of a point from a line between two others."""
     (x, y), (to_x, to_y) = line
     along_x, along_y = to_x - x, to_y - y
     share = ((point[0] - x) * along_x + (point[1] - y) * along_y) / (along_x**2 + along_y**2)
@@ -131,7 +131,7 @@ def _away(point: Point, line: Line) -> float:
 
 
 def _crosses(one: Line, other: Line) -> bool:
-    """Whether two lines have a point in common."""
+    """Return whether two lines have a point in common."""
 
     def side(line: Line, point: Point) -> float:
         (x, y), (to_x, to_y) = line

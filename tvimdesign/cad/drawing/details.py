@@ -19,13 +19,13 @@ _STEP = 5.0
 
 
 def lines_within(view: View, centre: Point, radius: float) -> list[tuple[Point, Point]]:
-    """The parts of a view's outlines that lie within a circle."""
+    """Return the parts of a view's outlines that lie within a circle."""
     chains = [*(chain.points for chain in view.chains), *map(_chords, view.arcs)]
     return [part for points in chains for line in pairwise(points) for part in _cut(*line, centre, radius)]
 
 
 def area_within(outline: Sequence[Point], centre: Point, radius: float) -> list[Point]:
-    """A closed outline cut at a circle; empty outside. By Sutherland and Hodgman (1974), a side at a time."""
+    """Return a closed outline cut at a circle; empty outside. By Sutherland and Hodgman (1974), a side at a time."""
     corners = list(outline)
     turns = [radians(360.0 * index / _SIDES) for index in range(_SIDES)]
     for turn in turns:
@@ -35,7 +35,7 @@ def area_within(outline: Sequence[Point], centre: Point, radius: float) -> list[
 
 
 def _on_this_side(corners: list[Point], centre: Point, radius: float, out: Point) -> list[Point]:
-    """An outline as far as it lies within a tangent of the circle."""
+    """Return an outline as far as it lies within a tangent of the circle."""
 
     def beyond(point: Point) -> float:
         return (point[0] - centre[0]) * out[0] + (point[1] - centre[1]) * out[1] - radius
@@ -52,7 +52,7 @@ def _on_this_side(corners: list[Point], centre: Point, radius: float, out: Point
 
 
 def _cut(start: Point, end: Point, centre: Point, radius: float) -> Iterator[tuple[Point, Point]]:
-    """The part of a line within a circle."""
+    """Yield the part of a line within a circle."""
     length = dist(start, end)
     if length == 0.0:
         return
@@ -112,12 +112,12 @@ class Step:
 
     @property
     def middle(self) -> Point:
-        """Where its detail is taken."""
+        """Place where its detail is taken."""
         return self.low[0], 0.5 * (self.low[1] + self.high[1])
 
 
 def small_steps(views: Sequence[View], heights: Sequence[float], scale: float) -> list[Step]:
-    """The smallest steps of the sections that a sheet of this scale shows too small, one for each pair of heights.
+    """Return smallest steps of the sections that a sheet of this scale shows too small, one for each pair of heights.
 
     Of those alike the one of the first view, outermost to the right, is taken.
     """
@@ -133,7 +133,7 @@ def small_steps(views: Sequence[View], heights: Sequence[float], scale: float) -
 
 
 def _steps(view: View, index: int, longest: float) -> Iterator[Step]:
-    """Short upright edges of what a view cuts."""
+    """Yield short upright edges of what a view cuts."""
     for outlines in view.cut:
         for outline in outlines:
             for one, other in pairwise([*outline.points, outline.points[0]]):
@@ -156,7 +156,7 @@ def draw_details(placed: Sequence[PlacedView], steps: Sequence[Step], table: flo
 
 
 def _mark(front: PlacedView, middle: Point, radius: float, letter: str) -> None:
-    """A thin circle around a place of the section, a leader, and its letter where no face is cut."""
+    """Draw a thin circle around a place of the section, a leader, and its letter where no face is cut."""
     seen = max(radius, front.paper(_SEEN))
     front.sheet.space.add_circle(front.at(*middle), seen, dxfattribs={"layer": "FINE"})
     turns = [radians(turn) for turn in _TURNS]
@@ -171,13 +171,13 @@ def _mark(front: PlacedView, middle: Point, radius: float, letter: str) -> None:
 
 
 def _meets_cut(view: View, middle: Point, half: float) -> bool:
-    """Whether a square lies on a cut face."""
+    """Return whether a square lies on a cut face."""
     shifts = ((0.0, 0.0), (half, half), (half, -half), (-half, half), (-half, -half))
     return any(_is_cut(view, (middle[0] + right, middle[1] + up)) for right, up in shifts)
 
 
 def _is_cut(view: View, point: Point) -> bool:
-    """Whether a point lies in a cut face: outlines to its right are crossed an odd number of times."""
+    """Return whether a point lies in a cut face: outlines to its right are crossed an odd number of times."""
     crossed = 0
     for outlines in view.cut:
         for outline in outlines:
@@ -188,7 +188,7 @@ def _is_cut(view: View, point: Point) -> bool:
 
 
 def _draw(sheet: DrawingSheet, view: View, step: Step, scale: float, at: Point) -> None:
-    """What is around a step, enlarged about its middle, with the step's height to the right."""
+    """Draw what is around a step, enlarged about its middle, with the step's height to the right."""
     radius = _RADIUS / scale
     more = scale / sheet.scale
     x, y = sheet.at(at)

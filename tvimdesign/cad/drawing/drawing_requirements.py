@@ -1,4 +1,4 @@
-"""What a drawing asks of a workshop beyond shape: fits of the seats by ISO 286, surfaces, edges and threads."""
+"""Requirements of a drawing beyond shape: fits of the seats by ISO 286, surfaces, edges and threads."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tvimdesign.cad.geometry.features import Cylinder
 _DATA = Path(__file__).with_name("drawing_requirements.yaml")
 TAPPED = "tapped"
 _ZONE = 0.05
-"""Step [mm] in which zones of position are told."""
+"""Step [mm] of zones of position."""
 _SAME = 1e-5
 """Lengths [mm] that differ by less are one."""
 DATUM = "B"
@@ -97,7 +97,7 @@ class ClearanceHole:
 
 @dataclass(frozen=True)
 class DrawingRequirements:
-    """What one part's drawing asks for."""
+    """Requirements of one part's drawing."""
 
     tolerances: str
     surface: str
@@ -109,10 +109,10 @@ class DrawingRequirements:
     general: tuple[Frame, ...] = ()
     """What holds for every face without a tolerance of its own: ISO 22081."""
     placed: bool = True
-    """Whether places from the joint's axis are told: not of what is bought, and put where the assembly's note says."""
+    """Whether places from the joint's axis are given: not of what is bought, and put where the assembly's note says."""
 
     def clearance_hole(self, hole: Cylinder) -> ClearanceHole | None:
-        """What passes through a hole, if it is one for a screw."""
+        """Return the row of a hole for a screw; None if it is for none."""
         wide, deep = 2.0 * hole.radius, hole.top - hole.bottom
         for one in self.clearance_holes:
             if hole.concave and abs(one.diameter - wide) < _SAME and (not one.depth or abs(one.depth - deep) < _SAME):
@@ -120,7 +120,8 @@ class DrawingRequirements:
         return None
 
     def seat(self, face: Cylinder) -> Seat | None:
-        """What seat a round face is, if any: of its diameter, at its distance from the axis, a bore or a journal."""
+        """Return the seat that a round face is, if any: of its diameter, at its distance from the axis, a bore or a
+        journal."""
         away = hypot(face.x, face.y)
         for one in self.seats:
             same_size = abs(one.drawn - 2.0 * face.radius) < _SAME
@@ -129,7 +130,7 @@ class DrawingRequirements:
         return None
 
     def thread(self, hole: Cylinder) -> ThreadCallout | None:
-        """What is cut in a hole, if anything: other holes of its diameter have another depth."""
+        """Return the thread cut in a hole, if any: other holes of its diameter have another depth."""
         deep = hole.top - hole.bottom
         from_template = [
             one for one in self.threads if abs(one.hole - 2.0 * hole.radius) < _SAME and abs(one.depth - deep) < _SAME
@@ -138,7 +139,7 @@ class DrawingRequirements:
 
 
 def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> DrawingRequirements:
-    """What the drawing of a kind of part asks for, by the module's process."""
+    """Return what the drawing of a kind of part asks for, by the module's process."""
     reported, method = told(), choices["making_method"]
     seats = [
         one for one in reported["seats"].get(kind, ())
@@ -168,21 +169,21 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
 
 
 def _of_kind(kind: str, dims: Dimensions) -> dict[str, Any]:
-    """What is told of a part that the module's process does not make, and of one that is bought as it is."""
+    """Return the requirements of a part that the module's process does not make, or that is bought as it is."""
     general: dict[str, Any] = told()["of_kind"].get(kind, {})
     whole = general.get("whole")
     return general | whole if whole and getattr(dims, whole["where"]) else general
 
 
 def _clearance_hole(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ClearanceHole:
-    """A hole for a screw to pass, told by its depth from others of its diameter where it has to be."""
+    """Return a hole for a screw to pass, told by its depth from others of its diameter where it has to be."""
     depth = getattr(dims, reported["depth"]) - getattr(dims, reported["less"]) if "depth" in reported else 0.0
     diameter = getattr(dims, reported["hole"])
     return ClearanceHole(reported["about"], diameter, depth, _place(reported, dims, is_milled))
 
 
 def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tuple[Frame, ...]:
-    """Position of milled screw holes: a screw in a hole of its clearance may be off by half the play in either part.
+    """Return the position of milled screw holes: a screw may be off by half the play of its hole in either part.
 
     The tapped hole may stand half of its zone off its place, the other hole half of its own the other way: zones as
     wide as half of the play (hole less screw) each use all of it up.
@@ -195,7 +196,7 @@ def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tu
 
 
 def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
-    """What else is said of a kind of part, for the choices of its design."""
+    """Return further remarks on a kind of part, for the choices of its design."""
     tang_hole = figure(dims.wire_diameter + 2.0 * dims.tang_clearance)
     written = told()["remarks"].get(kind, ())
     return [
@@ -205,7 +206,7 @@ def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[st
 
 
 def _is_there(reported: Mapping[str, Any], dims: Dimensions) -> bool:
-    """Whether the module has a seat or a thread."""
+    """Return whether the module has a seat or a thread."""
     where, unless = reported.get("where", ()), reported.get("unless", ())
     return all(getattr(dims, row) for row in _rows(where)) and not any(getattr(dims, row) for row in _rows(unless))
 
@@ -215,7 +216,7 @@ def _rows(reported: str | Sequence[str]) -> Sequence[str]:
 
 
 def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
-    """A seat with its fit, or as it is drawn where its study has another gap than the fit."""
+    """Return a seat with its fit, or as it is drawn where its study has another gap than the fit."""
     drawn = getattr(dims, reported["diameter"]) if "diameter" in reported else 2.0 * getattr(dims, reported["radius"])
     drawn += 2.0 * getattr(dims, reported["plus"]) if "plus" in reported else 0.0
     inside = reported["class"][0].isupper()
@@ -234,7 +235,8 @@ def _seat(reported: Mapping[str, Any], dims: Dimensions, letter: str) -> Seat:
 
 
 def _bearing_frames(size: float) -> list[Frame]:
-    """Of a bearing's seat: cylindrical within half of IT5, run-out of the shoulder IT5, as bearing catalogues ask.
+    """Return the frames of a bearing's seat: cylindrical within half of IT5, run-out of the shoulder IT5, as
+    catalogues ask.
 
     Both seats lie in one zone (CZ, ISO 5458) as wide as IT5: so they are coaxial, though cut from two sides. Assumed,
     as wide as the run-out of the shoulder.
@@ -247,7 +249,7 @@ def _bearing_frames(size: float) -> list[Frame]:
 
 
 def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ThreadCallout:
-    """A thread: tapped, cut by its screw in plastic, or that of an insert."""
+    """Return a thread: tapped, cut by its screw in plastic, or that of an insert."""
     depth = getattr(dims, reported["depth"])
     length = depth - (getattr(dims, reported["runout"]) if "runout" in reported else 0.0)
     insert = getattr(dims, reported["insert"]) if "insert" in reported else 0.0
@@ -260,6 +262,6 @@ def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> T
 
 @cache
 def told() -> dict[str, Any]:
-    """What the data file says of the parts' drawings."""
+    """Read the data file on the parts' drawings."""
     reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
     return reported

@@ -27,11 +27,11 @@ from tvimdesign.cad.drawing.pdf_page import PdfPage
 
 _HUNDREDTH = Decimal("0.01")
 _LISTED = 4
-"""Azimuths that are listed; of more that are evenly apart the ends are told."""
+"""Azimuths that are listed; of more that are evenly apart the ends are listed."""
 
 
 def figure(value: float) -> str:
-    """A length or an angle with at most two decimals, a half rounded up: every text of a drawing rounds here.
+    """Return a length or an angle with at most two decimals, a half rounded up: every text of a drawing rounds here.
 
     A micrometre is settled first: 23.155 read off two faces is 23.16 in both places.
     """
@@ -40,7 +40,7 @@ def figure(value: float) -> str:
 
 
 def around(azimuths: Sequence[float]) -> str:
-    """Azimuths [deg] in ascending order: all around evenly, or the first few and how often they come again."""
+    """Return azimuths [deg] in ascending order: all around evenly, or the first few and how often they come again."""
     if len(azimuths) == 1:
         return f"at {figure(azimuths[0])}°"
     steps = [later - earlier for earlier, later in pairwise([*azimuths, azimuths[0] + 360.0])]
@@ -73,13 +73,16 @@ _RELEASED = "of approval"
 
 
 def sheet_number(kind: str, told: Iterable[str]) -> str:
-    """The kind of part, and a mark of all that its sheet tells."""
+    """Return the kind of part, and a mark of all that its sheet tells."""
     mark = sha256("\n".join(told).encode()).hexdigest()[:_DIGITS]
     return f"{kind.replace('_', '-')}-{mark}"
 
 
 def issue_fields(signed: str, number: str) -> list[Field]:
-    """The row of the title block that tells which sheet this is; `signed` is the label of the field left for a name."""
+    """Return the row of the title block that tells which sheet this is.
+
+    `signed` is the label of the field left for a name.
+    """
     return [
         Field(signed, "", 0.24), Field("Number", number, 0.4), Field("Revision", REVISION, 0.12),
         Field("Date", _RELEASED, 0.24),
@@ -151,27 +154,27 @@ class DrawingSheet:
             setattr(style, name, setting)
 
     def at(self, point: Point) -> Point:
-        """Where a place on paper is in the drawing's own coordinates."""
+        """Return where a place on paper is in the drawing's own coordinates."""
         return point[0] / self.scale, point[1] / self.scale
 
     def lines(self, points: Sequence[Point], layer: str) -> None:
-        """Straight lines between places on paper."""
+        """Draw straight lines between places on paper."""
         self.space.add_lwpolyline([self.at(point) for point in points], dxfattribs={"layer": layer})
 
     def text(self, text: str, at: Point, height: float = _TEXT, align: str = "BOTTOM_LEFT", room: float = inf) -> None:
-        """One line of text at a place on paper, its letters narrowed where it is longer than its `room` [mm]."""
+        """Write one line of text at a place on paper, its letters narrowed where it is longer than its `room` [mm]."""
         entity = self.space.add_text(text, height=height / self.scale, dxfattribs={"layer": "TEXT", "style": "SHEET"})
         if room < inf and (length := fonts.make_font(_FONT, height).text_width(text)) > room:
             entity.dxf.width = room / length
         entity.set_placement(self.at(at), align=TextEntityAlignment[align])
 
     def column(self, lines: Sequence[str], at: Point, pitch: float = 4.6, height: float = _TEXT) -> None:
-        """Lines of text below one another, the first below a place on paper."""
+        """Write lines of text below one another, the first below a place on paper."""
         for index, line in enumerate(lines):
             self.text(line, (at[0], at[1] - (index + 1) * pitch), height)
 
     def title_block(self, title: str, rows: Sequence[Sequence[Field]]) -> None:
-        """Title block in the lower right corner: a title, and rows of fields from the bottom up."""
+        """Draw the title block in the lower right corner: a title, and rows of fields from the bottom up."""
         left, bottom = self.size[0] - MARGIN - TITLE_WIDTH, MARGIN
         top = bottom + TITLE_ROW * len(rows) + 1.5 * TITLE_ROW
         self.lines([(left, bottom), (left, top), (left + TITLE_WIDTH, top)], "FRAME")
@@ -189,7 +192,7 @@ class DrawingSheet:
         self._first_angle((left + TITLE_WIDTH - 28.0, top - 0.75 * TITLE_ROW))
 
     def _first_angle(self, at: Point) -> None:
-        """The symbol of first-angle projection, ISO 5456-2: a cone, and to its right what is seen from its left."""
+        """Draw the symbol of first-angle projection, ISO 5456-2: a cone, and to its right its view from the left."""
         x, y = at
         self.lines([(x, y - 2), (x, y + 2), (x + 9, y + 4), (x + 9, y - 4), (x, y - 2)], "FINE")
         self.lines([(x - 2, y), (x + 11, y)], "CENTRE")
@@ -199,7 +202,7 @@ class DrawingSheet:
         self.lines([(x + 18, y - 5.5), (x + 18, y + 5.5)], "CENTRE")
 
     def dxf(self) -> bytes:
-        """The drawing as DXF, the same bytes for the same drawing."""
+        """Return the drawing as DXF, the same bytes for the same drawing."""
         stream = io.StringIO()
         # ezdxf writes the classes of a drawing in the order of a set; those that are there already keep their places.
         for name in sorted(self.document.entitydb.dxf_types_in_use()):
@@ -209,7 +212,7 @@ class DrawingSheet:
         return stream.getvalue().encode(self.document.output_encoding)
 
     def pdf(self) -> bytes:
-        """The sheet as PDF in its true size."""
+        """Return the sheet as PDF in its true size."""
         look = Configuration(
             background_policy=BackgroundPolicy.WHITE, color_policy=ColorPolicy.BLACK,
             lineweight_policy=LineweightPolicy.ABSOLUTE, lineweight_scaling=1.0,
@@ -221,7 +224,7 @@ class DrawingSheet:
 
 
 def ratio(scale: float) -> str:
-    """A scale as it is written on a drawing."""
+    """Return a scale as it is written on a drawing."""
     return f"{scale:g}:1" if scale >= 1.0 else f"1:{1.0 / scale:g}"
 
 
@@ -238,7 +241,7 @@ def _no_time() -> Iterator[None]:
 
 @contextmanager
 def _fixed_chance() -> Iterator[None]:
-    """Hatching is moved by a random hair, to miss corners; let it be the same hair every time."""
+    """Yield hatching is moved by a random hair, to miss corners; let it be the same hair every time."""
     before = random.getstate()
     random.seed(0)
     try:

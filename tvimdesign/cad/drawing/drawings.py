@@ -36,7 +36,7 @@ from tvimdesign.cad.geometry.kinds import PRODUCTION
 _BESIDE = ("pocket", "vane", "thread", "hole", "slot")
 """Features that are looked for beside the section's plane, the first before the others.
 
-A thread is told in full by its row; a vane, with its slots and steps, is seen only where it is cut.
+The row of a thread describes it in full; a vane, with its slots and steps, is seen only where it is cut.
 """
 _AZIMUTHS = "Azimuths count from x, to the right, counter-clockwise in the plan."
 _WALLS = "Walls: distance of their plane from the axis, azimuth of the way they face."
@@ -47,7 +47,7 @@ def part_sheet(
 ) -> DrawingSheet:
     """Draw a part: section A-A above, plan below it, first angle, beside it a half section D-D where A-A meets not all.
 
-    `material` is what the catalogue calls it, the record's name unless told.
+    `material` is what the catalogue calls it, by default the record's name.
     """
     plan, front = from_above(solid), section(solid)
     found = upright_cylinders(solid)
@@ -85,7 +85,7 @@ def part_sheet(
 
 
 def _beside(rows: Sequence[FeatureRow]) -> float:
-    """Azimuth [rad] at which a half section cuts what the section along x does not; 0 where that cuts all."""
+    """Return azimuth [rad] at which a half section cuts what the section along x does not; 0 where that cuts all."""
     for what in _BESIDE:
         for row in rows:
             if row.what == what and row.azimuths and all(abs(azimuth % 180.0) > 0.5 for azimuth in row.azimuths):
@@ -96,7 +96,7 @@ def _beside(rows: Sequence[FeatureRow]) -> float:
 def _draw_plan(
     plan: PlacedView, found: Sequence[Cylinder], asked: DrawingRequirements, half: View | None, beside: float
 ) -> list[CuttingMark]:
-    """The view from above with its axes, its threads, and where the sections are taken; returns the marks of these."""
+    """Draw the view from above with axes, threads, and where the sections are taken; return the marks of these."""
     plan.draw()
     plan.centre_lines([one for one in found if one.is_round])
     plan.threads([(one.x, one.y, _screw(one, asked)) for one in found if one.is_round and asked.thread(one)])
@@ -106,7 +106,7 @@ def _draw_plan(
 
 
 def _screw(one: Cylinder, asked: DrawingRequirements) -> float:
-    """Diameter of the screw of a threaded hole [mm]."""
+    """Return the diameter of the screw of a threaded hole [mm]."""
     thread = asked.thread(one)
     return float(thread.screw.removeprefix("M")) if thread else 0.0
 
@@ -114,7 +114,7 @@ def _screw(one: Cylinder, asked: DrawingRequirements) -> float:
 def _draw_section(
     view: PlacedView, name: str, solid: cq.Solid, found: Sequence[Cylinder], asked: DrawingRequirements, azimuth: float
 ) -> None:
-    """A section with its name, the module's axis, and the threads that it cuts."""
+    """Draw a section with its name, the module's axis, and the threads that it cuts."""
     view.draw()
     view.axis()
     scale, (x, y) = view.sheet.scale, view.origin
@@ -132,7 +132,10 @@ def _draw_section(
 
 
 def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], asked: DrawingRequirements) -> None:
-    """Diameters about the axis with their fits, the smallest nearest, above the section; the datum beside its own."""
+    """Dimension diameters about the axis with their fits, the smallest nearest, above the section.
+
+    The datum beside its own.
+    """
     top, left = front.view.bounds[3], front.view.bounds[0]
     seats = [asked.seat(one) for one in round_faces]
     has_seat = any(seat and seat.letter for seat in seats)
@@ -148,7 +151,7 @@ def _dimension_diameters(front: PlacedView, round_faces: Sequence[Cylinder], ask
 
 
 def _dimension_extent(front: PlacedView, diameters: Sequence[float]) -> None:
-    """Overall length, where no diameter says it, and overall height."""
+    """Dimension the overall length, where no diameter gives it, and the overall height."""
     left, right, bottom, top = front.view.bounds
     space = front.sheet.space
     if all(abs(right - left - diameter) > 1e-3 for diameter in diameters):
@@ -165,7 +168,7 @@ def _dimension_extent(front: PlacedView, diameters: Sequence[float]) -> None:
 
 
 def _dimension_levels(front: PlacedView, heights: Sequence[float]) -> None:
-    """Heights of the flat faces over the lowest, right of the section, their figures apart from each other.
+    """Dimension heights of the flat faces over the lowest, right of the section, their figures apart from each other.
 
     Running dimensions by ISO 129-1: a small circle marks the origin.
     """
@@ -184,7 +187,7 @@ def _words(
     sheet: DrawingSheet, kind: str, solid: cq.Solid, what: Product, module: str, asked: DrawingRequirements,
     material: str, rows: Sequence[FeatureRow],
 ) -> None:  # fmt: skip
-    """Notes and title block."""
+    """Write notes and title block."""
     volume = solid.Volume()
     lying = "standing as in the section" if PRODUCTION[kind].down == "bottom" else "turned over"
     notes = [

@@ -1,4 +1,4 @@
-"""What a drawing tells of every upright face of a part: one numbered row for all that are alike around the axis."""
+"""Rows of a drawing's table for upright faces of a part: one numbered row for all that are alike around the axis."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class FeatureRow:
     """Where each is cut through its middle by a plane that holds the axis [deg]."""
     through: bool = False
     of: tuple[Cylinder | Wall, ...] = ()
-    """The faces that it tells of."""
+    """The faces that it describes."""
 
     @property
     def text(self) -> str:
@@ -62,7 +62,7 @@ class FeatureRow:
 
 
 def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow]:
-    """Rows for all upright faces but the round ones about the axis without a thread: the section has these."""
+    """Return rows for all upright faces but the round ones about the axis without a thread: the section has these."""
     box = tight_box(solid)
     cylinders, walls = upright_cylinders(solid), upright_walls(solid)
     bounded, arcs, ends = sectors(cylinders, walls)
@@ -80,12 +80,12 @@ def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow
 
 
 def is_corner(one: Cylinder) -> bool:
-    """Whether it is the rounded corner of a pocket."""
+    """Return whether it is the rounded corner of a pocket."""
     return one.concave and not one.is_round and one.radius <= CORNER
 
 
 def _like(told: Callable[[list[T]], FeatureRow], found: Iterable[T], key: Callable[[T], Hashable]) -> list[FeatureRow]:
-    """A row for each group of features that are alike."""
+    """Return a row for each group of features that are alike."""
     groups: dict[Hashable, list[T]] = {}
     for one in found:
         groups.setdefault(key(one), []).append(one)
@@ -93,7 +93,7 @@ def _like(told: Callable[[list[T]], FeatureRow], found: Iterable[T], key: Callab
 
 
 def _over(row: FeatureRow, lowest: float, highest: float) -> FeatureRow:
-    """The row with its heights over the part's lowest face."""
+    """Return the row with its heights over the part's lowest face."""
     through = row.what == "hole" and abs(row.bottom - lowest) < _SAME and abs(row.top - highest) < _SAME
     return replace(row, bottom=row.bottom - lowest, top=row.top - lowest, through=through)
 
@@ -128,7 +128,7 @@ def _told_of_hole(asked: DrawingRequirements) -> Callable[[list[Cylinder]], Feat
 
 
 def sized(one: Cylinder, asked: DrawingRequirements) -> str:
-    """A diameter with its fit."""
+    """Return a diameter with its fit."""
     seat = asked.seat(one)
     return f"⌀{figure(seat.size)} {seat.fit}" if seat and seat.fit else f"⌀{figure(2.0 * one.radius)}"
 
@@ -185,7 +185,7 @@ def _told_of_pair(group: list[Pair]) -> FeatureRow:
 
 
 def _along(normal: float) -> float:
-    """Azimuth [deg] of the line of a mid-plane, below 180."""
+    """Return azimuth [deg] of the line of a mid-plane, below 180."""
     return round(degrees(normal + 0.5 * pi), 3) % 180.0
 
 
@@ -195,13 +195,13 @@ def _wall_key(one: Wall) -> Hashable:
 
 
 def _faces_onwards(one: Wall) -> bool:
-    """Whether a wall through the axis faces counter-clockwise."""
+    """Return whether a wall through the axis faces counter-clockwise."""
     x, y = one.middle
     return sin(one.outwards - atan2(y, x)) > 0.0
 
 
 def _told_of_wall(group: list[Wall]) -> FeatureRow:
-    """Where its plane is and which way it faces: along that way the plane is before or behind the axis."""
+    """Return where its plane is and which way it faces: along that way the plane is before or behind the axis."""
     one = group[0]
     size = "through the axis" if abs(one.offset) < _SAME else f"{figure(abs(one.offset))} from the axis"
     faced = _azimuths([other.outwards for other in group])
@@ -223,7 +223,7 @@ def _reach(one: Wall) -> str:
 
 
 def _unlike(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
-    """The rows, with the ends of walls told where nothing else tells these from those of another row."""
+    """Return the rows, with the ends of walls told where nothing else tells these from those of another row."""
     alike = Counter(row.text for row in rows)
     told = []
     for row in rows:
@@ -276,7 +276,7 @@ def _told_of_corners(group: list[Cylinder]) -> FeatureRow:
 
 
 def _circle(places: Sequence[Point]) -> str:
-    """On which circle places are, and at which azimuths; or where the only one is."""
+    """Return on which circle places are, and at which azimuths; or where the only one is."""
     if len(places) == 1:
         return f"x {figure(places[0][0])}, y {figure(places[0][1])}"
     return f"on ⌀{figure(2.0 * hypot(*places[0]))} {around(_directions(places))}"
@@ -287,5 +287,5 @@ def _directions(places: Sequence[Point]) -> list[float]:
 
 
 def _azimuths(angles: Sequence[float]) -> list[float]:
-    """Azimuths [deg] from angles [rad], ascending."""
+    """Return azimuths [deg] from angles [rad], ascending."""
     return sorted(round(degrees(angle) % 360.0, 3) % 360.0 for angle in angles)

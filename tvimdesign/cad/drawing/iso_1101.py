@@ -27,7 +27,7 @@ class Frame:
 
     @property
     def cells(self) -> tuple[str, ...]:
-        """What stands in the boxes behind the symbol."""
+        """Texts of the boxes behind the symbol."""
         return (self.within, *self.datums)
 
     @property

@@ -45,7 +45,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
 
 
 def standard_tolerance(grade: int, size: float) -> float:
-    """Standard tolerance [mm] of a grade at a size [mm]."""
+    """Return standard tolerance [mm] of a grade at a size [mm]."""
     grades = told()["grades"]
     if grade not in grades:
         raise GeometryError(f"tolerance grade IT{grade} is not in {_DATA.name}: it has {', '.join(map(str, grades))}")
@@ -53,7 +53,7 @@ def standard_tolerance(grade: int, size: float) -> float:
 
 
 def _at(row: Sequence[int], size: float) -> int:
-    """Value of a row of the table at a size [mm]."""
+    """Return the value of a row of the table at a size [mm]."""
     ends = (0.0, *told()["up_to"])
     # What is a hair off a range's end for rounding belongs to the range.
     for value, (over, up_to) in zip(row, pairwise(ends), strict=True):
@@ -64,6 +64,6 @@ def _at(row: Sequence[int], size: float) -> int:
 
 @cache
 def told() -> dict[str, Any]:
-    """What the data file has of ISO 286."""
+    """Read the data file on ISO 286."""
     reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
     return reported

@@ -31,7 +31,7 @@ class PdfPage(Backend):
     """A sheet of a size [mm] that ezdxf draws on; `scale` is paper over drawing."""
 
     def __init__(self, size: tuple[float, float], scale: float) -> None:
-        """An empty page."""
+        """Start an empty page."""
         super().__init__()
         self._size = size
         self._scale = scale
@@ -39,7 +39,7 @@ class PdfPage(Backend):
         self._pen = self._ink = ""
 
     def bytes(self) -> bytes:
-        """The page as a file."""
+        """Return the page as a file."""
         width, height = (f"{length * _POINTS:.12g}" for length in self._size)
         factor = f"{self._scale * _POINTS:.10g}"
         drawn = "\n".join([f"{factor} 0 0 {factor} 0 0 cm 1 j", *self._said])
@@ -54,20 +54,20 @@ class PdfPage(Backend):
         ])  # fmt: skip
 
     def set_background(self, color: str) -> None:
-        """Paper is white."""
+        """Do nothing: paper is white."""
 
     def draw_point(self, pos: Vec2, properties: BackendProperties) -> None:
-        """A dot."""
+        """Draw a dot."""
         self._fill_with(properties)
         side = _DOT / self._scale
         self._said.append(f"{pos.x - 0.5 * side:.4f} {pos.y - 0.5 * side:.4f} {side:.4f} {side:.4f} re f")
 
     def draw_line(self, start: Vec2, end: Vec2, properties: BackendProperties) -> None:
-        """One line."""
+        """Draw one line."""
         self.draw_solid_lines([(start, end)], properties)
 
     def draw_solid_lines(self, lines: Iterable[tuple[Vec2, Vec2]], properties: BackendProperties) -> None:
-        """Lines of one kind, such as the dashes of a hidden edge."""
+        """Draw lines of one kind, such as the dashes of a hidden edge."""
         drawn = []
         for start, end in lines:
             if start.isclose(end):
@@ -79,27 +79,27 @@ class PdfPage(Backend):
             self._said += [*drawn, "S"]
 
     def draw_path(self, path: BkPath2d, properties: BackendProperties) -> None:
-        """A line with bends and curves."""
+        """Draw a line with bends and curves."""
         if len(path):
             self._draw_with(properties)
             self._said += [self._along(path), "S"]
 
     def draw_filled_paths(self, paths: Iterable[BkPath2d], properties: BackendProperties) -> None:
-        """A letter: what is inside is told by the sense in which its outlines run, as fonts mean it."""
+        """Draw a letter: the sense in which an outline runs says whether it is filled, as fonts mean it."""
         outlines = [self._along(path) for path in paths if len(path)]
         if outlines:
             self._fill_with(properties)
             self._said += [*outlines, "f"]
 
     def draw_filled_polygon(self, points: BkPoints2d, properties: BackendProperties) -> None:
-        """An arrowhead, or what else has straight sides."""
+        """Draw an arrowhead, or what else has straight sides."""
         corners = [_at(point) for point in points.vertices()]
         if corners:
             self._fill_with(properties)
             self._said += [f"{corners[0]} m", *(f"{corner} l" for corner in corners[1:]), "f"]
 
     def draw_image(self, image_data: ImageData, properties: BackendProperties) -> NoReturn:
-        """No drawing has one."""
+        """Return no drawing has one."""
         raise NotImplementedError("a drawing sheet has no images")
 
     def clear(self) -> None:
@@ -107,10 +107,10 @@ class PdfPage(Backend):
         self._said, self._pen, self._ink = [], "", ""
 
     def finalize(self) -> None:
-        """All is drawn."""
+        """Do nothing: all is drawn."""
 
     def _along(self, path: BkPath2d) -> str:
-        """A path in the words of PDF, which has cubic curves only."""
+        """Return a path in the words of PDF, which has cubic curves only."""
         words, thirds, ends, middles = _words(tuple(path.command_codes()))
         corners = path.np_vertices()
         points = corners[ends]
@@ -144,7 +144,7 @@ def _at(point: Vec2) -> str:
 
 @lru_cache(maxsize=1024)
 def _words(codes: tuple[int, ...]) -> tuple[str, _Places, _Places, _Places]:
-    """The words of a path of some steps, such as a letter, with a gap for every number, and where these come from.
+    """Return words of a path of some steps, such as a letter, with a gap for every number, and where these come from.
 
     Each point is a corner of the path (the third result); those at the places of the second are moved two thirds of the
     way to another corner (the fourth), as the points of the cubic curve that is a quadratic one lie.
@@ -168,12 +168,12 @@ def _places(numbers: list[int]) -> _Places:
 
 
 def _colour(name: str) -> str:
-    """The red, green and blue of #rrggbb, from 0 to 1."""
+    """Return the red, green and blue of #rrggbb, from 0 to 1."""
     return " ".join(f"{int(name[start : start + 2], 16) / 255.0:.3g}" for start in (1, 3, 5))
 
 
 def _file(objects: Sequence[bytes]) -> bytes:
-    """A file of numbered objects, the first its root, the last what is said of it."""
+    """Return a file of numbered objects, the first its root, the last its metadata."""
     written, places = bytearray(_HEADER), []
     for number, content in enumerate(objects, start=1):
         places.append(len(written))

@@ -17,7 +17,7 @@ _CLEAR = 4.5
 
 @dataclass(frozen=True)
 class CuttingMark:
-    """What shows on paper where a section is taken [mm]."""
+    """Marks on paper of where a section is taken [mm]."""
 
     letter: tuple[float, float]
     """Middle of its letter."""
@@ -27,7 +27,7 @@ class CuttingMark:
     """Both ends of the arrow's back."""
 
     def lies_on(self, other: CuttingMark) -> bool:
-        """Whether it is so near to another that letters or strokes touch."""
+        """Return whether it is so near to another that letters or strokes touch."""
         return any(dist(one, far) < _CLEAR for one in self._points for far in other._points)
 
     @property
@@ -45,16 +45,16 @@ class PlacedView:
     origin: tuple[float, float]
 
     def at(self, x: float, y: float) -> tuple[float, float]:
-        """Where a point of the view is in the drawing's coordinates."""
+        """Return where a point of the view is in the drawing's coordinates."""
         left, bottom = self.sheet.at(self.origin)
         return left + x, bottom + y
 
     def on_paper(self, x: float, y: float) -> tuple[float, float]:
-        """Where a point of the view is on paper [mm]."""
+        """Return where a point of the view is on paper [mm]."""
         return self.origin[0] + x * self.sheet.scale, self.origin[1] + y * self.sheet.scale
 
     def paper(self, length: float) -> float:
-        """A length on paper [mm] in the drawing's coordinates."""
+        """Return a length on paper [mm] in the drawing's coordinates."""
         return length / self.sheet.scale
 
     def draw(self) -> None:
@@ -95,7 +95,7 @@ class PlacedView:
 
     @property
     def has_axis(self) -> bool:
-        """Whether the module's axis goes through the part: of a segment beside it, it may lie off the sheet."""
+        """True if the module's axis goes through the part: of a segment beside it, it may lie off the sheet."""
         return self.view.bounds[0] <= 0.0 <= self.view.bounds[1]
 
     def centre_lines(self, rounds: Sequence[Cylinder]) -> None:
@@ -203,7 +203,7 @@ class PlacedView:
 
 
 def apart(wanted: Sequence[float], least: float) -> list[float]:
-    """Places in ascending order, at least so far apart, as near as possible to those wanted."""
+    """Return the places in ascending order, at least so far apart, as near as possible to those wanted."""
     groups: list[tuple[float, int]] = []
     for place in wanted:
         groups.append((place, 1))

@@ -49,7 +49,7 @@ class Chain:
 
 @dataclass(frozen=True)
 class View:
-    """What is seen of a solid, in its own millimetres: x to the right, y (or z) upwards."""
+    """View of a solid, in its own millimetres: x to the right, y (or z) upwards."""
 
     arcs: tuple[Arc, ...]
     chains: tuple[Chain, ...]
@@ -73,7 +73,7 @@ class View:
 
 
 def from_above(solid: cq.Solid) -> View:
-    """Plan view, with what lies behind."""
+    """Return plan view, with what lies behind."""
     visible, hidden = _edges(solid, (0, 0, 1))
     arcs, chains = _curves(visible)
     hidden_arcs, hidden_chains = _curves(hidden)
@@ -83,13 +83,13 @@ def from_above(solid: cq.Solid) -> View:
 
 
 def section(solid: cq.Solid) -> View:
-    """Front view of the half behind the plane y = 0, with its faces in that plane."""
+    """Return front view of the half behind the plane y = 0, with its faces in that plane."""
     size = _room(solid)
     return _front(solid.intersect(cq.Solid.makeBox(size, size, size, cq.Vector(-0.5 * size, 0, -0.5 * size))))
 
 
 def half_section(solid: cq.Solid, azimuth: float) -> View:
-    """What `section` shows from the axis to the right, of the solid cut at an azimuth [rad] instead of along x."""
+    """Return what `section` shows from the axis to the right, of the solid cut at an azimuth [rad] instead of x."""
     size = _room(solid)
     turned = solid.rotate(cq.Vector(), cq.Vector(0, 0, 1), -degrees(azimuth))
     view = _front(turned.intersect(cq.Solid.makeBox(size, size, size, cq.Vector(0, 0, -0.5 * size))))
@@ -100,13 +100,13 @@ def half_section(solid: cq.Solid, azimuth: float) -> View:
 
 @lru_cache(maxsize=1)
 def _room(solid: cq.Solid) -> float:
-    """The side of a cube about the origin that holds the solid with room to spare."""
+    """Return the side of a cube about the origin that holds the solid with room to spare."""
     box = tight_box(solid)
     return float(2.0 * (box.DiagonalLength + box.center.Length))
 
 
 def _front(behind: cq.Shape) -> View:
-    """Front view of what is behind the plane y = 0, with its faces in that plane."""
+    """Return front view of what is behind the plane y = 0, with its faces in that plane."""
     arcs, chains = _curves(edge for half in behind.Solids() for edge in _edges(half, (0, -1, 0))[0])
     faces = [face for face in behind.Faces() if _lies_in_section(face)]
     cut = sorted(
@@ -126,7 +126,7 @@ def _lies_in_section(face: cq.Face) -> bool:
 
 
 def _edges(solid: cq.Solid, towards_viewer: tuple[float, float, float]) -> tuple[list[cq.Edge], list[cq.Edge]]:
-    """Visible and hidden edges of a solid, projected; the viewer's right is x."""
+    """Return visible and hidden edges of a solid, projected; the viewer's right is x."""
     algorithm = HLRBRep_Algo()
     algorithm.Add(solid.wrapped)
     algorithm.Projector(HLRAlgo_Projector(gp_Ax2(gp_Pnt(), gp_Dir(*towards_viewer), gp_Dir(1, 0, 0))))
@@ -138,7 +138,7 @@ def _edges(solid: cq.Solid, towards_viewer: tuple[float, float, float]) -> tuple
 
 
 def _drawn(found: TopoDS_Shape | None) -> list[cq.Edge]:
-    """Edges of one kind, none where the view has none of it."""
+    """Return edges of one kind, none where the view has none of it."""
     if found is None or found.IsNull():
         return []
     BRepLib.BuildCurves3d_s(found)
@@ -146,7 +146,7 @@ def _drawn(found: TopoDS_Shape | None) -> list[cq.Edge]:
 
 
 def _curves(edges: Iterable[cq.Edge]) -> tuple[tuple[Arc, ...], tuple[Chain, ...]]:
-    """Edges in the plane of the view as arcs and chains, each once and in a fixed order."""
+    """Return edges in the plane of the view as arcs and chains, each once and in a fixed order."""
     arcs, chains = set(), set()
     for edge in edges:
         if edge.geomType() == "CIRCLE":
@@ -157,7 +157,7 @@ def _curves(edges: Iterable[cq.Edge]) -> tuple[tuple[Arc, ...], tuple[Chain, ...
 
 
 def _chain(edge: cq.Edge) -> Chain:
-    """An edge as lines, the same whichever way it runs."""
+    """Return an edge as lines, the same whichever way it runs."""
     points = _sampled(edge)
     return Chain(min(points, points[::-1]))
 
@@ -174,7 +174,7 @@ def _arc(edge: cq.Edge) -> Arc:
 
 
 def _sampled(edge: cq.Edge) -> tuple[Point, ...]:
-    """Points of an edge, so many that lines between them keep to it."""
+    """Return points of an edge, so many that lines between them keep to it."""
     count = 2
     while count < 257:
         shares = np.linspace(0.0, 1.0, 2 * count - 1).tolist()
@@ -187,7 +187,7 @@ def _sampled(edge: cq.Edge) -> tuple[Point, ...]:
 
 
 def _beside(points: Array, start: Array, end: Array) -> Array:
-    """Distance of points from the lines between two others."""
+    """Return the distance of points from the lines between two others."""
     along = end - start
     length = np.maximum(np.hypot(*along.T), 1e-12)
     away = points - start
@@ -195,7 +195,7 @@ def _beside(points: Array, start: Array, end: Array) -> Array:
 
 
 def _outline(wire: cq.Wire) -> Chain:
-    """A closed wire in the section's plane: x and z."""
+    """Return a closed wire in the section's plane: x and z."""
     flat = wire.rotate(cq.Vector(), cq.Vector(1, 0, 0), -90.0)
     pieces = [list(_sampled(edge)) for edge in flat.Edges()]
     points = pieces.pop(0)
@@ -208,7 +208,7 @@ def _outline(wire: cq.Wire) -> Chain:
 
 
 def _is_on(arc: Arc, angle: float) -> bool:
-    """Whether an arc passes an angle [deg]."""
+    """Return whether an arc passes an angle [deg]."""
     span = (arc.end - arc.start) % 360.0 or 360.0
     return (angle - arc.start) % 360.0 <= span
 

@@ -57,7 +57,7 @@ class Sector:
 
 
 def sectors(cylinders: Sequence[Cylinder], walls: Sequence[Wall]) -> tuple[list[Sector], list[Cylinder], list[Wall]]:
-    """All sectors, the partial cylinders that are in none of them, and the walls that are in none."""
+    """Return all sectors, the partial cylinders that are in none of them, and the walls that are in none."""
     arcs = [one for one in cylinders if not one.is_round]
     levels: dict[Hashable, list[Wall]] = {}
     for wall in walls:
@@ -69,7 +69,7 @@ def sectors(cylinders: Sequence[Cylinder], walls: Sequence[Wall]) -> tuple[list[
 
 
 def _of_height(walls: Sequence[Wall], arcs: Sequence[Cylinder]) -> list[Sector]:
-    """Sectors between walls of one height and reach: those between which an arc runs."""
+    """Return the sectors between walls of one height and reach: those between which an arc runs."""
     around = sorted(walls, key=_azimuth)
     found = []
     for index, wall in enumerate(around):
@@ -88,7 +88,7 @@ def _of_height(walls: Sequence[Wall], arcs: Sequence[Cylinder]) -> list[Sector]:
 
 
 def _bounds(arc: Cylinder, wall: Wall) -> bool:
-    """Whether an arc is at an end of a wall, its corner between, and has the sector on its own side.
+    """Return whether an arc is at an end of a wall, its corner between, and has the sector on its own side.
 
     A housing's wall that runs behind a vane may be as wide as this by chance, and is none of its arcs.
     """
@@ -104,12 +104,12 @@ def _azimuth(wall: Wall) -> float:
 
 
 def _empty_beyond(wall: Wall) -> bool:
-    """Whether there is no material beyond a radial wall, going round counter-clockwise."""
+    """Return whether there is no material beyond a radial wall, going round counter-clockwise."""
     return sin(wall.outwards - _azimuth(wall)) > 0.0
 
 
 def _apart(one: float, other: float) -> float:
-    """Difference of two azimuths, between -pi and pi."""
+    """Return the difference of two azimuths, between -pi and pi."""
     return (one - other + pi) % (2.0 * pi) - pi
 
 

@@ -1,4 +1,4 @@
-"""How a part's views lie on a sheet: which sheet, at which scale, and where each view's origin is."""
+"""Layout of a part's views: the sheet, its scale, each view's origin, and the table of features."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _ABOUT = 42.0
 
 
 def table_height(rows: Sequence[FeatureRow], asked: DrawingRequirements) -> float:
-    """Height on paper that both tables take [mm]."""
+    """Return the height on paper that both tables take [mm]."""
     features = sum(_LINE + (_FRAME + 2.0 * _OVER if _asks(row) else 0.0) for row in rows)
     return features + 2.0 * _LINE + (len(asked.seats) * (_FRAME + 0.8) + _LINE if asked.seats else 0.0)
 
@@ -56,12 +56,12 @@ def draw_tables(sheet: DrawingSheet, rows: Sequence[FeatureRow], asked: DrawingR
 
 
 def _asks(row: FeatureRow) -> bool:
-    """Whether a second line is needed."""
+    """Return whether a second line is needed."""
     return bool(row.asks or row.frames)
 
 
 def _draw_seat(sheet: DrawingSheet, one: Seat, at: tuple[float, float]) -> None:
-    """What the table says of a seat."""
+    """Write the table's line of a seat."""
     left, level = at
     lower, upper = (f"{1e3 * limit:+.4g}" if limit else "0" for limit in one.limits)
     within = f"{one.size + one.limits.lower:.3f} to {one.size + one.limits.upper:.3f}"
@@ -78,7 +78,8 @@ def _cells(sheet: DrawingSheet, texts: Sequence[str], at: tuple[float, float], h
 
 
 def with_datum(rows: Sequence[FeatureRow]) -> list[FeatureRow]:
-    """The rows, the first arc about the axis told as datum: for a part, such as a link, with no round face about it."""
+    """Return the rows, the first arc about the axis told as datum: for a part, such as a link, with no round face
+    about it."""
     told = list(rows)
     for index, row in enumerate(rows):
         if row.place.startswith("about the axis"):
@@ -114,7 +115,7 @@ class Layout:
 
 
 def layout(plan: View, front: View, half: View | None, diameters: int, table: float) -> Layout:
-    """The largest standard scale on the smallest sheet that shows the part doubled, or on the larger sheet."""
+    """Return the largest standard scale on the smallest sheet that shows the part doubled, or on the larger sheet."""
     over = FIRST + NEXT * (diameters + 1)
     best = [(_scale_on(size, plan, front, half, over, table), name) for name, size in SIZES.items()]
     scale, form = next((one for one in best if one[0] >= _LARGE), max(best, key=lambda one: one[0]))
@@ -133,7 +134,7 @@ def layout(plan: View, front: View, half: View | None, diameters: int, table: fl
 
 
 def _needed(plan: View, front: View, half: View | None, over: float, scale: float) -> tuple[float, float]:
-    """Width and height on paper of all views with their dimensions."""
+    """Return width and height on paper of all views with their dimensions."""
     section = (front.bounds[1] - front.bounds[0] + (half.bounds[1] if half else 0.0)) * scale + _LEVELS
     wide = _LEFT + max(section, (plan.bounds[1] - plan.bounds[0]) * scale + _LEFT)
     high = (plan.bounds[3] - plan.bounds[2] + front.bounds[3] - front.bounds[2]) * scale
@@ -143,7 +144,7 @@ def _needed(plan: View, front: View, half: View | None, over: float, scale: floa
 def _scale_on(
     size: tuple[float, float], plan: View, front: View, half: View | None, over: float, table: float
 ) -> float:
-    """The largest scale at which a sheet has room for views and table; 0 where it has none."""
+    """Return the largest scale at which a sheet has room for views and table; 0 where it has none."""
     width, height = size[0] - 2.0 * MARGIN - TITLE_WIDTH - 6.0, size[1] - 2.0 * MARGIN
     if OVER_TITLE - MARGIN + table + _NOTES > height:
         return 0.0

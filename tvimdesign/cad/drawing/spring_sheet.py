@@ -1,4 +1,4 @@
-"""What a spring maker needs: every number of the torsion springs with its tolerance, as a table and as a sheet."""
+"""Sheet and table for a spring maker: every number of the torsion springs with its tolerance."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class SpringLine:
 
 
 def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) -> list[SpringLine]:
-    """All numbers of the spring, free and loaded."""
+    """Return all numbers of the spring, free and loaded."""
     coil, tight = free_coil(dims), dims.spring_wound_diameter
     d, mean = coil.wire_diameter, coil.diameter
     spread, angle = 1e3 * design.value("coil_diameter_tolerance"), degrees(design.value("free_angle_tolerance"))
@@ -87,7 +87,7 @@ def spring_lines(design: Design, dims: Dimensions, titles: Mapping[str, str]) ->
 
 
 def _from_stock(design: Design, titles: Mapping[str, str]) -> list[SpringLine]:
-    """What is bought from stock, before what is bent of it; nothing for a spring that is wound to order."""
+    """Return what is bought from stock, before what is bent of it; nothing for a spring that is wound to order."""
     record = str(design.choices.get("stock_spring", "none"))
     if record == "none":
         return []
@@ -97,7 +97,7 @@ def _from_stock(design: Design, titles: Mapping[str, str]) -> list[SpringLine]:
 
 
 def _stress_relief(design: Design) -> SpringLine:
-    """How the coiled spring is heated, as the record of its wire has it."""
+    """Return how the coiled spring is heated, as the record of its wire has it."""
     note = "the free angle is that after it"
     with suppress(CatalogError):
         wire = catalog_of(design).record("spring_materials", str(design.choices["spring_material"]))
@@ -110,17 +110,17 @@ def _stress_relief(design: Design) -> SpringLine:
 
 
 def _finish(design: Design) -> str:
-    """What the surface is for."""
+    """Return what the surface is for."""
     return "tang degreased: it is bonded" if design.choices.get("tang_hold") == BONDED else "no plating on the tang"
 
 
 def _free_angle(coil: Coil) -> float:
-    """Azimuth of the coils' end seen from their start [deg], whole turns left out."""
+    """Return the azimuth of the coils' end seen from their start [deg], whole turns left out."""
     return 360.0 * (coil.turns % 1.0)
 
 
 def spring_csv(lines: Sequence[SpringLine]) -> bytes:
-    """The table as CSV."""
+    """Return the table as CSV."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["name", "value", "unit", "tolerance", "note"])
@@ -129,7 +129,7 @@ def spring_csv(lines: Sequence[SpringLine]) -> bytes:
 
 
 def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) -> DrawingSheet:
-    """The right-hand spring, free, drawn in simple lines, beside the table."""
+    """Return the right-hand spring, free, drawn in simple lines, beside the table."""
     coil = free_coil(dims)
     reach = 0.5 * coil.diameter + coil.bend_radius + 0.5 * coil.wire_diameter
     height = coil.end_level + coil.tang_length + coil.wire_diameter
@@ -158,7 +158,7 @@ def spring_sheet(design: Design, dims: Dimensions, lines: Sequence[SpringLine]) 
 
 
 def _plan(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
-    """The spring seen along its axis from the leg's side, turned so that the leg points to the right."""
+    """Draw the spring seen along its axis from the leg's side, turned so that the leg points to the right."""
     x, y = sheet.at(origin)
     space, outline, dimension = sheet.space, {"layer": "OUTLINE"}, {"layer": "DIMENSION"}
     half, radius = 0.5 * coil.wire_diameter, 0.5 * coil.diameter
@@ -185,7 +185,7 @@ def _plan(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
 
 
 def _side(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
-    """The body from the side, its coils as slanting lines, the leg to the right and the tang below."""
+    """Draw the body from the side, its coils as slanting lines, the leg to the right and the tang below."""
     x, y = sheet.at(origin)
     space, outline, dimension = sheet.space, {"layer": "OUTLINE"}, {"layer": "DIMENSION"}
     half, radius, away = 0.5 * coil.wire_diameter, 0.5 * coil.diameter, 8.0 / sheet.scale
@@ -226,13 +226,13 @@ def _side(sheet: DrawingSheet, coil: Coil, origin: tuple[float, float]) -> None:
 
 
 def _coil_start(coil: Coil) -> tuple[float, float]:
-    """Where the coils start, above the bend, as `_turned` sees it."""
+    """Return where the coils start, above the bend, as `_turned` sees it."""
     radius, azimuth = 0.5 * coil.diameter, coil.start_azimuth
     return _turned(coil, radius * cos(azimuth), radius * sin(azimuth))
 
 
 def _turned(coil: Coil, x: float, y: float) -> tuple[float, float]:
-    """A point seen from above, the spring turned so that its leg points to the right."""
+    """Return a point seen from above, the spring turned so that its leg points to the right."""
     cosine, sine = cos(coil.leg_azimuth), sin(coil.leg_azimuth)
     return x * cosine + y * sine, y * cosine - x * sine
 

@@ -40,7 +40,7 @@ class Mesh:
     """Three vertices a triangle, counter-clockwise seen from outside."""
 
     def mirrored(self) -> Mesh:
-        """The mirror image in the plane y = 0."""
+        """Return the mirror image in the plane y = 0."""
         return Mesh(self.vertices * [1.0, -1.0, 1.0], self.faces[:, ::-1])
 
 
@@ -53,7 +53,7 @@ class Instance:
     """4 x 4, from the part's coordinates to the module's."""
 
     def points(self) -> Array:
-        """Its vertices where they stand in the module [mm], one a row."""
+        """Return its vertices where they stand in the module [mm], one a row."""
         return np.asarray(self.mesh.vertices @ self.matrix[:3, :3].T + self.matrix[:3, 3])
 
 
@@ -63,7 +63,7 @@ def write_mesh(path: Path, mesh: Mesh) -> None:
 
 
 def read_mesh(path: Path) -> Mesh:
-    """A mesh that `write_mesh` has kept."""
+    """Return a mesh that `write_mesh` has kept."""
     with np.load(path) as kept:
         return Mesh(kept["vertices"], kept["faces"])
 
@@ -85,7 +85,7 @@ def face_meshes(solid: cq.Solid, chord: float = CHORD, turn: float = TURN) -> li
 
 
 def _patch(face: cq.Face) -> Mesh:
-    """The kernel's triangles of one face."""
+    """Return the kernel's triangles of one face."""
     location = TopLoc_Location()
     found = BRep_Tool.Triangulation_s(face.wrapped, location)
     if found is None:
@@ -101,7 +101,7 @@ def _patch(face: cq.Face) -> Mesh:
 
 
 def spring_mesh(coil: Coil, points: int = RING) -> Mesh:
-    """Tube around the wire's centre, of so many points around it.
+    """Return the tube around the wire's centre, of so many points around it.
 
     OCC takes seconds for a swept helix, and the file is ten times as large.
     """
@@ -127,7 +127,8 @@ def spring_mesh(coil: Coil, points: int = RING) -> Mesh:
 
 
 def wire_centre(coil: Coil, points: int = 0) -> tuple[Array, Array, Array]:
-    """Points along the wire's centre from tang to leg; the unit vectors there away from the coil's axis, and along.
+    """Return points along the wire's centre from tang to leg; the unit vectors there away from the coil's axis, and
+    along.
 
     The coils have so many `points`, or as many as keep within the chord.
     """
@@ -150,7 +151,7 @@ def wire_centre(coil: Coil, points: int = 0) -> tuple[Array, Array, Array]:
 
 
 def coil_points(coil: Coil) -> int:
-    """Points along the coils whose chords are nowhere further than `CHORD` from the wire's centre."""
+    """Return points along the coils whose chords are nowhere further than `CHORD` from the wire's centre."""
     step = min(0.25, 2.0 * sqrt(CHORD / coil.diameter))
     return ceil(2.0 * pi * coil.turns / step) + 1
 
@@ -158,7 +159,7 @@ def coil_points(coil: Coil) -> int:
 def part_meshes(
     drawn: Mapping[str, cq.Solid], coils: Mapping[str, Coil], known: Mapping[str, Mesh]
 ) -> dict[str, Mesh]:  # fmt: skip
-    """Mesh of each kind of part in its own coordinates; `coils` says which shape the springs have.
+    """Return mesh of each kind of part in its own coordinates; `coils` says which shape the springs have.
 
     `known` are those that are made already.
     """

@@ -1,4 +1,4 @@
-"""What a printer gets: the part lying as it is printed, its holes larger, as a mesh whose error was measured."""
+"""Print files: the part lying as it is printed, its holes larger, as a mesh whose error was measured."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def as_printed(
 
 
 def _one_solid(shape: cq.Shape, *, moved: bool = False) -> cq.Solid:
-    """The solid of a shape; one that was only `moved` is as valid as before."""
+    """Return the solid of a shape; one that was only `moved` is as valid as before."""
     solids = shape.Solids()
     if len(solids) != 1 or not (moved or solids[0].isValid()):
         raise GeometryError(f"with its holes compensated for printing it comes out as {len(solids)} solids")
@@ -92,14 +92,14 @@ def closed(name: str, mesh: Mesh) -> trimesh.Trimesh:
 
 
 def _distance(face: cq.Face, mesh: Mesh) -> float:
-    """Largest distance [mm] of the middles of triangles and of their edges from the face they stand for."""
+    """Return largest distance [mm] of the middles of triangles and of their edges from the face they stand for."""
     corners = mesh.vertices[mesh.faces]
     middles = [corners.mean(axis=1), *(0.5 * (corners[:, one] + corners[:, (one + 1) % 3]) for one in range(3))]
     return float(np.max(_from_surface(face, np.concatenate(middles))))
 
 
 def _from_surface(face: cq.Face, points: Array) -> Array:
-    """Distance of points from the surface of a face: in closed form where there is one, else by projection."""
+    """Return distance of points from the surface of a face: in closed form where there is one, else by projection."""
     surface = BRepAdaptor_Surface(face.wrapped)
     kind = face.geomType()
     if kind == "PLANE":
@@ -119,7 +119,7 @@ def _from_surface(face: cq.Face, points: Array) -> Array:
 
 
 def _about(place: gp_Pnt, axis: gp_Dir, points: Array) -> tuple[Array, Array]:
-    """How far points are from an axis, and how far along it from a place on it [mm]."""
+    """Return how far points are from an axis, and how far along it from a place on it [mm]."""
     away, along = points - _xyz(place), _xyz(axis)
     return np.asarray(np.linalg.norm(np.cross(away, along), axis=1)), np.asarray(away @ along)
 
@@ -169,7 +169,7 @@ def threemf_bytes(body: trimesh.Trimesh, product: Product) -> bytes:
 
 @lru_cache(maxsize=64)
 def body_of(name: str, mesh: Mesh) -> Manifold:
-    """The body that a mesh encloses. Raises GeometryError where it encloses none."""
+    """Return the body that a mesh encloses. Raises GeometryError where it encloses none."""
     merged = closed(name, mesh)
     body = Manifold(Mesh64(np.array(merged.vertices, dtype=np.float64), np.array(merged.faces, dtype=np.uint64)))
     if body.status() != Error.NoError:
@@ -178,6 +178,6 @@ def body_of(name: str, mesh: Mesh) -> Manifold:
 
 
 def mesh_of(body: Manifold) -> Mesh:
-    """The triangles of a body."""
+    """Return the triangles of a body."""
     found = body.to_mesh64()
     return Mesh(np.array(found.vert_properties[:, :3]), np.array(found.tri_verts, dtype=np.int64))

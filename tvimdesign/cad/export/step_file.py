@@ -88,7 +88,7 @@ def plain_text(text: str) -> bytes:
 
 
 def _unwrapped(block: str) -> str:
-    """One entity a line; where the kernel breaks lines depends on the numbers."""
+    """Return one entity a line; where the kernel breaks lines depends on the numbers."""
     return re.sub(r"\n +", "", block)
 
 
@@ -103,7 +103,7 @@ _TIME = "2000-01-01T00:00:00"
 
 @dataclass(frozen=True, kw_only=True)
 class Product:
-    """What a STEP file says of a part beside its shape."""
+    """Data of a part in a STEP file beside its shape."""
 
     name: str
     colour: Rgb
@@ -170,7 +170,7 @@ class _Document:
 
 @dataclass(frozen=True)
 class Validation:
-    """What a STEP file says its part must come to, in millimetres."""
+    """Validation properties of a part in a STEP file, in millimetres."""
 
     volume: float
     area: float
@@ -178,7 +178,7 @@ class Validation:
 
 
 def validation(solid: cq.Solid) -> Validation:
-    """What a solid comes to."""
+    """Return what a solid comes to."""
     filled, skin = GProp_GProps(), GProp_GProps()
     BRepGProp.VolumeProperties_s(solid.wrapped, filled)
     BRepGProp.SurfaceProperties_s(solid.wrapped, skin)

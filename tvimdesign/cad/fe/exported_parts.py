@@ -44,7 +44,7 @@ def export_parts(design: Design, folder: Path) -> None:
 
 
 def _triangles(shapes: Mapping[str, cq.Shape]) -> dict[str, Any]:
-    """Points and triangles of each shape, by its name."""
+    """Return points and triangles of each shape, by its name."""
     found = {}
     for name, shape in shapes.items():
         points, triangles = shape.tessellate(_FINE, _FINE_ANGLE)

@@ -25,7 +25,7 @@ AT_ONCE = 2
 
 @dataclass(frozen=True)
 class Solved:
-    """What a solver found of some parts."""
+    """Results of a solver for some parts."""
 
     found: dict[str, float]
     """By the names its file says; stiffness in N*m/rad, stress in MPa at one newton metre."""

@@ -37,7 +37,7 @@ class Dimensions:
         return self._values
 
     def __getattr__(self, name: str) -> float:
-        """Value of a row; raises GeometryError where the design has none that can be drawn."""
+        """Return the value of a row; raises GeometryError where the design has none that can be drawn."""
         if name.startswith("_"):
             raise AttributeError(name)
         if name not in self._values:
@@ -48,24 +48,25 @@ class Dimensions:
         return value
 
     def of(self, thing: str, row: str) -> float:
-        """Value of a row that several things have alike: `screw_pilot` of `link` is `link_screw_pilot`."""
+        """Return the value of a row that several things have alike: `screw_pilot` of `link` is `link_screw_pilot`."""
         value: float = getattr(self, f"{thing}_{row}")
         return value
 
     def count(self, name: str) -> int:
-        """Value of a row that counts something; raises GeometryError where it is no whole number above zero."""
+        """Return value of a row that counts something; raises GeometryError where it is no whole number above zero."""
         value: float = getattr(self, name)
         if not 1 <= value <= _MOST or value != round(value):
             raise GeometryError(f"{name} is {value:g}; it must be a whole number from 1 to {_MOST}")
         return round(value)
 
     def azimuths(self, name: str) -> list[float]:
-        """Azimuths [rad] of the things that row counts, evenly spread, the first at zero."""
+        """Return azimuths [rad] of the things that row counts, evenly spread, the first at zero."""
         count = self.count(name)
         return [2.0 * math.pi * index / count for index in range(count)]
 
     def holes(self, name: str) -> list[tuple[float, list[tuple[float, float]]]]:
-        """Round holes that a row of the table lists: of each circle of them that is not empty, radius and places."""
+        """Return round holes that a row of the table lists: of each circle of them that is not empty, radius and
+        places."""
         found = []
         for index in range(round(self._values.get(f"{name}.length", 0.0))):
             count, radius, circle, azimuth = (getattr(self, f"{name}.{index}.{of}") for of in _OF_A_CIRCLE)
@@ -82,7 +83,7 @@ def dimensions(design: Design) -> Dimensions:
 
 
 def dimensions_of(mode: str, given: Mapping[str, float], choices: Mapping[str, str]) -> Dimensions:
-    """The same of values [SI] and chosen words by name."""
+    """Return the same of values [SI] and chosen words by name."""
     table = table_for(mode)
     rows: list[Input | Output] = [*table.inputs, *table.outputs]
     units = {row.name: row.unit for row in rows if row.unit in _SCALE}
@@ -95,7 +96,7 @@ def dimensions_of(mode: str, given: Mapping[str, float], choices: Mapping[str, s
 
 
 def _circles(name: str, circles: Iterable[Any]) -> dict[str, float]:
-    """Numbers of circles of holes as plain dimensions, so that a part is known by those it reads."""
+    """Return the numbers of circles of holes as plain dimensions, so that a part is known by those it reads."""
     numbers: dict[str, float] = {}
     for index, circle in enumerate(circles):
         numbers[f"{name}.length"] = index + 1
@@ -104,5 +105,5 @@ def _circles(name: str, circles: Iterable[Any]) -> dict[str, float]:
 
 
 def _unprinted(row: Output) -> bool:
-    """Whether a row is a dimension that no report shows."""
+    """Return whether a row is a dimension that no report shows."""
     return row.hidden and row.unit == "mm"

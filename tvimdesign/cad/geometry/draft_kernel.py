@@ -41,19 +41,19 @@ class DraftSolid:
         return self.body if np.array_equal(self.matrix, np.eye(4)) else self.body.transform(self.matrix[:3])
 
     def moved(self, location: Any) -> DraftSolid:
-        """The same at another place: a location of CadQuery."""
+        """Return the same at another place: a location of CadQuery."""
         return DraftSolid(self.body, placement(location) @ self.matrix)
 
     def cut(self, *others: DraftSolid) -> DraftSolid:
-        """Less what others take of it."""
+        """Return less what others take of it."""
         return self._with(others, OpType.Subtract)
 
     def fuse(self, *others: DraftSolid) -> DraftSolid:
-        """With others that it overlaps or touches."""
+        """Return with others that it overlaps or touches."""
         return self._with(others, OpType.Add)
 
     def clean(self) -> DraftSolid:
-        """Itself: triangles have no seams."""
+        """Return itself: triangles have no seams."""
         return self
 
     def _with(self, others: Sequence[DraftSolid], how: OpType) -> DraftSolid:
@@ -64,37 +64,37 @@ class DraftKernel:
     """Draws meshes."""
 
     def cylinder(self, radius: float, bottom: float, top: float, at: Point) -> DraftSolid:
-        """A cylinder about an upright axis through a point."""
+        """Draw a cylinder about an upright axis through a point."""
         return DraftSolid(_upright(_section(radius), bottom, top).body.translate((*at, 0.0)))
 
     def block(self, along_x: Point, width: float, bottom: float, top: float) -> DraftSolid:
-        """A block across the x axis, between two places on it."""
+        """Draw a block across the x axis, between two places on it."""
         start, end = along_x
         body = Manifold.cube((end - start, width, top - bottom))
         return DraftSolid(body.translate((start, -0.5 * width, bottom)))
 
     def cone(self, radius: float, base: float, tip: float, at: Point) -> DraftSolid:
-        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+        """Draw a cone about an upright axis through a point, from a disc at one level to its tip at another."""
         body = Manifold.extrude(_section(radius), abs(tip - base), scale_top=(0.0, 0.0))
         upright = body if tip > base else body.mirror((0.0, 0.0, 1.0))
         return DraftSolid(upright.translate((*at, base)))
 
     def foot(self, radius: float, fillet: float, level: float, at: Point) -> DraftSolid:
-        """A cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
+        """Draw a cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
         turns = np.linspace(0.0, 0.5 * pi, max(_corners(fillet, 0.5 * pi), 4) + 1)
         arc = np.stack((radius + fillet * (1.0 - np.sin(turns)), fillet * (1.0 - np.cos(turns))), -1)
         section = CrossSection([np.vstack(([[0.0, 0.0]], arc, [[0.0, fillet]]))])
         return DraftSolid(Manifold.revolve(section, corners_of(radius)).translate((*at, level)))
 
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> DraftSolid:
-        """What lies within an outline, less what lies within others."""
+        """Draw what lies within an outline, less what lies within others."""
         section = _section(outside)
         for outline in inside:
             section -= _section(outline)
         return _upright(section, bottom, top)
 
     def rounded(self, body: DraftSolid, radius: float) -> DraftSolid:
-        """An upright body with every upright edge rounded. Raises GeometryError where that leaves nothing."""
+        """Draw an upright body with every upright edge rounded. Raises GeometryError where that leaves nothing."""
         placed = body.placed
         *_, bottom, _, _, top = placed.bounding_box()
         count = corners_of(radius)
@@ -107,12 +107,12 @@ class DraftKernel:
 
 
 def corners_of(radius: float) -> int:
-    """Corners of the polygon that stands for a circle."""
+    """Return the corners of the polygon that stands for a circle."""
     return _corners(radius, 2.0 * pi)
 
 
 def _corners(radius: float, angle: float) -> int:
-    """Lines that stand for an arc."""
+    """Return lines that stand for an arc."""
     step = 2.0 * acos(max(1.0 - CHORD / radius, 0.0)) if radius > CHORD else pi
     whole = min(max(4 * ceil(0.5 * pi / step), _FEWEST), _MOST)
     return max(ceil(whole * angle / (2.0 * pi)), 1)
@@ -130,7 +130,7 @@ def _section(outline: Outline) -> CrossSection:
 
 
 def _points(segment: Segment) -> list[Point]:
-    """Points of a segment but its last, at which the next one begins."""
+    """Return points of a segment but its last, at which the next one begins."""
     if len(segment) == _LINE:
         return [segment[0]]
     start, middle, end = (complex(*point) for point in segment)
@@ -148,6 +148,6 @@ def _points(segment: Segment) -> list[Point]:
 
 
 def _turn(first: complex, second: complex) -> float:
-    """Angle [rad] from one direction to another, within a half turn."""
+    """Return angle [rad] from one direction to another, within a half turn."""
     across = first.real * second.imag - first.imag * second.real
     return atan2(across, first.real * second.real + first.imag * second.imag)

@@ -24,26 +24,26 @@ class Kernel(Protocol):
     """Draws upright bodies between two levels. What it draws has `cut`, `fuse`, `clean` and `moved`, as CadQuery's."""
 
     def cylinder(self, radius: float, bottom: float, top: float, at: Point) -> Any:
-        """A cylinder about an upright axis through a point."""
+        """Draw a cylinder about an upright axis through a point."""
 
     def block(self, along_x: Point, width: float, bottom: float, top: float) -> Any:
-        """A block across the x axis, between two places on it."""
+        """Draw a block across the x axis, between two places on it."""
 
     def cone(self, radius: float, base: float, tip: float, at: Point) -> Any:
-        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+        """Draw a cone about an upright axis through a point, from a disc at one level to its tip at another."""
 
     def foot(self, radius: float, fillet: float, level: float, at: Point) -> Any:
-        """A cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
+        """Draw a cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
 
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> Any:
-        """What lies within an outline, less what lies within others."""
+        """Draw what lies within an outline, less what lies within others."""
 
     def rounded(self, body: Any, radius: float) -> Any:
-        """A body with every upright edge rounded. Raises GeometryError where that does not fit."""
+        """Draw a body with every upright edge rounded. Raises GeometryError where that does not fit."""
 
 
 def placement(location: cq.Location) -> NDArray[np.float64]:
-    """4 x 4 matrix of a location."""
+    """Return 4 x 4 matrix of a location."""
     place_of = location.wrapped.Transformation()
     rows = [[place_of.Value(row, column) for column in range(1, 5)] for row in range(1, 4)]
     return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])
@@ -60,21 +60,21 @@ class ExactKernel:
     """The CAD kernel."""
 
     def cylinder(self, radius: float, bottom: float, top: float, at: Point) -> cq.Solid:
-        """A cylinder about an upright axis through a point."""
+        """Draw a cylinder about an upright axis through a point."""
         return cq.Solid.makeCylinder(radius, top - bottom, cq.Vector(*at, bottom), _UP)
 
     def block(self, along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
-        """A block across the x axis, between two places on it."""
+        """Draw a block across the x axis, between two places on it."""
         start, end = along_x
         return cq.Solid.makeBox(end - start, width, top - bottom, cq.Vector(start, -0.5 * width, bottom))
 
     def cone(self, radius: float, base: float, tip: float, at: Point) -> cq.Solid:
-        """A cone about an upright axis through a point, from a disc at one level to its tip at another."""
+        """Draw a cone about an upright axis through a point, from a disc at one level to its tip at another."""
         way = cq.Vector(0, 0, 1 if tip > base else -1)
         return cq.Solid.makeCone(radius, 0.0, abs(tip - base), cq.Vector(*at, base), way)
 
     def foot(self, radius: float, fillet: float, level: float, at: Point) -> cq.Solid:
-        """A cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
+        """Draw a cylinder about an upright axis through a point, from a level as high as its fillet there is wide."""
         wide, half = radius + fillet, fillet * sqrt(0.5)
         corners = [cq.Vector(*one) for one in ((0, 0, 0), (wide, 0, 0), (radius, 0, fillet), (0, 0, fillet))]
         middle = cq.Vector(wide - half, 0, fillet - half)
@@ -84,12 +84,12 @@ class ExactKernel:
         return cq.Solid.revolve(outline, [], 360.0, cq.Vector(), _UP).moved(cq.Location(cq.Vector(*at, level)))
 
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> cq.Solid:
-        """What lies within an outline, less what lies within others."""
+        """Draw what lies within an outline, less what lies within others."""
         inner = [_wire(outline, bottom) for outline in inside]
         return cq.Solid.extrudeLinear(_wire(outside, bottom), inner, cq.Vector(0, 0, top - bottom))
 
     def rounded(self, body: cq.Shape, radius: float) -> cq.Solid:
-        """The one solid of a body with every upright edge rounded. Raises GeometryError where that does not fit."""
+        """Draw one solid of a body with every upright edge rounded. Raises GeometryError where that does not fit."""
         solid = body.Solids()[0]
         upright = [
             edge for edge in solid.Edges() if edge.geomType() == "LINE" and abs(edge.tangentAt(0.5).z) > _UPRIGHT

@@ -17,7 +17,7 @@ from OCP.TopoDS import TopoDS_Shape
 
 
 def tight_box(shape: cq.Shape) -> cq.BoundBox:
-    """The box around a shape [mm], the same as its `BoundingBox()`.
+    """Return the box around a shape [mm], the same as its `BoundingBox()`.
 
     The kernel searches each fillet around a pin's foot for its extremes, 12 ms each, and knows those of planes and
     cylinders at once. No coordinate has an extreme inside such a fillet: its edges say whether it lies within the rest.
@@ -37,7 +37,7 @@ def tight_box(shape: cq.Shape) -> cq.BoundBox:
 
 
 def _is_within(face: cq.Face, box: Bnd_Box) -> bool:
-    """Whether all edges of a face lie inside a box."""
+    """Return whether all edges of a face lie inside a box."""
     edges = Bnd_Box()
     for edge in face.Edges():
         BRepBndLib.AddOptimal_s(edge.wrapped, edges)
@@ -50,7 +50,7 @@ def _is_within(face: cq.Face, box: Bnd_Box) -> bool:
 
 
 def _is_saddle(face: cq.Face) -> bool:
-    """Whether a face curves both ways at each of its points: the inner half of a torus."""
+    """Return whether a face curves both ways at each of its points: the inner half of a torus."""
     if face.geomType() != "TORUS":
         return False
     surface = BRepAdaptor_Surface(face.wrapped)
@@ -85,17 +85,20 @@ class Cylinder:
 
     @property
     def is_round(self) -> bool:
-        """Whether it goes all the way round."""
+        """True if it goes all the way round."""
         return self.span > _ROUND
 
     @property
     def is_central(self) -> bool:
-        """Whether its axis is the module's."""
+        """True if its axis is the module's."""
         return abs(self.x) < 1e-6 and abs(self.y) < 1e-6
 
 
 def upright_cylinders(solid: cq.Solid) -> list[Cylinder]:
-    """Cylindrical faces whose axis is parallel to z, in a fixed order; patches that make up a whole one are one."""
+    """Return cylindrical faces whose axis is parallel to z, in a fixed order.
+
+    Patches that make up a whole one are one.
+    """
     patches: dict[tuple[object, ...], list[Cylinder]] = {}
     for face in solid.Faces():
         one = _cylinder(face) if face.geomType() == "CYLINDER" else None
@@ -109,7 +112,7 @@ def upright_cylinders(solid: cq.Solid) -> list[Cylinder]:
 
 
 def _cylinder(face: cq.Face) -> Cylinder | None:
-    """What a cylindrical face is; None where it does not stand upright."""
+    """Return what a cylindrical face is; None where it does not stand upright."""
     adaptor = BRepAdaptor_Surface(face.wrapped)
     surface = adaptor.Cylinder()
     axis, place = surface.Axis().Direction(), surface.Location()
@@ -133,7 +136,7 @@ def _round(value: float) -> float:
 
 
 def holes(solid: cq.Solid, at: tuple[float, float] | None = None) -> list[Cylinder]:
-    """Round upright holes: cylinders with material around and none inside; with `at` those about a place."""
+    """Return round upright holes: cylinders with material around and none inside; with `at` those about a place."""
     inside_out = [one for one in upright_cylinders(solid) if one.concave and one.is_round]
     if at is not None:
         inside_out = [one for one in inside_out if abs(one.x - at[0]) < 1e-4 and abs(one.y - at[1]) < 1e-4]
@@ -143,7 +146,7 @@ def holes(solid: cq.Solid, at: tuple[float, float] | None = None) -> list[Cylind
 
 @dataclass(frozen=True)
 class _Face:
-    """What of a face says, without the kernel, that it does not reach into an upright plug; lengths in mm."""
+    """Bounds of a face that show, without the kernel, that it does not reach into an upright plug [mm]."""
 
     shape: TopoDS_Shape
     low: tuple[float, float, float]
@@ -171,7 +174,8 @@ class _Face:
         return cls(face.wrapped, ends[:3], ends[3:], upright, plane)
 
     def misses(self, one: Cylinder, radius: float) -> bool:
-        """Whether it surely has no point within a radius of a cylinder's axis and between its ends, touching aside."""
+        """Return whether it surely has no point within a radius of a cylinder's axis and between its ends, touching
+        aside."""
         start, end = (one.x - radius, one.y - radius, one.bottom), (one.x + radius, one.y + radius, one.top)
         boxed = zip(self.low, self.high, start, end, strict=True)
         if any(low >= last - _BOX or high <= first + _BOX for low, high, first, last in boxed):
@@ -186,7 +190,7 @@ class _Face:
 
 
 def _is_empty(solid: cq.Solid, faces: Sequence[_Face], one: Cylinder) -> bool:
-    """Whether a plug that nearly fills a cylinder has nothing in common with the solid.
+    """Return whether a plug that nearly fills a cylinder has nothing in common with the solid.
 
     Where no face reaches into the plug it is all inside or all outside; else the kernel says what they share.
     """
@@ -202,7 +206,7 @@ def _is_empty(solid: cq.Solid, faces: Sequence[_Face], one: Cylinder) -> bool:
 
 
 def levels(solid: cq.Solid) -> list[float]:
-    """Heights of the flat faces that lie level, from below."""
+    """Return the heights of the flat faces that lie level, from below."""
     found = set()
     for face in solid.Faces():
         if face.geomType() == "PLANE" and abs(abs(face.normalAt().z) - 1.0) < 1e-9:

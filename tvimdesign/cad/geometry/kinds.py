@@ -80,25 +80,25 @@ TURNING = (
 )  # fmt: skip
 """The kinds that turn together."""
 MADE_TURNING = TURNING[:3]
-"""Those of them of which there is one, drawn where it stands."""
+"""Those that a module has one of, drawn where it stands."""
 SPRINGS = ("spring_right", "spring_left")
 CHANGING = (*SPRINGS, "pcl_block")
 """The kinds that change their shape as the rotor turns: each is compared with all that stands and turns."""
 
 
 def is_of_structure(kind: str) -> bool:
-    """Whether a kind of part is made by the module's process, and held against what that can make."""
+    """Return whether a kind of part is made by the module's process, and is compared with what that can make."""
     return KINDS[kind].material == _STRUCTURE[0]
 
 
 def kind_of(name: str) -> str:
-    """Kind of a placed part: `pcl_arc` for `pcl_arc_3`."""
+    """Return the kind of a placed part: `pcl_arc` for `pcl_arc_3`."""
     return name.rstrip("0123456789").rstrip("_")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Production:
-    """How one kind of part is come by."""
+    """Way in which a kind of part is made or bought."""
 
     down: Literal["bottom", "top", "bought"]
     """The side that lies on the print bed, as the part stands in the module; `bought` is not printed at all."""
@@ -176,7 +176,7 @@ PRODUCTION = {
 
 
 def supported_levels(kind: str, dims: Dimensions) -> tuple[tuple[float, float], ...]:
-    """Levels [mm] between which `PRODUCTION` says that a part stands on support as it is printed, in the open.
+    """Return levels [mm] between which `PRODUCTION` says that a part stands on support as it is printed, in the open.
 
     A face is level there, or ends in a fillet.
     """

@@ -32,7 +32,7 @@ def drawn_by(kernel: Kernel) -> Iterator[None]:
 
 
 def polar(radius: float, azimuth: float) -> Point:
-    """Point at a radius and an azimuth."""
+    """Return the point at a radius and an azimuth."""
     return radius * cos(azimuth), radius * sin(azimuth)
 
 
@@ -44,19 +44,19 @@ def _require(**lengths: float) -> None:
 
 
 def cylinder(radius: float, bottom: float, top: float, at: Point = (0.0, 0.0)) -> cq.Solid:
-    """Upright cylinder between two levels."""
+    """Draw upright cylinder between two levels."""
     _require(radius=radius, height=top - bottom)
     return _KERNEL.get().cylinder(radius, bottom, top, at)
 
 
 def foot(radius: float, fillet: float, level: float, at: Point = (0.0, 0.0)) -> cq.Solid:
-    """The foot of an upright cylinder on a level, as high as its fillet is wide."""
+    """Draw the foot of an upright cylinder on a level, as high as its fillet is wide."""
     _require(radius=radius, fillet=fillet)
     return _KERNEL.get().foot(radius, fillet, level, at)
 
 
 def blind_hole(diameter: float, mouth: float, bottom: float, point: float, at: Point = (0.0, 0.0)) -> list[cq.Solid]:
-    """What a blind hole takes away between its mouth and its bottom, above or below that, and a drill's point beyond.
+    """Draw what a blind hole takes away between mouth and bottom, above or below that, and a drill's point beyond.
 
     The point is `point` times the diameter high; none where that is zero.
     """
@@ -68,20 +68,20 @@ def blind_hole(diameter: float, mouth: float, bottom: float, point: float, at: P
 
 
 def block(along_x: Point, width: float, bottom: float, top: float) -> cq.Solid:
-    """Upright block across the x axis, between two places on it and two levels."""
+    """Draw upright block across the x axis, between two places on it and two levels."""
     start, end = along_x
     _require(length=end - start, width=width, height=top - bottom)
     return _KERNEL.get().block(along_x, width, bottom, top)
 
 
 def ring(inner: float, outer: float, bottom: float, top: float) -> cq.Solid:
-    """Upright ring about the axis between two levels."""
+    """Draw upright ring about the axis between two levels."""
     _require(inner_radius=inner, width_of_a_ring=outer - inner, height=top - bottom)
     return _KERNEL.get().prism(outer, [inner], bottom, top)
 
 
 def sector(inner: float, outer: float, span: float, bottom: float, top: float) -> cq.Solid:
-    """Upright annular sector about the axis, centred on the x axis, between two levels."""
+    """Draw upright annular sector about the axis, centred on the x axis, between two levels."""
     _require(inner_radius=inner, width_of_a_sector=outer - inner, span=span, height=top - bottom)
     first, last = -0.5 * span, 0.5 * span
     outline: list[Segment] = [
@@ -94,7 +94,8 @@ def sector(inner: float, outer: float, span: float, bottom: float, top: float) -
 
 
 def wedge(along_x: Point, span: float, inset: float, bottom: float, top: float) -> cq.Solid:
-    """Upright trapezoid about the x axis, between two places on it, its legs `inset` within a sector of that span."""
+    """Draw upright trapezoid about the x axis, between two places on it, its legs `inset` within a sector of that
+    span."""
     _require(length=along_x[1] - along_x[0], span=span, height=top - bottom)
     halves = [x * tan(0.5 * span) - inset / cos(0.5 * span) for x in along_x]
     _require(width_of_a_wedge=min(halves))
@@ -107,7 +108,7 @@ def wedge(along_x: Point, span: float, inset: float, bottom: float, top: float) 
 def spoked_disc(
     radius: float, half_width: float, length: float, corner: float, azimuths: Sequence[float], levels: Point
 ) -> cq.Solid:
-    """Upright disc about the axis with spokes to `length` that end in half discs, and fillets where they begin."""
+    """Draw upright disc about the axis with spokes to `length` that end in half discs, and fillets where they begin."""
     bottom, top = levels
     _require(radius=radius, half_width=half_width, corner=corner, height=top - bottom)
     # The centre of a fillet touches disc and spoke.
@@ -118,7 +119,7 @@ def spoked_disc(
         return x * cos(azimuth) - y * sin(azimuth), x * sin(azimuth) + y * cos(azimuth)
 
     def fillet(side: float, azimuth: float) -> tuple[Point, Point, Point]:
-        """Where it touches the disc, its middle, and where it touches the spoke."""
+        """Return where it touches the disc, its middle, and where it touches the spoke."""
         inwards = cq.Vector(-along, -side * beside, 0.0).normalized() + cq.Vector(0.0, -side, 0.0)
         half = inwards.normalized() * corner
         return (
@@ -143,7 +144,7 @@ def spoked_disc(
 
 
 def bossed_ring(radii: Point, boss: float, corner: float, azimuths: Sequence[float], levels: Point) -> cq.Solid:
-    """Upright ring between two radii, with discs of radius `boss` on its inner circle and fillets beside them.
+    """Draw upright ring between two radii, with discs of radius `boss` on its inner circle and fillets beside them.
 
     Its inner outline is drawn arc by arc, for the kernel's own fillet between two cylinders is no cylinder.
     """
@@ -157,7 +158,7 @@ def bossed_ring(radii: Point, boss: float, corner: float, azimuths: Sequence[flo
         return cq.Vector(*polar(radius, azimuth), bottom)
 
     def fillet(azimuth: float, side: float) -> tuple[Point, Point, Point]:
-        """Where it touches the circle, its middle, and where it touches the disc."""
+        """Return where it touches the circle, its middle, and where it touches the disc."""
         centre, out = at(rim, azimuth + side * beside), at(1.0, azimuth + side * beside) - at(0.0, 0.0)
         towards = (at(inner, azimuth) - centre).normalized()
         touch, middle, end = out * corner, (out + towards).normalized() * corner, towards * corner
@@ -177,13 +178,13 @@ def bossed_ring(radii: Point, boss: float, corner: float, azimuths: Sequence[flo
 
 
 def rounded(body: cq.Shape, radius: float) -> cq.Solid:
-    """The one solid of a body with every upright edge rounded."""
+    """Draw the one solid of a body with every upright edge rounded."""
     _require(corner_radius=radius)
     return _KERNEL.get().rounded(body, radius)
 
 
 def slot(half_width: float, length: float, bottom: float, top: float) -> cq.Solid:
-    """Upright obround from the axis to `length` along x, with a half disc at each end."""
+    """Draw upright obround from the axis to `length` along x, with a half disc at each end."""
     _require(half_width=half_width, length=length, height=top - bottom)
     b = half_width
     corners = [(0.0, -b), (length, -b), (length, b), (0.0, b)]
@@ -197,10 +198,10 @@ def slot(half_width: float, length: float, bottom: float, top: float) -> cq.Soli
 
 
 def join(body: cq.Shape, others: Iterable[cq.Shape]) -> cq.Shape:
-    """One body of several that overlap or touch, without the seams."""
+    """Draw one body of several that overlap or touch, without the seams."""
     return body.fuse(*others).clean()
 
 
 def turned(shape: cq.Shape, azimuth: float, beside: float = 0.0) -> cq.Shape:
-    """The shape moved along y, then turned about the axis; the copy shares its geometry with the original."""
+    """Draw the shape moved along y, then turned about the axis; the copy shares its geometry with the original."""
     return shape.moved(cq.Location(cq.Vector(*polar(beside, azimuth + 0.5 * pi)), _UP, azimuth * 180.0 / pi))

@@ -42,7 +42,7 @@ class Coil:
 
     @property
     def start_azimuth(self) -> float:
-        """Where on the coil circle the coils start [rad]: at the tang."""
+        """Place where on the coil circle the coils start [rad]: at the tang."""
         return self.leg_azimuth - 0.5 * pi - 2.0 * pi * self.turns
 
     @property
@@ -116,7 +116,7 @@ def installed_coil(dims: Dimensions, rotor_angle: float = 0.0) -> Coil:
 
 
 def _wound_diameter(dims: Dimensions, turns: float) -> float:
-    """Mean diameter of the coil wound to `turns`: the helix keeps its wire and its pitch."""
+    """Return mean diameter of the coil wound to `turns`: the helix keeps its wire and its pitch."""
     wire = dims.coil_count * hypot(pi * dims.coil_diameter, dims.coil_pitch)
     if not turns > 0.0 or wire / turns <= dims.coil_pitch:
         raise GeometryError(f"spring: {turns:.4g} turns cannot be wound of {wire:.4g} mm of wire")
@@ -124,7 +124,7 @@ def _wound_diameter(dims: Dimensions, turns: float) -> float:
 
 
 def _leg_azimuth(dims: Dimensions, rotor_angle: float, diameter: float) -> float:
-    """Direction of the leg that lies on the pin from the side on which the pin winds the spring up."""
+    """Return the direction of the leg that lies on the pin from the side on which the pin winds the spring up."""
     # The device's model takes the free coil's diameter here (row leg_offset), which makes its equations explicit; the
     # drawing takes the wound one, or leg and pin would not touch.
     offset = 0.5 * (diameter + dims.wire_diameter + dims.pin_diameter)
@@ -135,12 +135,12 @@ def _leg_azimuth(dims: Dimensions, rotor_angle: float, diameter: float) -> float
 
 
 def _directions(azimuth: float) -> tuple[cq.Vector, cq.Vector]:
-    """Radial and tangential (counter-clockwise) unit vectors at an azimuth."""
+    """Return radial and tangential (counter-clockwise) unit vectors at an azimuth."""
     return cq.Vector(cos(azimuth), sin(azimuth), 0), cq.Vector(-sin(azimuth), cos(azimuth), 0)
 
 
 def wire_edges(coil: Coil) -> list[cq.Edge]:
-    """Centre of the wire from the tang's end to the leg's: line, arc, helix, line, tangent to one another."""
+    """Return centre of the wire from the tang's end to the leg's: line, arc, helix, line, tangent to one another."""
     bend_radius, rise, down = coil.bend_radius, coil.rise, cq.Vector(0, 0, -1)
     radial, tangent = _directions(coil.start_azimuth)
     start = radial * (0.5 * coil.diameter) - down * coil.start_level

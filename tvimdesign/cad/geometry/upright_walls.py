@@ -34,13 +34,13 @@ class Wall:
         return self.at(along)
 
     def at(self, along: float) -> tuple[float, float]:
-        """The point of it that is so far along its line."""
+        """Return the point of it that is so far along its line."""
         cosine, sine = cos(self.outwards), sin(self.outwards)
         return self.offset * cosine - along * sine, self.offset * sine + along * cosine
 
     @property
     def is_radial(self) -> bool:
-        """Whether its plane holds the axis, and it lies to one side of that."""
+        """True if its plane holds the axis, and it lies to one side of that."""
         return abs(self.offset) < _SAME and self.start * self.end >= 0.0
 
     @property
@@ -51,7 +51,7 @@ class Wall:
 
 
 def upright_walls(solid: cq.Solid) -> list[Wall]:
-    """Flat upright faces, in a fixed order."""
+    """Return flat upright faces, in a fixed order."""
     found = []
     for face in solid.Faces():
         normal = face.normalAt() if face.geomType() == "PLANE" else None
@@ -94,7 +94,7 @@ class Pair:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Where both walls are, along the line of the first."""
+        """Place where both walls are, along the line of the first."""
         first, second = self.walls
         return max(first.start, -second.end), min(first.end, -second.start)
 
@@ -107,7 +107,7 @@ class Pair:
 
 
 def pairs(walls: list[Wall]) -> tuple[list[Pair], list[Wall]]:
-    """Walls of one height that are parallel and beside each other, nearest first; and those that are left."""
+    """Return walls of one height that are parallel and beside each other, nearest first; and those that are left."""
     possible = []
     for index, one in enumerate(walls):
         for other in walls[index + 1 :]:
@@ -125,7 +125,7 @@ def pairs(walls: list[Wall]) -> tuple[list[Pair], list[Wall]]:
 
 
 def _pair(one: Wall, other: Wall) -> Pair | None:
-    """Two walls as a pair, if they look in opposite directions and stand between the same heights."""
+    """Return two walls as a pair, if they look in opposite directions and stand between the same heights."""
     turned = abs((other.outwards - one.outwards) % (2.0 * pi) - pi)
     if turned > 1e-4 or abs(one.bottom - other.bottom) > _SAME or abs(one.top - other.top) > _SAME:
         return None

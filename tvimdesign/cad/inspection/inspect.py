@@ -37,7 +37,7 @@ _EXACT = 1e-6
 
 
 def casting_checks(dims: Dimensions, kind: str, solids: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
-    """Hold mould and lid against the part of a kind that is cast in them; all three stand as they are drawn."""
+    """Compare mould and lid with the part of a kind that is cast in them; all three stand as they are drawn."""
     part, mould, lid = (solids[name] for name in (kind, "casting_mould", "casting_lid"))
     yield from interference_checks(dict(solids), "in the casting jig")
     wanted = dims.pcl_thickness if kind == "pcl_arc" else dims.vane_height - dims.running_clearance
@@ -51,7 +51,8 @@ def casting_checks(dims: Dimensions, kind: str, solids: Mapping[str, cq.Solid]) 
 
 
 def casting_gap(dims: Dimensions, mould: cq.Solid, lid: cq.Solid) -> float:
-    """Way from the mould's floor to the lid's face, measured near the part's inner edge, where no key is [mm]."""
+    """Return the way from the mould's floor to the lid's face, measured near the part's inner edge, where no key is
+    [mm]."""
     inner, outer = dims.pcl_inner_radius, dims.pcl_outer_radius
     needle = cylinder(_NEEDLE, -100.0, 100.0, polar(inner + 0.05 * (outer - inner), 0.0))
     floor, face = mould.intersect(needle).BoundingBox(), lid.intersect(needle).BoundingBox()
@@ -63,7 +64,7 @@ TIGHT = 0.04
 
 
 def coil_checks(dims: Dimensions) -> Iterator[SolidCheck]:
-    """Hold the springs against their posts and each other, free and at five angles of the rotor; exact."""
+    """Compare the springs with their posts and each other, free and at five angles of the rotor; exact."""
     yield from _checks(dims, free_coil(dims), "as bought")
     for share in (-1.0, -0.5, 0.0, 0.5, 1.0):
         where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
@@ -71,7 +72,7 @@ def coil_checks(dims: Dimensions) -> Iterator[SolidCheck]:
 
 
 def _checks(dims: Dimensions, coil: Coil, where: str) -> Iterator[SolidCheck]:
-    """The right-hand spring stands for both: the left-hand one does the same at the opposite angle."""
+    """Yield the right-hand spring stands for both: the left-hand one does the same at the opposite angle."""
     d, inside, reach = coil.wire_diameter, 0.5 * (coil.diameter - coil.wire_diameter), spring_reach(coil)
     level = 0.5 * (coil.start_level + coil.end_level)
     half_pitch = pi / dims.count("spring_count")
@@ -98,7 +99,7 @@ def _checks(dims: Dimensions, coil: Coil, where: str) -> Iterator[SolidCheck]:
 
 
 def spring_reach(coil: Coil) -> float:
-    """Radius of the circle around a spring's axis that holds its coils and its tang [mm]."""
+    """Return the radius of the circle around a spring's axis that holds its coils and its tang [mm]."""
     return max(0.5 * coil.diameter, hypot(*coil.tang_position)) + 0.5 * coil.wire_diameter
 
 
@@ -109,7 +110,7 @@ _ROUNDING = 1e-3
 
 
 def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
-    """Hold the first of each kind against its pocket's walls, lifted off what it lies on by twice the clearance."""
+    """Compare the first of each kind with its pocket's walls, lifted off what it lies on by twice the clearance."""
     wanted = dims.slip_clearance
     for kind, host in _IN.items():
         name = f"{kind}_1"
@@ -122,7 +123,7 @@ def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[Sol
 
 
 def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
-    """From what a part lies on: off the floor, off the plate, or sideways off its vane and up from the floor."""
+    """Return from what a part lies on: off the floor, off the plate, or sideways off its vane and up from the floor."""
     if dims.mode == "shear":
         return cq.Vector(0.0, 0.0, -1.0 if kind == "liner" else 1.0)
     middle = solid.Center()
@@ -137,7 +138,7 @@ def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
 def part_checks(
     design: Design, dims: Dimensions, kind: str, solid: cq.Solid, mesh: Mesh | None = None
 ) -> list[SolidCheck]:  # fmt: skip
-    """Hold one made part against its process: all it needs is its own solid, and its mesh if that is there."""
+    """Compare one made part with its process: all it needs is its own solid, and its mesh if that is there."""
     mesh = mesh or solid_mesh(solid)
     triangles = Triangles(mesh)
     bed = (dims.bed_length, dims.bed_width, dims.bed_height)
@@ -153,7 +154,7 @@ def part_checks(
 
 
 def solid_check(kind: str, shape: cq.Shape) -> SolidCheck:
-    """Whether a part is one valid solid."""
+    """Return whether a part is one valid solid."""
     count, sound = len(shape.Solids()), shape.isValid()
     text = f"{count} solid{'' if count == 1 else 's'}, {'valid' if sound else 'not valid'}"
     return finding(kind, "solid", count, 1.0, "", "pass" if count == 1 and sound else "failure", text)
@@ -162,7 +163,7 @@ def solid_check(kind: str, shape: cq.Shape) -> SolidCheck:
 def module_checks(
     design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], known: Mapping[str, Mesh] | None = None
 ) -> Iterator[SolidCheck]:
-    """Hold the module against its own rules, its springs as they wind, its screws, and the order of its assembly.
+    """Compare the module with its own rules, its springs as they wind, its screws, and the order of its assembly.
 
     `known` are meshes of the drawn parts that are made already, by kind.
     """
@@ -175,7 +176,7 @@ def module_checks(
 
 
 def rule_checks(design: Design) -> Iterator[SolidCheck]:
-    """Hold the design against the rules of the table that say what can be made and put together; exact."""
+    """Compare the design with the rules of the table that say what can be made and put together; exact."""
     for row in table_for(design.mode).outputs:
         if row.group != "Gaps" or row.name not in design.values:
             continue
@@ -190,7 +191,7 @@ def rule_checks(design: Design) -> Iterator[SolidCheck]:
 
 
 def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
-    """How much of each kind of screw is in its thread, over its diameter; read off the solids."""
+    """Yield how much of each kind of screw is in its thread, over its diameter; read off the solids."""
     x, y = link_screws(dims)[0]
     bosses = between_springs(dims, dims.housing_inner_radius)
     for joint, host, at in (
@@ -219,7 +220,7 @@ def thread_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[S
 def _threads(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], joint: str, host: str, at: tuple[float, float]
 ) -> list[tuple[float, float]]:
-    """Lower and upper ends of what the screws of a joint find thread in: an insert, or their hole in a part."""
+    """Return lower and upper ends of what the screws of a joint find thread in: an insert, or their hole in a part."""
     if insert_length(dims, joint):
         box, (_, _, bottom) = drawn[f"{joint}_insert"].BoundingBox(), insert_places(dims, joint)[0]
         return [(bottom + box.zmin, bottom + box.zmax)]

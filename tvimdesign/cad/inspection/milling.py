@@ -1,4 +1,4 @@
-"""Whether a mill of three axes reaches all of a part: from which sides, what stays hidden, and how narrow it gets."""
+"""Checks for a mill of three axes: sides it reaches a part from, hidden and narrow places, corners and holes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Corner(NamedTuple):
 
 
 def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth_ratio: float) -> list[SolidCheck]:
-    """Hold the upright inner corners of a part against the radius a cutter has and how deep it cuts [mm]."""
+    """Compare the upright inner corners of a part with the radius a cutter has and how deep it cuts [mm]."""
     sharp, rounded = list(sharp_corners(solid)), list(round_corners(solid))
     worst = max(sharp, key=lambda one: one.depth, default=None)
     text = f"{len(sharp)} upright inner corners are sharp"
@@ -64,7 +64,7 @@ def corner_checks(part: str, solid: cq.Solid, corner_radius: float, corner_depth
 
 
 def hole_check(part: str, drilled: Sequence[Cylinder], hole_depth_ratio: float) -> SolidCheck:
-    """Hold the round upright holes of a part against how deep a drill goes."""
+    """Compare the round upright holes of a part with how deep a drill goes."""
     deepest = max(drilled, key=lambda one: (one.top - one.bottom) / one.radius, default=None)
     if deepest is None:
         return finding(part, "hole", 0.0, hole_depth_ratio, "", "pass", "no holes")
@@ -77,7 +77,7 @@ def hole_check(part: str, drilled: Sequence[Cylinder], hole_depth_ratio: float) 
 
 
 def round_corners(solid: cq.Solid) -> Iterator[Corner]:
-    """Upright concave cylinders that are no holes."""
+    """Yield upright concave cylinders that are no holes."""
     for one in upright_cylinders(solid):
         if one.concave and not one.is_round and one.radius < _WIDEST:
             middle = np.array([one.x, one.y, 0.5 * (one.bottom + one.top)])
@@ -86,7 +86,7 @@ def round_corners(solid: cq.Solid) -> Iterator[Corner]:
 
 
 def sharp_corners(solid: cq.Solid) -> Iterator[Corner]:
-    """Upright straight edges with material on more than half of the way round."""
+    """Yield upright straight edges with material on more than half of the way round."""
     classifier = BRepClass3d_SolidClassifier(solid.wrapped)
     for edge, faces in _edges_with_faces(solid):
         if edge.geomType() != "LINE" or len(faces) != 2 or abs(abs(edge.tangentAt(0.5).z) - 1.0) > 1e-6:
@@ -103,7 +103,7 @@ def sharp_corners(solid: cq.Solid) -> Iterator[Corner]:
 
 
 def _edges_with_faces(solid: cq.Solid) -> Iterator[tuple[cq.Edge, list[cq.Face]]]:
-    """Every edge with the faces that meet there; not the seam of a closed face."""
+    """Yield every edge with the faces that meet there; not the seam of a closed face."""
     found: dict[cq.Edge, list[cq.Face]] = {}
     for face in solid.Faces():
         for edge in face.Edges():
@@ -147,7 +147,7 @@ class Narrow(NamedTuple):
 def milling_checks(
     part: str, triangles: Triangles, drilled: Sequence[Cylinder], pocket_depth_ratio: float
 ) -> list[SolidCheck]:
-    """Hold a part against what a mill of three axes reaches; `drilled` are its round holes, which are no pockets."""
+    """Compare a part with what a mill of three axes reaches; `drilled` are its round holes, which are no pockets."""
     everywhere = samples(triangles, SPACING)
     seen = {side: reached(triangles, everywhere, tool) for side, tool in SIDES.items()}
     chosen = set_ups(everywhere, seen)
@@ -170,7 +170,8 @@ def milling_checks(
 
 
 def reached(triangles: Triangles, where: Samples, tool: Array) -> NDArray[np.bool_]:
-    """Which samples a tool from that side reaches: they look towards it, and nothing of the part is in between."""
+    """Return which samples a tool from that side reaches: they look towards it, and nothing of the part is in
+    between."""
     facing = where.normal @ tool >= _STEEPEST
     some = where.of(facing)
     hits = triangles.first_hits(some.point + _OFF * some.normal, np.tile(tool, (len(some), 1)))
@@ -209,7 +210,7 @@ def _pocket_check(
 
 
 def _inside(drilled: Sequence[Cylinder], points: Array) -> NDArray[np.bool_]:
-    """Which points lie in or at a round hole."""
+    """Return which points lie in or at a round hole."""
     inside = np.zeros(len(points), dtype=bool)
     for one in drilled:
         beside = np.hypot(points[:, 0] - one.x, points[:, 1] - one.y)
@@ -219,7 +220,7 @@ def _inside(drilled: Sequence[Cylinder], points: Array) -> NDArray[np.bool_]:
 
 
 def narrowest(triangles: Triangles, seen: Samples, side: str) -> Narrow | None:
-    """The floor seen from above or below that is deepest for the least way across it between walls."""
+    """Return the floor seen from above or below that is deepest for the least way across it between walls."""
     tool = SIDES[side]
     floors = seen.of(seen.normal @ tool > _FLAT)
     floors = floors.of(np.arange(0, len(floors), max(1, len(floors) // _FLOORS)))

@@ -1,4 +1,4 @@
-"""Whether the parts go into their places in the order of the assembly note, and a tool reaches each screw."""
+"""Checks of the assembly: parts go into their places in the order of the note, and a tool reaches each screw."""
 
 from __future__ import annotations
 
@@ -44,7 +44,10 @@ class Standing:
         self._parts = {n: one if isinstance(one, Triangles) else Triangles(one) for n, one in parts.items()}
 
     def first_distances(self, origins: Array, out: Array) -> Array:
-        """How far rays up or down along the axis come before they meet a part [mm]; infinite if they meet none."""
+        """Return how far rays up or down along the axis come before they meet a part [mm].
+
+        Infinite if they meet none.
+        """
         nearest = np.full(len(origins), inf)
         low, high = origins[:, :2].min(axis=0), origins[:, :2].max(axis=0)
         for part in self._parts.values():
@@ -69,7 +72,7 @@ class Standing:
 
 
 def sequence(names: Sequence[str]) -> list[PlacedPart]:
-    """Every part in the order in which it comes into its place, by the steps of the assembly note."""
+    """Return every part in the order in which it comes into its place, by the steps of the assembly note."""
     kinds = {kind_of(name) for name in names}
     order: list[PlacedPart] = []
     for step in steps_of(kinds):
@@ -79,7 +82,7 @@ def sequence(names: Sequence[str]) -> list[PlacedPart]:
 
 
 def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[SolidCheck]:
-    """Put part after part in its place and hold its way in against those that are there; then look at the screws."""
+    """Put part after part in its place and compare its way in with those that are there; then look at the screws."""
     meshes = {name: in_module(instance) for name, instance in placed.items()}
     shapes = {name: Triangles(mesh) for name, mesh in meshes.items()}
     order = sequence(list(meshes))
@@ -103,7 +106,7 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[S
 
 
 def _groups(order: Sequence[PlacedPart]) -> Iterator[list[PlacedPart]]:
-    """Neighbours in the order that are of one kind and come from one side."""
+    """Yield neighbours in the order that are of one kind and come from one side."""
     group: list[PlacedPart] = []
     for one in order:
         if group and (kind_of(one.name), one.side) != (kind_of(group[0].name), group[0].side):
@@ -115,7 +118,7 @@ def _groups(order: Sequence[PlacedPart]) -> Iterator[list[PlacedPart]]:
 
 
 def in_module(instance: Instance) -> Mesh:
-    """Mesh of a placed part in the module's coordinates."""
+    """Return mesh of a placed part in the module's coordinates."""
     turn, shift = instance.matrix[:3, :3], instance.matrix[:3, 3]
     return Mesh(instance.mesh.vertices @ turn.T + shift, instance.mesh.faces)
 
@@ -141,7 +144,7 @@ def _way_check(kind: str, side: str, copies: Mapping[str, Triangles], there: Sta
 
 
 def _leading(triangles: Triangles, out: Array) -> Array:
-    """Points just under the faces a part goes in with."""
+    """Return points just under the faces a part goes in with."""
     where = samples(triangles, SPACING, np.flatnonzero(triangles.normal @ out < _STEEPEST))
     inwards = where.point - _SKIN * where.normal
     # Under a face, but also away from its edges: towards the middle of the triangle, as far.
@@ -151,19 +154,19 @@ def _leading(triangles: Triangles, out: Array) -> Array:
 
 
 def _end(mesh: Mesh, out: Array) -> Array:
-    """Middle of a screw's head."""
+    """Return the middle of a screw's head."""
     ends = mesh.vertices @ out
     return np.asarray(mesh.vertices[ends > ends.max() - 1e-6].mean(axis=0))
 
 
 def mount_checks(dims: Dimensions, there: Standing) -> Iterator[SolidCheck]:
-    """Whether a driver comes from above to the screws that fix the housing, the module complete and at rest."""
+    """Yield whether a driver comes from above to the screws that fix the housing, the module complete and at rest."""
     for index, (x, y) in enumerate(mounts(dims)):
         yield _driver(f"mount_screw_{index + 1}", np.array([x, y, 0.0]), _WAY["above"], there, dims.mount_screw_key)
 
 
 def _driver(name: str, head: Array, out: Array, there: Standing, key: float) -> SolidCheck:
-    """Whether a hexagon key comes to a screw along its axis; the screw itself lies behind the rays.
+    """Return whether a hexagon key comes to a screw along its axis; the screw itself lies behind the rays.
 
     `key` is the key's width across its flats [mm].
     """

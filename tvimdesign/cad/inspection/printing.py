@@ -1,4 +1,4 @@
-"""Whether a part prints as it lies on the bed: what needs support, what is bridged without, and room on the bed."""
+"""Checks of a part as it lies on the print bed: overhangs that need support, bridges, and room on the bed."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ def printing_checks(
     bed: tuple[float, float, float],
     supported: Sequence[tuple[float, float]] = (),
 ) -> list[SolidCheck]:
-    """Hold a part as it is printed against the process: angle from upright [rad], lengths [mm].
+    """Compare a part as it is printed with the process: angle from upright [rad], lengths [mm].
 
-    `supported` are levels of the module between which faces stand on support: that is told, and no fault.
+    `supported` are levels of the module between which faces stand on support: that is reported, and no fault.
     """
     triangles = Triangles(lying(mesh, down))
     found = overhangs(triangles, overhang_angle)
@@ -88,13 +88,16 @@ def printing_checks(
 
 
 def _within(one: Overhang, back: float, between: tuple[float, float]) -> bool:
-    """Whether all of an overhang is between two levels of the module; `back` is -1 where the part is turned over."""
+    """Return whether all of an overhang is between two levels of the module.
+
+    `back` is -1 where the part is turned over.
+    """
     low, high = sorted(back * level for level in one.levels)
     return low > between[0] - _ON_BED and high < between[1] + _ON_BED
 
 
 def bed_check(part: str, size: Array, bed: tuple[float, float, float]) -> SolidCheck:
-    """Hold a part's box, turned about z as suits it, against what the machine can make [mm]."""
+    """Compare a part's box, turned about z as suits it, with what the machine can make [mm]."""
     need, have = sorted(size[:2]), sorted(bed[:2])
     room = min(have[0] - need[0], have[1] - need[1], bed[2] - size[2])
     text = " x ".join(f"{length:.4g}" for length in size) + " mm on a machine for "
@@ -137,7 +140,7 @@ def _overhang(triangles: Triangles, group: Index) -> Overhang:
 
 
 def _edge_directions(corners: Array) -> list[float]:
-    """Azimuths [rad] of the longest outer edges of level triangles.
+    """Return azimuths [rad] of the longest outer edges of level triangles.
 
     Beside an edge where a ceiling ends in the air, only a bridge that runs along it has both its ends on walls.
     """

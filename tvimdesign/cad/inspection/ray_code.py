@@ -35,7 +35,7 @@ class _Lines(Lines):
         self.text.append(line)
 
     def three(self, array: str, entry: str, first: int, width: int) -> Three:
-        """Three numbers of an entry that has `width` of them, from the `first` on."""
+        """Return three numbers of an entry that has `width` of them, from the `first` on."""
         start = self.new(f"mul i64 {entry}, {width}")
         found = []
         for place in range(first, first + 3):
@@ -44,24 +44,24 @@ class _Lines(Lines):
         return found[0], found[1], found[2]
 
     def dot(self, a: Three, b: Three) -> str:
-        """Scalar product."""
+        """Return scalar product."""
         x, y, z = (self.two("fmul", one, other) for one, other in zip(a, b, strict=True))
         return self.two("fadd", self.two("fadd", x, y), z)
 
     def cross(self, a: Three, b: Three) -> Three:
-        """Vector product."""
+        """Return vector product."""
         parts = []
         for i, j in ((1, 2), (2, 0), (0, 1)):
             parts.append(self.two("fsub", self.two("fmul", a[i], b[j]), self.two("fmul", a[j], b[i])))
         return parts[0], parts[1], parts[2]
 
     def less(self, a: Three, b: Three) -> Three:
-        """Difference."""
+        """Return difference."""
         x, y, z = (self.two("fsub", one, other) for one, other in zip(a, b, strict=True))
         return x, y, z
 
     def all_of(self, truths: Sequence[str]) -> str:
-        """Whether all hold."""
+        """Return whether all hold."""
         found = truths[0]
         for truth in truths[1:]:
             found = self.new(f"and i1 {found}, {truth}")
@@ -105,7 +105,7 @@ def _text() -> str:
 
 
 def _meets_box(w: _Lines, origin: Three, inverse: Three) -> str:
-    """Whether the ray meets the box of %node at or after its start, and not behind the nearest triangle.
+    """Return whether the ray meets the box of %node at or after its start, and not behind the nearest triangle.
 
     0 x inf, where a ray lies in the plane of a side, is not a number and is left out: taken as inside.
     """
@@ -158,7 +158,7 @@ def _try_triangle(w: _Lines, slot: str, origin: Three, direction: Three) -> None
 
 @cache
 def first_hits() -> Callable[..., None]:
-    """The compiled walk: of boxes, triangles, the first leaf's number, origins, directions, their count, `beyond`.
+    """Return compiled walk: of boxes, triangles, the first leaf's number, origins, directions, their count, `beyond`.
 
     Then follow where distances and places of the triangles that are met go. Arrays are given by address.
     """

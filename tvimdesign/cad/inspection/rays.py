@@ -139,7 +139,7 @@ class Samples:
         return Samples(self.point[wanted], self.normal[wanted], self.triangle[wanted], self.area[wanted])
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Return how many there are."""
         return len(self.point)
 
 
@@ -168,7 +168,8 @@ def samples(triangles: Triangles, spacing: float, only: Index | None = None) -> 
 
 
 def _weights(rows: int, columns: int) -> tuple[Array, Array]:
-    """Weights of a triangle's corners, the first two those of its base, for points in strips of one height above it.
+    """Return the weights of a triangle's corners, the first two those of its base, for points in strips of one height
+    above it.
 
     Returns also the share of the area that each point stands for.
     """

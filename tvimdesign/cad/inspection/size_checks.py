@@ -36,14 +36,14 @@ class PlacedBodies:
     """The meshes of placed parts as closed bodies; copies of a part share one."""
 
     def __init__(self, placed: Mapping[str, Instance]) -> None:
-        """A part whose mesh does not close has no body, and is never told apart."""
+        """Take placed parts; one whose mesh does not close has no body, and never counts as apart."""
         self._placed = placed
         self._bodies: dict[str, Manifold | None] = {}
         self._in_place: dict[str, Manifold | None] = {}
         self._near: set[tuple[str, str]] = set()
 
     def apart(self, first: str, second: str) -> bool:
-        """Whether two parts have surely no point in common; the gap of bodies that share any volume is zero.
+        """Return whether two parts have surely no point in common; the gap of bodies that share any volume is zero.
 
         Where one of a kind is near another kind its copies will be too, and are not tried.
         """
@@ -57,7 +57,7 @@ class PlacedBodies:
         return apart
 
     def _body(self, name: str) -> Manifold | None:
-        """The body of a part where it stands, found once: a placed body is sorted anew for each question."""
+        """Return the body of a part where it stands, found once: a placed body is sorted anew for each question."""
         if name not in self._in_place:
             self._in_place[name] = self._placed_body(name)
         return self._in_place[name]
@@ -102,11 +102,11 @@ def all_checks(
 
 
 POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)
-"""Of the rotor at which parts are held against each other, as shares of the stroke."""
+"""Of the rotor at which parts are compared, as shares of the stroke."""
 
 
 def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> list[SolidCheck]:
-    """Hold the sizes at rest against the quantities, and the legs against their pins."""
+    """Compare the sizes at rest with the quantities, and the legs against their pins."""
     at_rest = place(dims, drawn)
     return [*size_checks(design, at_rest), *envelope_checks(dims, at_rest), *bearing_checks(dims)]
 
@@ -115,7 +115,7 @@ def clearance_checks(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, say: Callable[[str], None],
     known: Mapping[str, Mesh] | None = None,
 ) -> list[SolidCheck]:  # fmt: skip
-    """Hold every part against every other one at rest; at a share of the stroke, those that do not move together.
+    """Compare every part with every other one at rest; at a share of the stroke, those that do not move together.
 
     `known` are meshes of the drawn parts that are made already, by kind.
     """
@@ -134,7 +134,7 @@ def clearance_checks(
 
 
 def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
-    """Volume, mass and inertia of the solids against the quantities of the design."""
+    """Yield volume, mass and inertia of the solids against the quantities of the design."""
     by_kind: dict[str, list[cq.Solid]] = {}
     for name, solid in placed.items():
         by_kind.setdefault(kind_of(name), []).append(solid)
@@ -155,7 +155,7 @@ def size_checks(design: Design, placed: Mapping[str, cq.Solid]) -> Iterator[Soli
 
 
 def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
-    """Diameter and height of the whole module at rest against the quantities, to rounding."""
+    """Yield diameter and height of the whole module at rest against the quantities, to rounding."""
     boxes = [tight_box(solid) for solid in placed.values()]
     height = max(box.zmax for box in boxes) - min(box.zmin for box in boxes)
     width = max(box.ymax for box in boxes) - min(box.ymin for box in boxes)
@@ -164,7 +164,7 @@ def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterato
 
 
 def bearing_checks(dims: Dimensions) -> Iterator[SolidCheck]:
-    """How far the legs reach beyond the pins they bear on, at rest and at either end of the stroke [mm]."""
+    """Yield how far the legs reach beyond the pins they bear on, at rest and at either end of the stroke [mm]."""
     for angle in (-dims.stroke, 0.0, dims.stroke):
         coil = installed_coil(dims, angle)
         offset = 0.5 * (coil.diameter + coil.wire_diameter + dims.pin_diameter)
@@ -178,7 +178,7 @@ def interference_checks(
     placed: Mapping[str, cq.Solid], where: str, wanted: Callable[[str, str], bool] = lambda _a, _b: True,
     apart: Callable[[str, str], bool] = lambda _a, _b: False,
 ) -> Iterator[SolidCheck]:  # fmt: skip
-    """Common volume of every wanted pair whose boxes overlap; one check that says how many pairs are not.
+    """Yield common volume of every wanted pair whose boxes overlap; one check that says how many pairs are not.
 
     Of pairs that are surely `apart` it is nothing, and is not computed.
     """
@@ -200,9 +200,9 @@ def interference_checks(
 def _shared(
     placed: Mapping[str, cq.Solid], pairs: Sequence[tuple[str, str]]
 ) -> dict[tuple[str, str], tuple[float, Place | None]]:
-    """What `_common` says of each pair.
+    """Return what `_common` says of each pair.
 
-    A part is held against all copies of another at once, as the kernel takes most of its time to go through the part;
+    A part is compared with all copies of another at once, as the kernel takes most of its time to go through the part;
     one by one only where they share anything.
     """
     copies: dict[tuple[str, str], list[str]] = {}
@@ -218,7 +218,10 @@ def _shared(
 
 
 def _common(first: cq.Solid, *others: cq.Solid) -> tuple[float, Place | None]:
-    """Volume a solid shares with others [mm^3], and its centroid; not a number, which fails, where nobody can tell."""
+    """Return volume a solid shares with others [mm^3], and its centroid.
+
+    Not a number, which fails, where nobody can tell.
+    """
     operation, arguments, tools = BRepAlgoAPI_Common(), TopTools_ListOfShape(), TopTools_ListOfShape()
     arguments.Append(first.wrapped)
     for other in others:
@@ -235,7 +238,7 @@ def _common(first: cq.Solid, *others: cq.Solid) -> tuple[float, Place | None]:
 
 
 def _between(a: cq.BoundBox, b: cq.BoundBox) -> Place:
-    """The middle of what two boxes share: where two parts would meet."""
+    """Return the middle of what two boxes share: where two parts would meet."""
     low, high = (
         np.array([[getattr(box, f"{axis}{end}") for axis in "xyz"] for box in (a, b)]) for end in ("min", "max")
     )
@@ -244,7 +247,7 @@ def _between(a: cq.BoundBox, b: cq.BoundBox) -> Place:
 
 
 def _together(first: str, second: str) -> bool:
-    """Whether two parts both stand, or both turn, so that they are to each other as they were at rest."""
+    """Return whether two parts both stand, or both turn, so that they are to each other as they were at rest."""
     kinds = {kind_of(first), kind_of(second)}
     return not kinds & {*TURNING, *CHANGING} or kinds <= set(TURNING)
 
@@ -257,14 +260,14 @@ def _against(name: str, built: float, model: float, tolerance: float | None = No
 
 
 def _polar_moment(solid: cq.Solid) -> float:
-    """Integral of the squared distance from the rotor's axis over the solid [mm^5]."""
+    """Return the integral of the squared distance from the rotor's axis over the solid [mm^5]."""
     properties = GProp_GProps()
     BRepGProp.VolumeProperties_s(solid.wrapped, properties)
     return float(properties.MomentOfInertia(gp.OZ_s()))
 
 
 def _overlap(a: cq.BoundBox, b: cq.BoundBox) -> bool:
-    """Whether two boxes share more than a face."""
+    """Return whether two boxes share more than a face."""
     return all(
         getattr(a, f"{axis}min") < getattr(b, f"{axis}max") and getattr(b, f"{axis}min") < getattr(a, f"{axis}max")
         for axis in "xyz"

@@ -1,4 +1,4 @@
-"""How thick the walls of a part are: rays from its surface straight into it, to where they come out again."""
+"""Thickness of the walls of a part: rays from its surface straight into it, to where they come out again."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Faces that meet at a wider angle make an edge, such as that of a driver's slot w
 
 
 def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_wall: float) -> list[SolidCheck]:
-    """Hold the walls of a part against the process [mm], and tell of edges that taper to nothing."""
+    """Compare the walls of a part with the process [mm], and report edges that taper to nothing."""
     everywhere = samples(triangles, SPACING)
     coarse = wall_thickness(triangles, everywhere)
     thin = coarse < minimum_wall
@@ -45,16 +45,19 @@ def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_w
 
 
 def wall_thickness(triangles: Triangles, where: Samples) -> Array:
-    """Thickness of the part under each sample [mm]; infinite where the ray comes out at an edge, not through a wall."""
+    """Return the thickness of the part under each sample [mm].
+
+    Infinite where the ray comes out at an edge, not through a wall.
+    """
     hits = triangles.first_hits(where.point, -where.normal)
     facing = np.einsum("ij,ij->i", where.normal, triangles.normal[hits.triangle])
     return np.where(~hits.missed & (facing < _OPPOSED), hits.distance, np.inf)
 
 
 def _tapering(where: Samples, thickness: Array, minimum_wall: float) -> NDArray[np.bool_]:
-    """Which samples lie by an edge at which two faces meet almost flat: no wall, the part just ends there.
+    """Return which samples lie by an edge at which two faces meet almost flat: no wall, the part just ends there.
 
-    It is told from a wall by thinning down to nothing: of thin samples that are neighbours some have no thickness.
+    It differs from a wall by thinning down to nothing: of thin samples that are neighbours some have no thickness.
     """
     tapering = np.zeros(len(where), dtype=bool)
     thin = np.flatnonzero(thickness < minimum_wall)

@@ -51,7 +51,7 @@ def run(design_path: Path, out: Path, _part_limit: float, lines: TextIO) -> None
 
 
 def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
-    """Names of the placed parts of each body: springs, pads and PCL stand with the housing."""
+    """Return the names of the placed parts of each body: springs, pads and PCL stand with the housing."""
     from tvimdesign.cad.geometry.kinds import TURNING, kind_of
 
     turning = [name for name in placed if kind_of(name) in TURNING]
@@ -59,7 +59,7 @@ def names_of_bodies(placed: Mapping[str, Any]) -> dict[str, list[str]]:
 
 
 def _weighed(design: Design, placed: Mapping[str, Any], bodies: Mapping[str, list[str]]) -> dict[str, Any]:
-    """Mass properties of each body as plain data."""
+    """Return mass properties of each body as plain data."""
     from tvimdesign.cad.geometry.kinds import KINDS, kind_of
     from tvimdesign.cad.jobs.rigid_bodies import of_solid, together
 

@@ -44,7 +44,7 @@ _READ_BACK = 1e-6
 
 
 def build_plan(dims: Dimensions) -> list[Work]:
-    """All pieces of work for a module."""
+    """Return all pieces of work for a module."""
     kinds = tuple(MODULES[dims.mode].drawn(dims))
     parts = [
         work
@@ -87,12 +87,13 @@ def build_plan(dims: Dimensions) -> list[Work]:
 
 
 def _turn(kind: str) -> Turn:
-    """One process begins with the housing; the other has the first small part at once, and the rotor after the last."""
+    """Return when a part is made: one process starts with the housing, the other with the first small part, then the
+    rotor."""
     return Turn.SECOND if kind == "rotor" else Turn.FIRST
 
 
 def _part(kind: str, job: Job) -> list[SolidCheck]:
-    """One part: its solid, which others wait for, and its STEP."""
+    """Make one part: its solid, which others wait for, and its STEP."""
     solid = drawn_part(job.dims, kind)
     _keep(job.folder / "kept" / _SOLID, solid)
     write_mesh(job.folder / "kept" / _MESH, solid_mesh(solid))
@@ -100,7 +101,7 @@ def _part(kind: str, job: Job) -> list[SolidCheck]:
 
 
 def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
-    """What a part is printed, milled or looked at from."""
+    """Make what a part is printed, milled or looked at from."""
     solid, what = _solids(job.needs)[kind], product(job.design, kind)
     if PRODUCTION[kind].drawn:
         asked = drawing_requirements(kind, job.dims, job.design.choices)
@@ -113,7 +114,7 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
 
 
 def _fixture(kind: str, job: Job) -> list[SolidCheck]:
-    """One piece of the jig that the PCL is cast in."""
+    """Make one piece of the jig that the PCL is cast in."""
     cast = casting_jig.part_of(tuple(MODULES[job.dims.mode].drawn(job.dims)))
     solid = one_solid(kind, lambda: casting_jig.DRAWN[kind](job.dims, drawn_part(job.dims, cast)))
     _keep(job.folder / "kept" / _SOLID, solid)
@@ -124,7 +125,7 @@ def _fixture(kind: str, job: Job) -> list[SolidCheck]:
 
 
 def _spring(kind: str, job: Job) -> list[SolidCheck]:
-    """One spring as its maker delivers it."""
+    """Make one spring as its maker delivers it."""
     solid = free_spring(job.dims, kind)
     mesh = spring_mesh(free_coil(job.dims))
     checks = _step(job.folder, solid, product(job.design, kind))
@@ -134,7 +135,7 @@ def _spring(kind: str, job: Job) -> list[SolidCheck]:
 
 
 def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
-    """Write a part's STEP file, and hold what is read back against what the file says it must be."""
+    """Write a part's STEP file, and compare what is read back with what the file says it must be."""
     path = _place(folder, file_names.step(what.name))
     told = write_part(path, solid, what)
     read, reported = read_part(path)
@@ -190,7 +191,7 @@ def _inspect_module(job: Job) -> list[SolidCheck]:
 
 
 def _assembly(job: Job) -> list[SolidCheck]:
-    """The module at rest as STEP and GLB, and what programs that show it need to know of its parts."""
+    """Make the module at rest as STEP and GLB, and what programs that show it need to know of its parts."""
     drawn = _solids(job.needs)
     placed = place(job.dims, drawn)
     products = {name: product(job.design, kind_of(name)) for name in placed}
@@ -203,7 +204,7 @@ def _assembly(job: Job) -> list[SolidCheck]:
 
 
 def _spring_sheet(job: Job) -> list[SolidCheck]:
-    """What the spring maker needs."""
+    """Make what the spring maker needs."""
     lines = spring_lines(job.design, job.dims, job.titles)
     _write(job.folder, file_names.SPRING_TABLE, spring_csv(lines))
     _write(job.folder, file_names.SPRING_SHEET, spring_sheet(job.design, job.dims, lines).pdf())
@@ -211,7 +212,7 @@ def _spring_sheet(job: Job) -> list[SolidCheck]:
 
 
 def _bill_and_note(job: Job) -> list[SolidCheck]:
-    """What there is of each part, and how they go together."""
+    """Make what there is of each part, and how they go together."""
     items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)), fits(job.design, job.dims))
     extra = [*beside(job.design, job.titles), *fixtures(job.design, job.titles)]
     _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
@@ -220,7 +221,8 @@ def _bill_and_note(job: Job) -> list[SolidCheck]:
 
 
 def fits(design: Design, dims: Dimensions) -> dict[str, str]:
-    """Tolerance classes of the seats that bearings and dowel pins go into, by kind, as the drawings have them."""
+    """Return tolerance classes of the seats that bearings and dowel pins go into, by kind, as the drawings have
+    them."""
     found: dict[str, list[str]] = {}
     for kind in MODULES[dims.mode].drawn(dims):
         if PRODUCTION[kind].drawn:
@@ -231,7 +233,7 @@ def fits(design: Design, dims: Dimensions) -> dict[str, str]:
 
 
 def _pictures(job: Job) -> list[SolidCheck]:
-    """The module whole and opened, taken apart, and cut through."""
+    """Make the module whole and opened, taken apart, and cut through."""
     from tvimdesign.cad.render.pictures import write_exploded, write_preview, write_section
 
     drawn = _solids(job.needs)
@@ -249,7 +251,7 @@ def _keep(path: Path, solid: cq.Solid) -> None:
 
 
 def _solids(needs: Mapping[str, Path]) -> dict[str, cq.Solid]:
-    """The solids that other pieces of work have built, by kind."""
+    """Return the solids that other pieces of work have built, by kind."""
     solids = {}
     for kind, folder in needs.items():
         shape = TopoDS_Shape()
@@ -260,7 +262,7 @@ def _solids(needs: Mapping[str, Path]) -> dict[str, cq.Solid]:
 
 
 def _meshes(needs: Mapping[str, Path]) -> dict[str, Mesh]:
-    """The meshes of those solids, by kind."""
+    """Return the meshes of those solids, by kind."""
     return {kind: _mesh(folder / _MESH) for kind, folder in needs.items()}
 
 

@@ -44,17 +44,17 @@ class Watched(Mapping[str, Any]):
         return self._whole[name]
 
     def __contains__(self, name: object) -> bool:
-        """Whether there is a value of that name, which is read too."""
+        """Return whether there is a value of that name, which is read too."""
         self._read[str(name)] = self._whole.get(str(name))
         return name in self._whole
 
     def __iter__(self) -> Iterator[str]:
-        """All names; then all of it counts as read."""
+        """Yield all names; then all of it counts as read."""
         self._read.update(self._whole)
         return iter(self._whole)
 
     def __len__(self) -> int:
-        """How many names there are."""
+        """Return how many names there are."""
         return len(self._whole)
 
 
@@ -88,7 +88,7 @@ class TrackedDesign:
         return design, Dimensions(self._mode, seen["dimensions"]), seen["titles"], reads
 
     def agrees_with(self, reads: Reads) -> bool:
-        """Whether all that was read then is the same in this design."""
+        """Return whether all that was read then is the same in this design."""
         return all(
             part in self._parts and all(self._parts[part].get(name) == value for name, value in read.items())
             for part, read in reads.items()
@@ -105,7 +105,7 @@ _LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "llvmlite", "manifold3d", "ma
 
 @dataclass(frozen=True)
 class Result:
-    """What a piece of work made."""
+    """Result of a piece of work."""
 
     folder: Path
     files: Mapping[str, str]
@@ -119,7 +119,7 @@ class Result:
 
     @property
     def digest(self) -> str:
-        """What results made from this one hang on: the files that are kept for them."""
+        """Digest of the files kept for results made from this one."""
         kept = {name: reported for name, reported in self.files.items() if name.startswith("kept/")}
         return _digest(json.dumps(kept, sort_keys=True).encode())
 
@@ -198,7 +198,7 @@ class Cache:
             self.damaged.append(name)
 
     def _kept(self, name: str) -> list[Path]:
-        """Folders of a piece of work's results, the latest used first."""
+        """Return the folders of a piece of work's results, the latest used first."""
         place = self._folder / name
         if not is_own_folder(place):
             return []
@@ -213,7 +213,7 @@ class Cache:
 
 
 def _age(path: Path) -> float:
-    """What sorts the latest used first; a folder that another run has removed since comes last."""
+    """Return what sorts the latest used first; a folder that another run has removed since comes last."""
     try:
         return -path.lstat().st_mtime
     except OSError:
@@ -222,7 +222,7 @@ def _age(path: Path) -> float:
 
 @cache
 def code_digest() -> str:
-    """Digest of all that makes parts of a design: this package's code and the libraries it draws with."""
+    """Return the digest of all that makes parts of a design: this package's code and the libraries it draws with."""
     digest = hashlib.sha256()
     here = Path(__file__).parents[1]  # all of `cad/`
     for path in sorted(path for suffix in ("*.py", "*.yaml") for path in here.rglob(suffix)):

@@ -121,7 +121,7 @@ def run(design_path: Path, out: Path, part_limit: float, lines: TextIO) -> None:
 
 
 def _not_kept() -> list[str]:
-    """A word where the user names a folder for kept results that cannot be one."""
+    """Return a word where the user names a folder for kept results that cannot be one."""
     named = os.environ.get(FOLDER_VARIABLE)
     if not named or cache_folder(_KEPT) is not None:
         return []
@@ -129,7 +129,7 @@ def _not_kept() -> list[str]:
 
 
 def _titles(design: Design) -> dict[str, str]:
-    """What the records a design was made of are called, or ordered by where the catalogue says it.
+    """Return what the records a design was made of are called, or ordered by where the catalogue says it.
 
     A record that is not here has its name only.
     """
@@ -143,7 +143,7 @@ def _titles(design: Design) -> dict[str, str]:
 
 
 def _ordered_by(record: Record, design: Design, row: str) -> str:
-    """The designation of a standard part, its length filled in; else the record's title."""
+    """Return the designation of a standard part, its length filled in; else the record's title."""
     if record.category == "thermal_fuses":
         return fuse_in_words(record, design)
     length = design.values.get(f"{row}_length")
@@ -160,7 +160,7 @@ def _hand_out(result: Result, out: Path) -> None:
 
 
 def main(arguments: list[str], job: Callable[[Path, Path, float, TextIO], None] = run) -> int:
-    """Run a job, which makes all parts unless told; returns the exit code. An error is a line of JSON too.
+    """Run a job, by default that of all parts; return the exit code. An error is a line of JSON too.
 
     Told to wait, it loads the CAD kernel, and reads a line of JSON with the other arguments from standard input.
     """

@@ -25,7 +25,7 @@ _MM, _MM3, _MM5 = 1e-3, 1e-9, 1e-15
 
 @dataclass(frozen=True)
 class MassProperties:
-    """What a rigid body weighs, in the module's coordinates."""
+    """Mass properties of a rigid body in the module's coordinates."""
 
     mass: float
     """[kg]."""
@@ -35,12 +35,12 @@ class MassProperties:
     """Tensor of inertia about the centre of mass [kg*m^2], 3 x 3; off the diagonal it is -integral of x y dm."""
 
     def plain(self) -> dict[str, object]:
-        """All of it, for a JSON file."""
+        """Return all of it, for a JSON file."""
         return {"mass": self.mass, "centre": self.centre.tolist(), "inertia": self.inertia.tolist()}
 
 
 def of_solid(solid: cq.Solid, density: float) -> MassProperties:
-    """Mass properties of a solid drawn in mm, of a density [kg/m^3]; the kernel integrates over its faces."""
+    """Return mass properties of a solid drawn in mm, of a density [kg/m^3]; the kernel integrates over its faces."""
     properties = GProp_GProps()
     BRepGProp.VolumeProperties_s(solid.wrapped, properties)
     centre, tensor = properties.CentreOfMass(), properties.MatrixOfInertia()
@@ -53,7 +53,7 @@ def of_solid(solid: cq.Solid, density: float) -> MassProperties:
 
 
 def together(bodies: Iterable[MassProperties]) -> MassProperties:
-    """Several bodies as one: I = sum of I_i + m_i (r^2 1 - r r^T), r from the common centre (parallel axes)."""
+    """Return several bodies as one: I = sum of I_i + m_i (r^2 1 - r r^T), r from the common centre (parallel axes)."""
     parts = list(bodies)
     mass = sum(part.mass for part in parts)
     centre = np.asarray(sum(part.mass * part.centre for part in parts)) / mass
@@ -73,7 +73,7 @@ AROUND = 6
 
 
 def coarse_meshes(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> dict[str, Mesh]:
-    """A coarse mesh of each kind of part, in its own coordinates [mm]."""
+    """Return a coarse mesh of each kind of part, in its own coordinates [mm]."""
     coils = installed_coils(dims)
     meshes = {kind: solid_mesh(solid, CHORD, TURN) for kind, solid in drawn.items()}
     meshes["spring_right"] = spring_mesh(coils["spring_right"], AROUND)
@@ -82,7 +82,7 @@ def coarse_meshes(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> dict[str, 
 
 
 def body_stl(meshes: Mapping[str, Mesh], placed: Mapping[str, cq.Solid], names: Sequence[str]) -> bytes:
-    """The named parts where they stand as one binary STL in metres."""
+    """Return the named parts where they stand as one binary STL in metres."""
     parts = [Instance(meshes[kind_of(name)], placement(placed[name].location())) for name in names]
     first = np.cumsum([0] + [len(part.mesh.vertices) for part in parts])
     faces = np.concatenate([part.mesh.faces + start for part, start in zip(parts, first, strict=False)])

@@ -37,7 +37,7 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Job:
-    """What a piece of work has before it."""
+    """Input of a piece of work."""
 
     design: Design
     dims: Dimensions
@@ -51,7 +51,7 @@ class Job:
 
 
 class Turn(IntEnum):
-    """When a piece of work is begun, of those that need nothing that is not there."""
+    """Order in which pieces of work are started, of those that need nothing that is not there."""
 
     FIRST = 0
     SECOND = 1
@@ -75,13 +75,13 @@ class Work:
 
 @dataclass
 class Done:
-    """What came of all pieces of work."""
+    """Results and failures of all pieces of work."""
 
     results: dict[str, Result] = field(default_factory=dict)
     failed: dict[str, str] = field(default_factory=dict)
     """Why, for each piece of work that came to nothing; it names the work."""
     lost: list[str] = field(default_factory=list)
-    """Work that was not begun because what it needs failed."""
+    """Work that was not started because what it needs failed."""
     reused: list[str] = field(default_factory=list)
 
 
@@ -119,7 +119,7 @@ class WorkerPool:
     ) -> None:
         """`hands` is how many pieces of work are in progress at once; as many as there are cores, at most four.
 
-        `made` is told every result as soon as it is there.
+        `made` gets every result as soon as it is there.
         """
         self._made = made
         self._subject, self._store, self._progress = subject, store, progress
@@ -173,7 +173,7 @@ class WorkerPool:
         return left
 
     def _tell(self) -> None:
-        """Tell of the results that are new."""
+        """Pass on the results that are new."""
         for result in self._untold:
             self._made(result)
         self._untold = []

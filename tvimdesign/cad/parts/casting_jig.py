@@ -34,26 +34,26 @@ MAKING: Mapping[str, Production] = {
 
 
 def part_of(kinds: tuple[str, ...]) -> str:
-    """The kind of part that is cast, of those a module has."""
+    """Return the kind of part that is cast, of those a module has."""
     return next(kind for kind in kinds if kind.startswith("pcl_"))
 
 
 def levels(dims: Dimensions) -> tuple[float, float]:
-    """Lower and upper face of the part in the module, its keys left out [mm]."""
+    """Return lower and upper face of the part in the module, its keys left out [mm]."""
     if dims.mode == "shear":
         return 0.0, dims.pcl_thickness
     return dims.running_clearance, dims.vane_height
 
 
 def mould(dims: Dimensions, part: cq.Solid) -> cq.Shape:
-    """Lower piece: a plate with the dam around the part, and two guide pins."""
+    """Draw lower piece: a plate with the dam around the part, and two guide pins."""
     bottom, top = levels(dims)
     pins = [cylinder(radius, bottom, top + PLATE, at) for radius, at in _pins(dims, part)]
     return join(_plate(dims, part, bottom - PLATE, bottom), [dam(dims, part), *pins]).cut(part)
 
 
 def lid(dims: Dimensions, part: cq.Solid) -> cq.Shape:
-    """Upper piece: a plate with pockets for the part's keys, and holes that slip over the pins."""
+    """Draw upper piece: a plate with pockets for the part's keys, and holes that slip over the pins."""
     _, top = levels(dims)
     upper = max(tight_box(part).zmax, top) + PLATE
     holes = [cylinder(radius + dims.slip_clearance, top, upper, at) for radius, at in _pins(dims, part)]
@@ -64,7 +64,7 @@ DRAWN = {"casting_mould": mould, "casting_lid": lid}
 
 
 def dam(dims: Dimensions, part: cq.Solid) -> cq.Solid:
-    """The dam and all inside it: the layer's outline, wider by the land, as high as the layer."""
+    """Draw the dam and all inside it: the layer's outline, wider by the land, as high as the layer."""
     bottom, top = levels(dims)
     floor = next(face for face in part.Faces() if face.geomType() == "PLANE" and face.normalAt().z < -0.5)
     outlines = floor.outerWire().offset2D(LAND, "arc")
@@ -74,14 +74,14 @@ def dam(dims: Dimensions, part: cq.Solid) -> cq.Solid:
 
 
 def _pins(dims: Dimensions, part: cq.Solid) -> list[tuple[float, tuple[float, float]]]:
-    """Radius and place of the guide pins: on the x axis, before and behind the dam."""
+    """Return radius and place of the guide pins: on the x axis, before and behind the dam."""
     box = dam(dims, part).BoundingBox()
     inner, outer = PINS
     return [(inner, (box.xmin - WALL - inner, 0.0)), (outer, (box.xmax + WALL + outer, 0.0))]
 
 
 def _plate(dims: Dimensions, part: cq.Solid, bottom: float, top: float) -> cq.Solid:
-    """A plate under, or over, dam and pins between two levels."""
+    """Draw a plate under, or over, dam and pins between two levels."""
     box = dam(dims, part).BoundingBox()
     (first, (start, _)), (last, (end, _)) = _pins(dims, part)
     low, high = start - first - WALL, end + last + WALL

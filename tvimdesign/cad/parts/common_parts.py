@@ -28,12 +28,12 @@ _LINK_SCREW_AZIMUTHS = tuple(0.25 * pi + 0.5 * pi * index for index in range(4))
 
 
 def hand_of(index: int) -> str:
-    """Hand of a spring by its place around the module: right, left, right ..."""
+    """Return the hand of a spring by its place around the module: right, left, right ..."""
     return "right" if index % 2 == 0 else "left"
 
 
 def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
-    """Where the springs' tangs enter the floor, in the order of the springs."""
+    """Return where the springs' tangs enter the floor, in the order of the springs."""
     x, y = installed_coil(dims).tang_position
     radius = hypot(dims.placement_radius + x, y)
     beside = atan2(y, dims.placement_radius + x)
@@ -44,7 +44,7 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
 
 
 def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
-    """Floor, hub, wall, skirt, spring posts, bosses for a cover, feet, a torque sensor's flange and what the mode adds.
+    """Draw floor, hub, wall, skirt, spring posts, cover bosses, feet, a torque sensor's flange and what the mode adds.
 
     Less bore, the mode's openings, tang and screw holes, and notches.
     """
@@ -62,7 +62,7 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
 
 
 def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
-    """The ring under the floor that bears a torque sensor, and its holes; nothing where there is none."""
+    """Draw the ring under the floor that bears a torque sensor, and its holes; nothing where there is none."""
     if not dims.flange_outer_radius:
         return [], []
     floor_bottom = -dims.floor_thickness
@@ -72,7 +72,7 @@ def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
 
 
 def sensor_holes(dims: Dimensions, ground: float) -> list[cq.Shape]:
-    """Holes for a torque sensor's screws and pin, upwards from the face it is screwed to."""
+    """Draw holes for a torque sensor's screws and pin, upwards from the face it is screwed to."""
     pitch = 2.0 * pi / dims.count("sensor_screw_count")
     azimuths = [dims.flange_azimuth + index * pitch for index in range(dims.count("sensor_screw_count"))]
     point = dims.drill_point_ratio
@@ -86,7 +86,7 @@ def sensor_holes(dims: Dimensions, ground: float) -> list[cq.Shape]:
 
 
 def spring_places(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
-    """What stands on the floor for the springs, and what is cut from it: posts and tang holes, or pockets."""
+    """Draw what stands on the floor for the springs, and what is cut from it: posts and tang holes, or pockets."""
     floor_bottom = -dims.floor_thickness
     axes = spring_axes(dims)
     if not dims.adjuster_radius:
@@ -108,12 +108,12 @@ _MARK = pi / 3.0
 
 
 def scale_dot(dims: Dimensions, at: tuple[float, float]) -> list[cq.Shape]:
-    """A dot of an adjuster's scale, or its mark, in faces that are level with the floor's upper one."""
+    """Draw a dot of an adjuster's scale, or its mark, in faces that are level with the floor's upper one."""
     return [*blind_hole(dims.scale_dot_diameter, 0.0, -dims.scale_dot_depth, dims.drill_point_ratio, at)]
 
 
 def bores(dims: Dimensions) -> list[cq.Shape]:
-    """What is cut from the hub: a plain bore, or a lip's bore with a seat for a bearing at either end.
+    """Draw what is cut from the hub: a plain bore, or a lip's bore with a seat for a bearing at either end.
 
     A hub that ends below the floor's upper face, to make room for a wave spring, leaves a recess there.
     """
@@ -127,23 +127,23 @@ def bores(dims: Dimensions) -> list[cq.Shape]:
 
 
 def spring_axes(dims: Dimensions) -> list[tuple[float, float]]:
-    """Axes of the springs, in their order."""
+    """Return the axes of the springs, in their order."""
     return [polar(dims.placement_radius, azimuth) for azimuth in dims.azimuths("spring_count")]
 
 
 def mounts(dims: Dimensions) -> list[tuple[float, float]]:
-    """Axes of the screws that fix the housing: midway between the springs."""
+    """Return the axes of the screws that fix the housing: midway between the springs."""
     return between_springs(dims, dims.placement_radius)
 
 
 def between_springs(dims: Dimensions, radius: float) -> list[tuple[float, float]]:
-    """Places midway between the springs at a radius."""
+    """Return places midway between the springs at a radius."""
     half_pitch = pi / dims.count("spring_count")
     return [polar(radius, azimuth + half_pitch) for azimuth in dims.azimuths("spring_count")]
 
 
 def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shape], list[cq.Shape]]:
-    """Skirt and wall, with bosses where there is a cover, and the holes for its screws."""
+    """Draw skirt and wall, with bosses where there is a cover, and the holes for its screws."""
     inner, outer, rim = dims.housing_inner_radius, dims.housing_outer_radius, dims.rim_level
     if not dims.cover_height:
         return [ring(inner, outer, ground, rim)], []
@@ -157,7 +157,7 @@ def walls_and_cover_holes(dims: Dimensions, ground: float) -> tuple[list[cq.Shap
 
 
 def notches(dims: Dimensions) -> list[cq.Shape]:
-    """What is cut from the skirt outside each spring: air for the pads' cold sides, and a way for their wires."""
+    """Draw what is cut from the skirt outside each spring: air for the pads' cold sides, and a way for their wires."""
     width, floor_bottom = dims.notch_width, -dims.floor_thickness
     inside = sqrt(dims.housing_inner_radius**2 - (0.5 * width) ** 2)
     opening = block((inside, dims.housing_outer_radius + 1.0), width, floor_bottom - dims.foot_height, floor_bottom)
@@ -165,7 +165,7 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
 
 
 def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:
-    """Plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds.
+    """Draw plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds.
 
     Less the holes for screws and dowel pins and the mode's openings.
     """
@@ -193,7 +193,7 @@ def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Itera
 
 
 def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
-    """The core's holes for the screws of retainer and link."""
+    """Draw the core's holes for the screws of retainer and link."""
     top, bottom, point = dims.link_bottom_level, dims.core_bottom_level, dims.drill_point_ratio
     found = blind_hole(dims.retainer_screw_hole, bottom, bottom + dims.retainer_screw_depth, point)
     for at in link_screws(dims):
@@ -202,7 +202,8 @@ def _screw_holes(dims: Dimensions) -> list[cq.Shape]:
 
 
 def link(dims: Dimensions) -> cq.Shape:
-    """Output link: an obround from the core to the housing's edge, with its holes for screws, dowel pins and a tool."""
+    """Draw output link: an obround from the core to the housing's edge, with its holes for screws, dowel pins and a
+    tool."""
     bottom, top = dims.link_bottom_level, dims.link_bottom_level + dims.link_thickness
     holes = [cylinder(0.5 * dims.link_screw_clearance, bottom, top, at) for at in link_screws(dims)]
     holes += [cylinder(0.5 * dims.link_dowel_diameter, bottom, top, at) for at in link_dowels(dims)]
@@ -211,13 +212,13 @@ def link(dims: Dimensions) -> cq.Shape:
 
 
 def retainer(dims: Dimensions) -> cq.Shape:
-    """Disc below the floor, screwed to the core, that keeps the rotor in the housing."""
+    """Draw the disc below the floor, screwed to the core, that keeps the rotor in the housing."""
     top = dims.retainer_top_level
     return ring(0.5 * dims.retainer_screw_clearance, dims.retainer_radius, top - dims.retainer_thickness, top)
 
 
 def link_screws(dims: Dimensions) -> list[tuple[float, float]]:
-    """Axes of the four screws that hold the link on the core."""
+    """Return the axes of the four screws that hold the link on the core."""
     return [polar(dims.link_bolt_circle_radius, azimuth) for azimuth in _LINK_SCREW_AZIMUTHS]
 
 

@@ -20,7 +20,7 @@ _SIDES = (1.0, -1.0)
 
 
 def housing(dims: Dimensions) -> cq.Shape:
-    """Housing with its vanes, which have pockets for two pads and a slot between these, down through the floor."""
+    """Draw housing with its vanes, which have pockets for two pads and a slot between these, down through the floor."""
     vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.housing_vane_angle, 0, dims.vane_height)
     # The pads drop in from above: their pockets are open there, and at both ends.
     end = dims.pad_depth
@@ -32,7 +32,7 @@ def housing(dims: Dimensions) -> cq.Shape:
 
 
 def _slots(dims: Dimensions) -> list[cq.Shape]:
-    """The slots of a housing vane, as a cutter comes by from below; beside the pads they open into their pockets."""
+    """Draw slots of a housing vane, as a cutter comes by from below; beside the pads they open into their pockets."""
     bottom, top = -dims.floor_thickness, dims.slot_top_level
     if dims.spreader_depth:
         return heater_parts.tile_slots(dims)
@@ -41,7 +41,7 @@ def _slots(dims: Dimensions) -> list[cq.Shape]:
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
-    """Rotor with vanes that hang from its plate to a running clearance above the floor."""
+    """Draw the rotor with vanes that hang from its plate to a running clearance above the floor."""
     top = dims.rotor_bottom_level
     vane = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.rotor_vane_angle, top - dims.vane_height, top)
     recesses = heater_parts.recesses_in_vane(dims)
@@ -50,9 +50,9 @@ def rotor(dims: Dimensions) -> cq.Shape:
 
 
 def pcl_block(dims: Dimensions, squeeze: float = 0.0) -> cq.Shape:
-    """One block between two vanes, centred on the x axis, squeezed by an angle [rad].
+    """Draw one block between two vanes, centred on the x axis, squeezed by an angle [rad].
 
-    Squeezed, it is drawn as what the vanes leave of its place. What gives way to its sides is not drawn: the row
+    Squeezed, it is drawn as what the vanes leave of its place. What bulges at its sides is not drawn: the row
     `squeezed_block_gap` says what room it has.
     """
     if not squeeze < dims.block_angle:
@@ -62,7 +62,7 @@ def pcl_block(dims: Dimensions, squeeze: float = 0.0) -> cq.Shape:
 
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """One Peltier module, upright along the x axis: a flat pad, or a tile whose middle is on the axis."""
+    """Draw one Peltier module, upright along the x axis: a flat pad, or a tile whose middle is on the axis."""
     if dims.spreader_depth:
         return heater_parts.vane_tile(dims)
     along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
@@ -106,19 +106,19 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
 
 
 def _housing_vanes(dims: Dimensions) -> list[float]:
-    """Azimuths of the housing's vanes [rad], half a pitch beyond the rotor's."""
+    """Return the azimuths of the housing's vanes [rad], half a pitch beyond the rotor's."""
     return [azimuth + pi / dims.count("vane_count") for azimuth in dims.azimuths("vane_count")]
 
 
 def _first_face(dims: Dimensions) -> float:
-    """Azimuth of the face [rad] in which the first pad stands."""
+    """Return the azimuth of the face [rad] in which the first pad stands."""
     return _housing_vanes(dims)[0] + 0.5 * dims.housing_vane_angle
 
 
 def _heaters(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], face: int, azimuth: float, side: float
 ) -> dict[str, cq.Shape]:
-    """What stands in one face of a housing vane, faces counted around the axis: a pad, or spreader and tiles."""
+    """Draw what stands in one face of a housing vane, faces counted around the axis: a pad, or spreader and tiles."""
     if not dims.spreader_depth:
         at, beside = _behind_face(dims, side, dims.peltier_thickness)
         return {f"peltier_pad_{face + 1}": turned(drawn["peltier_pad"], azimuth + at, beside)}
@@ -133,7 +133,7 @@ def _heaters(
 
 
 def _behind_face(dims: Dimensions, side: float, thickness: float, before: float = 0.0) -> tuple[float, float]:
-    """Azimuth of a face of a housing vane, and how far beside it the middle of a plate is that lies behind it.
+    """Return azimuth of a face of a housing vane, and how far beside it the middle of a plate is that lies behind it.
 
     `before` is the thickness of what lies between the two.
     """
@@ -141,7 +141,8 @@ def _behind_face(dims: Dimensions, side: float, thickness: float, before: float 
 
 
 def _beside_faces(dims: Dimensions, thickness: float, more: float, levels: tuple[float, float]) -> list[cq.Shape]:
-    """Plates behind both faces of a housing vane on the x axis, longer than it at either end, between two levels."""
+    """Draw plates behind both faces of a housing vane on the x axis, longer than it at either end, between two
+    levels."""
     longer = (dims.pcl_inner_radius - more, dims.pcl_outer_radius + more)
     plate = block(longer, thickness, *levels)
     return [turned(plate, *_behind_face(dims, side, thickness)) for side in _SIDES]

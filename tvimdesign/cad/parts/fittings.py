@@ -15,31 +15,31 @@ from tvimdesign.device.components.preload_adjuster import FIRST_DOT, LAST_DOT
 
 
 def bearing_inner(dims: Dimensions) -> cq.Shape:
-    """What turns of the upper bearing."""
+    """Draw what turns of the upper bearing."""
     top = dims.hub_top_level
     return ring(dims.bearing_bore_radius, _middle(dims), top - dims.bearing_width, top)
 
 
 def bearing_outer(dims: Dimensions) -> cq.Shape:
-    """What stands of the upper bearing."""
+    """Draw what stands of the upper bearing."""
     top = dims.hub_top_level
     return ring(_middle(dims), dims.bearing_outer_radius, top - dims.bearing_width, top)
 
 
 def preload_spring(dims: Dimensions) -> cq.Shape:
-    """The wave spring at its working height, as a plain ring."""
+    """Draw the wave spring at its working height, as a plain ring."""
     top = dims.preload_spring_level
     inner, outer = dims.preload_inner_radius, dims.preload_outer_radius
     return ring(inner, outer, top - dims.preload_height, top)
 
 
 def _middle(dims: Dimensions) -> float:
-    """Radius at which a bearing is divided into what turns and what stands."""
+    """Return the radius at which a bearing is divided into what turns and what stands."""
     return 0.5 * (dims.bearing_bore_radius + dims.bearing_outer_radius)
 
 
 def adjuster(dims: Dimensions) -> cq.Shape:
-    """The adjuster of a right-hand spring about its axis: flange, post, the tang's hole, the screw's and the slot."""
+    """Draw adjuster of a right-hand spring about its axis: flange, post, the tang's hole, the screw's and the slot."""
     bottom, top = -dims.adjuster_thickness, dims.post_height
     body = join(cylinder(dims.adjuster_radius, bottom, 0), [cylinder(dims.post_radius, bottom, top)])
     tang = cylinder(0.5 * dims.wire_diameter + dims.tang_clearance, bottom, 0, installed_coil(dims).tang_position)
@@ -50,7 +50,7 @@ def adjuster(dims: Dimensions) -> cq.Shape:
 
 
 def _scale(dims: Dimensions) -> list[cq.Shape]:
-    """The dots of a flange, from its tang on around the axis."""
+    """Draw the dots of a flange, from its tang on around the axis."""
     tang = atan2(*reversed(installed_coil(dims).tang_position))
     places = [
         polar(dims.scale_circle_radius, tang + index * dims.scale_division) for index in range(FIRST_DOT, LAST_DOT + 1)
@@ -59,7 +59,7 @@ def _scale(dims: Dimensions) -> list[cq.Shape]:
 
 
 def cover(dims: Dimensions) -> cq.Shape:
-    """Ring around the core with every hole that the device's `cover_hole_circles` lists."""
+    """Draw the ring around the core with every hole that the device's `cover_hole_circles` lists."""
     bottom, top = dims.rim_level, dims.rim_level + dims.cover_height
     holes = [cylinder(radius, bottom, top, at) for radius, places in dims.holes("cover_hole_circles") for at in places]
     return ring(dims.cover_hole_radius, dims.housing_outer_radius, bottom, top).cut(*holes)

@@ -1,4 +1,4 @@
-"""What belongs to the heaters: rectangular Peltier modules with spreaders, liners, thermistor, thermal cut-out.
+"""Parts of the heaters: rectangular Peltier modules with spreaders, liners, thermistor, thermal cut-out.
 
 Parts of the shear module are centred on the x axis, as an arc is; those in vanes stand along it.
 """
@@ -32,26 +32,26 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
 
 
 def arc_tile(dims: Dimensions) -> cq.Shape:
-    """One tile on the x axis, its length across that."""
+    """Draw one tile on the x axis, its length across that."""
     half = 0.5 * dims.peltier_width
     along_x = (dims.tile_radius - half, dims.tile_radius + half)
     return block(along_x, dims.peltier_length, -dims.pad_depth, -dims.spreader_depth)
 
 
 def arc_spreader(dims: Dimensions) -> cq.Shape:
-    """One spreader on the tiles of an arc, centred on the x axis, flush with the floor."""
+    """Draw one spreader on the tiles of an arc, centred on the x axis, flush with the floor."""
     sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.spreader_depth, 0)
     return rounded(sharp, dims.corner_radius)
 
 
 def tile_azimuths(dims: Dimensions) -> list[float]:
-    """Azimuths [rad] of an arc's tiles from its middle."""
+    """Return azimuths [rad] of an arc's tiles from its middle."""
     count = dims.count("tiles_per_arc")
     return [dims.tile_pitch * (index - 0.5 * (count - 1)) for index in range(count)]
 
 
 def tile_openings(dims: Dimensions) -> list[cq.Shape]:
-    """What goes through the floor below the pocket of one arc: a window below each tile, holes for leads."""
+    """Draw what goes through the floor below the pocket of one arc: a window below each tile, holes for leads."""
     top, bottom = -dims.pad_depth, -dims.floor_thickness
     half = 0.5 * dims.peltier_width - dims.window_ledge
     along_x = (dims.tile_radius - half, dims.tile_radius + half)
@@ -62,32 +62,32 @@ def tile_openings(dims: Dimensions) -> list[cq.Shape]:
 
 
 def vane_tile(dims: Dimensions) -> cq.Shape:
-    """One tile, upright, its middle on the axis and its length along x."""
+    """Draw one tile, upright, its middle on the axis and its length along x."""
     half, bottom = 0.5 * dims.peltier_length, dims.running_clearance
     return block((-half, half), dims.peltier_thickness, bottom, bottom + dims.peltier_width)
 
 
 def vane_spreader(dims: Dimensions) -> cq.Shape:
-    """One spreader, upright along the x axis: the face of a block."""
+    """Draw one spreader, upright along the x axis: the face of a block."""
     along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
     return block(along, dims.spreader_depth, dims.running_clearance, dims.vane_height)
 
 
 def tile_row(dims: Dimensions) -> list[float]:
-    """Distances of a row's tiles from the axis, along the face of their vane."""
+    """Return the distances of a row's tiles from the axis, along the face of their vane."""
     count = dims.count("tiles_per_block")
     return [dims.pcl_inner_radius + dims.tile_spacing * (index + 0.5) for index in range(count)]
 
 
 def tile_slots(dims: Dimensions) -> list[cq.Shape]:
-    """The slots of a vane on the x axis, one behind each tile: wider below the tiles, by their rounded corners."""
+    """Draw the slots of a vane on the x axis, one behind each tile: wider below the tiles, by their rounded corners."""
     bottom, seat, top = -dims.floor_thickness, dims.running_clearance, dims.slot_top_level
     feet = [rounded(foot, dims.corner_radius) for foot in _wedges(dims, dims.pad_seat, bottom, seat)]
     return [foot.fuse(upper) for foot, upper in zip(feet, _wedges(dims, dims.pad_depth, seat, top), strict=True)]
 
 
 def _wedges(dims: Dimensions, inset: float, bottom: float, top: float) -> list[cq.Solid]:
-    """What a vane has not got behind its tiles between two levels, so far behind its faces."""
+    """Draw what a vane has not got behind its tiles between two levels, so far behind its faces."""
     count, half = dims.count("tiles_per_block"), 0.5 * dims.slot_width
     middles = [dims.tile_slot_radius + dims.tile_slot_pitch * (index - 0.5 * (count - 1)) for index in range(count)]
     return [wedge((at - half, at + half), dims.housing_vane_angle, inset, bottom, top) for at in middles]
@@ -97,33 +97,34 @@ def _wedges(dims: Dimensions, inset: float, bottom: float, top: float) -> list[c
 
 
 def _liner_on_arc(dims: Dimensions) -> cq.Shape:
-    """The liner above an arc that is centred on the x axis, flush with the rotor plate: it goes in between the lips."""
+    """Draw the liner above an arc that is centred on the x axis, flush with the rotor plate: it goes in between the
+    lips."""
     slip = dims.slip_clearance
     radii = (dims.pcl_inner_radius + slip, dims.pcl_outer_radius - slip)
     return _over_arc(dims, radii, dims.liner_span, dims.liner_thickness)
 
 
 def recesses_over_arc(dims: Dimensions) -> list[cq.Shape]:
-    """What the rotor plate lacks above such an arc; nothing without a liner."""
+    """Draw what the rotor plate lacks above such an arc; nothing without a liner."""
     if not dims.liner_depth:
         return []
     return [_over_arc(dims, (dims.pcl_inner_radius, dims.pcl_outer_radius), dims.arc_span, dims.liner_depth)]
 
 
 def _over_arc(dims: Dimensions, radii: tuple[float, float], span: float, depth: float) -> cq.Shape:
-    """A sector between two radii with the corners of a pad, so deep into the rotor plate."""
+    """Draw a sector between two radii with the corners of a pad, so deep into the rotor plate."""
     levels = (dims.rotor_bottom_level, dims.rotor_bottom_level + depth)
     return rounded(sector(*radii, span, *levels), dims.corner_radius)
 
 
 def _liner_on_vane(dims: Dimensions) -> cq.Shape:
-    """One liner, upright along the x axis: the face of a block."""
+    """Draw one liner, upright along the x axis: the face of a block."""
     along = (dims.pcl_inner_radius, dims.pcl_outer_radius)
     return block(along, dims.liner_thickness, dims.running_clearance, dims.running_clearance + dims.block_height)
 
 
 def recesses_in_vane(dims: Dimensions) -> list[cq.Shape]:
-    """What both faces of a rotor vane on the x axis lack, open below and at both ends; nothing without liners."""
+    """Draw what both faces of a rotor vane on the x axis lack, open below and at both ends; nothing without liners."""
     if not dims.liner_depth:
         return []
     more, top = dims.liner_depth, dims.running_clearance + dims.block_height
@@ -133,13 +134,13 @@ def recesses_in_vane(dims: Dimensions) -> list[cq.Shape]:
 
 
 def liners_on_vane(dims: Dimensions, liner: cq.Solid, azimuth: float) -> list[cq.Shape]:
-    """The two liners of a rotor vane at an azimuth [rad], flush with its faces."""
+    """Draw the two liners of a rotor vane at an azimuth [rad], flush with its faces."""
     places = [_behind_rotor_face(dims, side, dims.liner_thickness) for side in _SIDES]
     return [turned(liner, azimuth + at, beside) for at, beside in places]
 
 
 def _behind_rotor_face(dims: Dimensions, side: float, thickness: float) -> tuple[float, float]:
-    """Azimuth of a face of a rotor vane, and how far beside it the middle of a sheet behind it lies."""
+    """Return the azimuth of a face of a rotor vane, and how far beside it the middle of a sheet behind it lies."""
     return side * 0.5 * dims.rotor_vane_angle, -side * 0.5 * thickness
 
 
@@ -147,7 +148,7 @@ def _behind_rotor_face(dims: Dimensions, side: float, thickness: float) -> tuple
 
 
 def bead_by_arc(dims: Dimensions) -> cq.Shape:
-    """One bead of an arc that is centred on the x axis: beside the end of its pad, or below its spreader."""
+    """Draw one bead of an arc that is centred on the x axis: beside the end of its pad, or below its spreader."""
     radius, top = 0.5 * dims.thermistor_diameter, -dims.spreader_depth
     ends = (top - dims.thermistor_length, top)
     if dims.spreader_depth:
@@ -158,7 +159,7 @@ def bead_by_arc(dims: Dimensions) -> cq.Shape:
 
 
 def bead_seats(dims: Dimensions) -> list[cq.Shape]:
-    """The hole through the floor at the end of such an arc; none without a thermistor, and none below tiles."""
+    """Draw the hole through the floor at the end of such an arc; none without a thermistor, and none below tiles."""
     if not dims.thermistor_seat_diameter:
         return []
     at = polar(dims.thermistor_seat_radius, 0.5 * dims.pocket_span)
@@ -166,13 +167,13 @@ def bead_seats(dims: Dimensions) -> list[cq.Shape]:
 
 
 def bead_by_vane(dims: Dimensions) -> cq.Shape:
-    """The bead at the outer end of what stands behind a vane's face that is the x axis, the vane below that."""
+    """Draw the bead at the outer end of what stands behind a vane's face that is the x axis, the vane below that."""
     bottom = dims.running_clearance
     return cylinder(0.5 * dims.thermistor_diameter, bottom, bottom + dims.thermistor_length, _bead_place(dims))
 
 
 def bead_hole(dims: Dimensions) -> list[cq.Shape]:
-    """The hole below such a bead, through the floor and the sill of the vane; none without."""
+    """Draw the hole below such a bead, through the floor and the sill of the vane; none without."""
     if not dims.thermistor_diameter:
         return []
     ends = (-dims.floor_thickness, dims.running_clearance)
@@ -188,7 +189,7 @@ def _bead_place(dims: Dimensions) -> tuple[float, float]:
 
 
 def cutout(dims: Dimensions) -> cq.Shape:
-    """The body, below what is centred on the x axis and across it."""
+    """Draw the body, below what is centred on the x axis and across it."""
     radius, length = 0.5 * dims.cutout_diameter, dims.cutout_length
     under = -dims.pad_depth if fits_in_window(dims) else -dims.floor_thickness
     lying = cq.Location(cq.Vector(dims.cutout_radius, -0.5 * length, under - radius), cq.Vector(1, 0, 0), -90)
@@ -196,7 +197,7 @@ def cutout(dims: Dimensions) -> cq.Shape:
 
 
 def fits_in_window(dims: Dimensions) -> bool:
-    """Whether body and a running clearance around it go into the window below the first heater."""
+    """Return whether body and a running clearance around it go into the window below the first heater."""
     if dims.mode != "shear":
         return False
     half, across = (

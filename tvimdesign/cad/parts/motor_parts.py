@@ -16,7 +16,10 @@ Draw = Callable[[Dimensions], cq.Shape]
 
 
 def hub(dims: Dimensions) -> cq.Shape:
-    """Disc with a spoke to each of the housing's feet, barrel for the rotor, collar and journal; less screw holes."""
+    """Draw the disc with a spoke to each of the housing's feet, barrel for the rotor, collar and journal.
+
+    Less screw holes.
+    """
     bottom = dims.motor_plate_level
     top = bottom + dims.motor_plate_thickness
     half_pitch = pi / dims.count("spring_count")
@@ -36,7 +39,7 @@ def hub(dims: Dimensions) -> cq.Shape:
 
 
 def housing(dims: Dimensions) -> cq.Shape:
-    """Base, wall around the stator, tube for two bearings; less bore and seats, screw holes and ways for wires."""
+    """Draw base, wall around the stator, tube for two bearings; less bore and seats, screw holes and ways for wires."""
     bottom, category, top = dims.motor_bottom_level, dims.stator_bottom_level, dims.stator_top_level
     base = cylinder(dims.motor_outer_radius, bottom, category)
     wall = ring(dims.stator_seat_radius, dims.motor_outer_radius, category, top)
@@ -59,7 +62,7 @@ def housing(dims: Dimensions) -> cq.Shape:
 
 
 def base_holes(dims: Dimensions) -> list[cq.Shape]:
-    """What fixes the base from below: four holes, or a torque sensor's pattern with the recess for its spigot."""
+    """Draw what fixes the base from below: four holes, or a torque sensor's pattern with the recess for its spigot."""
     bottom = dims.motor_bottom_level
     if dims.sensor_recess_depth:
         recess = cylinder(dims.flange_bore_radius, bottom, bottom + dims.sensor_recess_depth)
@@ -74,7 +77,8 @@ def base_holes(dims: Dimensions) -> list[cq.Shape]:
 
 
 def retainer(dims: Dimensions) -> cq.Shape:
-    """Disc that presses on the lower inner ring, with a counterbore for its screw's head and the magnet below it."""
+    """Draw the disc that presses on the lower inner ring, with a counterbore for its screw's head and the magnet below
+    it."""
     top = dims.motor_retainer_level
     bottom, floor = top - dims.motor_retainer_thickness, top - dims.motor_retainer_floor
     return cylinder(dims.motor_collar_radius, bottom, top).cut(
@@ -83,30 +87,30 @@ def retainer(dims: Dimensions) -> cq.Shape:
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
-    """The motor's rotor as a ring."""
+    """Draw the motor's rotor as a ring."""
     bottom = dims.motor_rotor_bottom_level
     return ring(dims.motor_rotor_bore_radius, dims.motor_rotor_radius, bottom, bottom + dims.motor_rotor_length)
 
 
 def stator(dims: Dimensions) -> cq.Shape:
-    """The motor's stator with its windings as a ring."""
+    """Draw the motor's stator with its windings as a ring."""
     return ring(dims.stator_bore_radius, dims.stator_radius, dims.stator_bottom_level, dims.stator_top_level)
 
 
 def bearing(dims: Dimensions) -> cq.Shape:
-    """The upper one of the motor's bearings."""
+    """Draw the upper one of the motor's bearings."""
     top = dims.stator_top_level
     return ring(dims.motor_bearing_bore_radius, dims.motor_bearing_radius, top - dims.motor_bearing_width, top)
 
 
 def magnet(dims: Dimensions) -> cq.Shape:
-    """The encoder's magnet, flush with the retainer below."""
+    """Draw the encoder's magnet, flush with the retainer below."""
     bottom = dims.motor_retainer_level - dims.motor_retainer_thickness
     return cylinder(dims.encoder_magnet_radius, bottom, bottom + dims.encoder_magnet_height)
 
 
 def board(dims: Dimensions) -> cq.Shape:
-    """The encoder's board with its chip as a disc, flush with the base below, or over a torque sensor's spigot."""
+    """Draw the encoder's board with its chip as a disc, flush with the base below, or over a torque sensor's spigot."""
     bottom = dims.encoder_board_level
     return cylinder(dims.encoder_board_radius, bottom, bottom + dims.encoder_board_height)
 
@@ -119,7 +123,7 @@ _ENCODER: dict[str, Draw] = {"encoder_magnet": magnet, "encoder_board": board}
 
 
 def drawn(dims: Dimensions) -> dict[str, Draw]:
-    """How one of each kind is drawn, of what this module has."""
+    """Return how one of each kind is drawn, of what this module has."""
     if not dims.drive_height:
         return {}
     return {**_MOTOR, **(_ENCODER if dims.encoder_recess_radius else {})}

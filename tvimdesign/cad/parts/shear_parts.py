@@ -14,7 +14,7 @@ from tvimdesign.cad.parts.common_parts import bare_housing, bare_rotor, link, re
 
 
 def housing(dims: Dimensions) -> cq.Shape:
-    """Housing with pockets for the pads and windows below them."""
+    """Draw the housing with pockets for the pads and windows below them."""
     through = heater_parts.tile_openings(dims) if dims.spreader_depth else [_window(dims)]
     openings = [turned(shape, azimuth) for azimuth in _azimuths(dims) for shape in (_pocket(dims), *through)]
     openings += [turned(seat, _azimuths(dims)[0]) for seat in heater_parts.bead_seats(dims)]
@@ -22,19 +22,19 @@ def housing(dims: Dimensions) -> cq.Shape:
 
 
 def _pocket(dims: Dimensions) -> cq.Solid:
-    """The pocket under an arc, for a pad of its outline or for tiles and a spreader, centred on the x axis."""
+    """Draw the pocket under an arc, for a pad of its outline or for tiles and a spreader, centred on the x axis."""
     sharp = sector(dims.pocket_inner_radius, dims.pocket_outer_radius, dims.pocket_span, -dims.pad_depth, 0)
     return rounded(sharp, dims.corner_radius)
 
 
 def _pad(dims: Dimensions) -> cq.Solid:
-    """A pad of an arc's outline, centred on the x axis, flush with the floor."""
+    """Draw a pad of an arc's outline, centred on the x axis, flush with the floor."""
     sharp = sector(dims.pcl_inner_radius, dims.pcl_outer_radius, dims.arc_span, -dims.pad_depth, 0)
     return rounded(sharp, dims.corner_radius)
 
 
 def _window(dims: Dimensions) -> cq.Solid:
-    """The window below a pad of an arc's outline, centred on the x axis."""
+    """Draw the window below a pad of an arc's outline, centred on the x axis."""
     sharp = sector(
         dims.pcl_inner_radius + dims.window_ledge,
         dims.pcl_outer_radius - dims.window_ledge,
@@ -46,7 +46,7 @@ def _window(dims: Dimensions) -> cq.Solid:
 
 
 def rotor(dims: Dimensions) -> cq.Shape:
-    """Rotor with pockets in its plate for the keys of the arcs or for liners, and lips beside them."""
+    """Draw the rotor with pockets in its plate for the keys of the arcs or for liners, and lips beside them."""
     pockets = [*_keys(dims), *heater_parts.recesses_over_arc(dims)]
     return bare_rotor(
         dims, _melt_lips(dims), [turned(pocket, azimuth) for azimuth in _azimuths(dims) for pocket in pockets]
@@ -54,7 +54,7 @@ def rotor(dims: Dimensions) -> cq.Shape:
 
 
 def _melt_lips(dims: Dimensions) -> list[cq.Shape]:
-    """The rings below the plate that hold the melt; none where it has none."""
+    """Draw the rings below the plate that hold the melt; none where it has none."""
     if not dims.melt_lip_height:
         return []
     ends = (dims.rotor_bottom_level - dims.melt_lip_height, dims.rotor_bottom_level)
@@ -63,7 +63,8 @@ def _melt_lips(dims: Dimensions) -> list[cq.Shape]:
 
 
 def pcl_arc(dims: Dimensions, sheared: float = 0.0) -> cq.Shape:
-    """One arc of PCL between floor and rotor, centred on the x axis, its keys turned with the rotor by an angle [rad].
+    """Draw one arc of PCL between floor and rotor, centred on the x axis, its keys turned with the rotor by an angle
+    [rad].
 
     The layer itself is drawn unsheared.
     """
@@ -73,14 +74,14 @@ def pcl_arc(dims: Dimensions, sheared: float = 0.0) -> cq.Shape:
 
 
 def _keys(dims: Dimensions) -> list[cq.Shape]:
-    """The keys of an arc that is centred on the x axis; none where it has none."""
+    """Draw the keys of an arc that is centred on the x axis; none where it has none."""
     count, bottom = round(dims.key_count), dims.rotor_bottom_level
     at = [polar(dims.key_circle_radius, dims.arc_span * ((index + 0.5) / count - 0.5)) for index in range(count)]
     return [cylinder(0.5 * dims.key_diameter, bottom, bottom + dims.key_depth, place) for place in at]
 
 
 def peltier_pad(dims: Dimensions) -> cq.Shape:
-    """One Peltier module under an arc: a pad of its outline, or a tile, on the x axis."""
+    """Draw one Peltier module under an arc: a pad of its outline, or a tile, on the x axis."""
     return heater_parts.arc_tile(dims) if dims.spreader_depth else _pad(dims)
 
 
@@ -116,5 +117,5 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
 
 
 def _azimuths(dims: Dimensions) -> list[float]:
-    """Middles of the PCL arcs [rad]: between the springs where there are as many of both."""
+    """Return the middles of the PCL arcs [rad]: between the springs where there are as many of both."""
     return [azimuth + pi / dims.count("spring_count") for azimuth in dims.azimuths("arc_count")]

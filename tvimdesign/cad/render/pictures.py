@@ -42,12 +42,12 @@ class Cutter:
         self._corners, self._bottom, self._top = corners, bottom, top
 
     def body(self) -> Manifold:
-        """As triangles."""
+        """Return as triangles."""
         section = CrossSection([np.array(self._corners)], FillRule.NonZero)
         return Manifold.extrude(section, self._top - self._bottom).translate((0.0, 0.0, self._bottom))
 
     def solid(self) -> cq.Solid:
-        """As the kernel has it."""
+        """Return as the kernel has it."""
         outline = cq.Workplane().workplane(offset=self._bottom).polyline(list(self._corners)).close()
         body = outline.extrude(self._top - self._bottom).val()
         assert isinstance(body, cq.Solid)
@@ -55,7 +55,7 @@ class Cutter:
 
 
 def without(name: str, instance: Instance, cutter: Cutter, solid: cq.Solid) -> Mesh:
-    """The mesh of a placed part without the cutter, in the module's coordinates; empty where nothing is left."""
+    """Return the mesh of a placed part without the cutter, in the module's coordinates; empty where nothing is left."""
     try:
         body = body_of(kind_of(name), instance.mesh).transform(instance.matrix[:3])
     except GeometryError:
@@ -97,7 +97,7 @@ def _actors(name: str, instance: Instance) -> tuple[vtkActor, vtkActor]:
 def _view(
     placed: Mapping[str, Instance], drawings: Mapping[str, tuple[vtkActor, vtkActor]], aspect: float
 ) -> vtkRenderer:
-    """Everything that is placed, seen from the front, above and the right."""
+    """Return everything that is placed, seen from the front, above and the right."""
     renderer = renderer_on_white()
     for name in placed:
         for actor in drawings[name]:
@@ -152,7 +152,8 @@ def write_section(path: Path, solids: Mapping[str, cq.Solid], placed: Mapping[st
 
 
 def wedge_of(placed: Mapping[str, Instance]) -> tuple[float, float]:
-    """Azimuths [rad] between which the module is cut away: through the axis of a spring, and the middle of the polymer.
+    """Return azimuths [rad] between which the module is cut away: through the axis of a spring, and the middle of the
+    polymer.
 
     Of all pairs that which lies nearest to a wedge whose faces both show; the second is the larger by less than pi.
     """
@@ -165,13 +166,13 @@ def wedge_of(placed: Mapping[str, Instance]) -> tuple[float, float]:
 
 
 def _azimuth(instance: Instance) -> float:
-    """Where the middle of a part stands around the module's axis."""
+    """Return where the middle of a part stands around the module's axis."""
     x, y, _ = instance.points().mean(axis=0)
     return float(np.arctan2(y, x))
 
 
 def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> Cutter:
-    """A sector about the axis that reaches beyond every part."""
+    """Return a sector about the axis that reaches beyond every part."""
     points = np.vstack([one.points() for one in placed.values()])
     low, high, reach = points[:, 2].min() - 1.0, points[:, 2].max() + 1.0, 4.0 * float(np.abs(points).max())
     corners = [(0.0, 0.0), *((reach * cos(a), reach * sin(a)) for a in np.linspace(first, last, 4))]
@@ -179,18 +180,18 @@ def _wedge(first: float, last: float, placed: Mapping[str, Instance]) -> Cutter:
 
 
 def _outwards(first: float, last: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Normals of the wedge's faces, out of it."""
+    """Return the normals of the wedge's faces, out of it."""
     return (sin(first), -cos(first), 0.0), (-sin(last), cos(last), 0.0)
 
 
 def _is_uncut(instance: Instance, first: float, last: float) -> bool:
-    """Whether a face of the wedge has all of a part before it, so that nothing of it is cut away."""
+    """Return whether a face of the wedge has all of a part before it, so that nothing of it is cut away."""
     points = instance.points()
     return any(bool((points @ np.array(outward)).min() >= 0.0) for outward in _outwards(first, last))
 
 
 def _spring_outside(instance: Instance, first: float, last: float) -> vtkPolyData:
-    """The part of a spring outside the wedge. A plane that cuts it clips its closed mesh; no spring meets both."""
+    """Return part of a spring outside the wedge. A plane that cuts it clips its closed mesh; no spring meets both."""
     clean = vtkCleanPolyData()
     clean.SetInputData(poly_data(instance.mesh, instance.matrix))
     clean.Update()

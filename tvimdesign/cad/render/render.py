@@ -64,7 +64,7 @@ def write_png(path: Path, size: tuple[int, int], renderers: Iterable[vtkRenderer
 
 @cache
 def _window() -> vtkRenderWindow:
-    """The one that all pictures of a process are drawn in: each new one would compile its shaders again."""
+    """Return the one that all pictures of a process are drawn in: each new one would compile its shaders again."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)  # edges are smoothed once they are drawn (`look`), in a fifth of the time
@@ -83,7 +83,7 @@ def lit(renderer: vtkRenderer) -> None:
 
 
 def actors(mesh: Mesh, matrix: Array, colour: Rgb) -> tuple[vtkActor, vtkActor]:
-    """The faces of a placed part in its colour, and its sharp edges in black."""
+    """Return the faces of a placed part in its colour, and its sharp edges in black."""
     placed = vtkMatrix4x4()
     placed.DeepCopy(matrix.ravel().tolist())
     found = _coloured(_mappers(mesh), colour)
@@ -93,7 +93,7 @@ def actors(mesh: Mesh, matrix: Array, colour: Rgb) -> tuple[vtkActor, vtkActor]:
 
 
 def surface_actors(surface: vtkPolyData, colour: Rgb) -> tuple[vtkActor, vtkActor]:
-    """Faces of a surface in a colour, and its sharp edges in black."""
+    """Return the faces of a surface in a colour, and its sharp edges in black."""
     return _coloured(_faces_and_edges(surface), colour)
 
 
@@ -102,7 +102,8 @@ _Mappers = tuple[vtkPolyDataMapper, vtkPolyDataMapper]
 
 @lru_cache(maxsize=64)
 def _mappers(mesh: Mesh) -> _Mappers:
-    """What draws faces and sharp edges of a mesh in its own coordinates: all copies of a part, in all pictures."""
+    """Return what draws faces and sharp edges of a mesh in its own coordinates: all copies of a part, in all
+    pictures."""
     return _faces_and_edges(poly_data(mesh, np.eye(4)))
 
 
@@ -147,7 +148,7 @@ def _coloured(mappers: _Mappers, colour: Rgb) -> tuple[vtkActor, vtkActor]:
 
 
 def poly_data(mesh: Mesh, matrix: Array) -> vtkPolyData:
-    """Triangles of a mesh, placed."""
+    """Return triangles of a mesh, placed."""
     points = vtkPoints()
     placed = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
     points.SetData(numpy_to_vtk(placed, deep=True))
@@ -174,7 +175,7 @@ def _text(text: str, x: int, y: int, background: Rgb | None) -> vtkTextActor:
 
 
 def legend_height(kinds: Sequence[str], size: tuple[int, int]) -> float:
-    """Share of a picture's height that the names of some kinds take."""
+    """Return the share of a picture's height that the names of some kinds take."""
     return (_LINE * _lines(kinds, size[0]) + 15) / size[1]
 
 
@@ -183,7 +184,7 @@ def _lines(kinds: Sequence[str], width: int) -> int:
 
 
 def legend(kinds: Sequence[str], size: tuple[int, int]) -> vtkRenderer:
-    """A strip below a picture of a size in pixels, with the names of the parts in their colours."""
+    """Return a strip below a picture of a size in pixels, with the names of the parts in their colours."""
     renderer = vtkRenderer()
     renderer.SetViewport(0.0, 0.0, 1.0, legend_height(kinds, size))
     renderer.SetBackground(1.0, 1.0, 1.0)
@@ -202,7 +203,7 @@ _MARGIN = 1.06
 
 
 def renderer_on_white() -> vtkRenderer:
-    """An empty picture."""
+    """Return an empty picture."""
     renderer = vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
     return renderer

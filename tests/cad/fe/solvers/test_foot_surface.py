@@ -1,4 +1,4 @@
-"""Where the stress at a core's foot is read."""
+"""Places where the stress at a core's foot is read."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ ARC = {
 
 
 def box(low: Any, high: Any) -> tuple[Any, Any]:
-    """Triangles of a box."""
+    """Return triangles of a box."""
     points = np.array([[(low, high)[k][a] for a, k in enumerate(ends)] for ends in np.ndindex(2, 2, 2)], dtype=float)
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     return points, np.array([three for a, b, c, d in quads for three in ((a, b, c), (a, c, d))])
@@ -104,7 +104,7 @@ def test_lips_and_hub_stand_a_clearance_away_from_what_they_face() -> None:
 
 
 def parts_of(surfaces: dict[str, Any]) -> dict[str, Any]:
-    """Points and triangles of boxes, by the names the export gives them."""
+    """Return points and triangles of boxes, by the names the export gives them."""
     return {f"{name}.{kind}": one for name, ends in surfaces.items()
             for kind, one in zip(("points", "triangles"), box(*ends), strict=True)}  # fmt: skip
 

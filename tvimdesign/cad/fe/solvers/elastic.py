@@ -1,4 +1,4 @@
-"""What the solvers share: stress, what is read off a field, the arguments, and the files they write."""
+"""Shared code of the solvers: stress, readings of a field, arguments, and the files they write."""
 
 import argparse
 import contextlib
@@ -21,30 +21,33 @@ Found = dict[str, float]
 
 
 def stress(strain: Any, shear: Any, lame: Any, dilation: Any = None) -> Any:
-    """Stress of an isotropic body by its shear modulus and Lame's first constant [N/mm^2]; of a given dilation, too."""
+    """Return the stress of an isotropic body by its shear modulus and Lame's first constant [N/mm^2].
+
+    Of a given dilation, too.
+    """
     return 2 * shear * strain + lame * (Trace(strain) if dilation is None else dilation) * Id(3)
 
 
 def mises(tensor: Any) -> Any:
-    """Von Mises stress."""
+    """Return Von Mises stress."""
     deviator = tensor - Trace(tensor) / 3 * Id(3)
     return sqrt(1.5 * InnerProduct(deviator, deviator))
 
 
 def lame_of(shear: Any, poisson: Any) -> Any:
-    """Lame's first constant by shear modulus and Poisson's ratio."""
+    """Return Lame's first constant by shear modulus and Poisson's ratio."""
     return 2 * shear * poisson / (1 - 2 * poisson)
 
 
 def strain_of(moved: Any) -> Any:
-    """Small strain of a displacement."""
+    """Return small strain of a displacement."""
     from ngsolve import Grad
 
     return Sym(Grad(moved))
 
 
 def sampled(mesh: Any, field: Any, *places: Any) -> Any:
-    """Field at places [mm]; nan where the mesh's curved elements leave one out."""
+    """Return the field at places [mm]; nan where the mesh's curved elements leave one out."""
     found = np.full(places[0].shape, np.nan)
     for index in np.ndindex(found.shape):
         with contextlib.suppress(NgException):
@@ -53,7 +56,7 @@ def sampled(mesh: Any, field: Any, *places: Any) -> Any:
 
 
 def write_field(path: Path, mesh: Any, field: Any, moved: Any) -> None:
-    """Surface triangles of a mesh with a field on their corners, and how far each corner moves [mm]."""
+    """Write surface triangles of a mesh with a field on their corners, and how far each corner moves [mm]."""
     smooth = GridFunction(H1(mesh, order=1))
     smooth.Set(field)
     values = np.array(smooth.vec.FV().NumPy()[: mesh.nv])
@@ -72,7 +75,7 @@ FINER: tuple[dict[str, float], ...] = ({}, ONE, {**ONE, "curvaturesafety": 2.0},
 
 
 def meshed(geometry: Any, order: int, **sizes: float) -> Any:
-    """Curved mesh of a geometry; where some faces get none, a mesh of more elements. Raises ValueError."""
+    """Return curved mesh of a geometry; where some faces get none, a mesh of more elements. Raises ValueError."""
     for finer in FINER:
         with tempfile.TemporaryFile("w+") as said, _printing_into(said.fileno()):
             mesh = _mesh_of(geometry, **{**sizes, **finer})
@@ -83,7 +86,7 @@ def meshed(geometry: Any, order: int, **sizes: float) -> Any:
 
 
 def _mesh_of(geometry: Any, **sizes: float) -> Any:
-    """The mesher's mesh, or None where it gives up; of some geometries it leaves faces out and says so in print."""
+    """Return mesher's mesh, or None where it gives up; of some geometries it leaves faces out and says so in print."""
     try:
         return geometry.GenerateMesh(**sizes)
     except NgException:
@@ -92,7 +95,7 @@ def _mesh_of(geometry: Any, **sizes: float) -> Any:
 
 @contextlib.contextmanager
 def _printing_into(file: int) -> Iterator[None]:
-    """What compiled code prints on standard output goes into a file for a while."""
+    """Redirect what compiled code prints on standard output into a file for a while."""
     compiled = ctypes.CDLL(None)
     sys.stdout.flush()
     compiled.fflush(None)

@@ -1,4 +1,4 @@
-"""Where the stress at a core's foot is read: along its surface, from the middle of its fillet on."""
+"""Places where the stress at a core's foot is read: along its surface, from the middle of its fillet on."""
 
 from typing import Any
 
@@ -11,7 +11,8 @@ WITHIN = 0.002
 
 
 def places(core: float, fillet: float) -> tuple[Any, Any]:
-    """Radii and heights above the plate [mm], evenly along the surface of a core with a fillet of a radius at its foot.
+    """Return radii and heights above the plate [mm], evenly along the surface of a core with a fillet of a radius at
+    its foot.
 
     What lies below the middle of the fillet faces the plate, as the plate's own face beside a sharp foot does.
     """
@@ -24,7 +25,7 @@ def places(core: float, fillet: float) -> tuple[Any, Any]:
 
 
 def highest_mean(along: Any) -> Any:
-    """Highest of the means over a millimetre of what was read at such places, down the first axis."""
+    """Return the highest of the means over a millimetre of what was read at such places, down the first axis."""
     window = round(MEAN * STEPS)
     means = [np.nanmean(along[low : low + window], axis=0) for low in range(len(along) - window + 1)]
     return np.max(means, axis=0)

@@ -34,7 +34,7 @@ TIMES = ("softening_time", "mean_time", "far_face_time")
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
-    """Times [s]; those that do not come are left out."""
+    """Return times [s]; those that do not come are left out."""
     inputs = json.loads((folder / "inputs.json").read_text())
     values, mm = inputs["values"], inputs["mm"]
     slot = 1e3 * values["air_conductivity"] / heat_equation.edge_contact(values)
@@ -66,7 +66,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
 
 
 def _designed(values: dict[str, float], mm: dict[str, float], what: str) -> float:
-    """Volume of layer or pads in this part of the ring, as designed [m3]."""
+    """Return the volume of layer or pads in this part of the ring, as designed [m3]."""
     count = 2.0 * mm.get("vane_count", 0.0) or 2.0 * mm["arc_count"]
     if what == "pads":
         thick = mm["pad_depth"] - (0.0 if mm.get("vane_count") else mm["spreader_depth"])
@@ -76,7 +76,7 @@ def _designed(values: dict[str, float], mm: dict[str, float], what: str) -> floa
 
 
 def _passed(times: Any, course: Any, limit: float) -> float:
-    """When a rising course passes a limit; infinite where it does not."""
+    """Return when a rising course passes a limit; infinite where it does not."""
     above = np.flatnonzero(course >= limit)
     if not len(above) or above[0] == 0:
         return float("inf")
@@ -94,7 +94,7 @@ class Course:
         self.sunk = inputs["choices"].get("cold_side") == "sink"
 
     def heated(self, seconds: float, steps: int) -> tuple[Any, Any]:
-        """Times [s] and temperatures of all corners [degC] then, shape (times, corners). Raises ValueError.
+        """Return times [s] and temperatures of all corners [degC] then, shape (times, corners). Raises ValueError.
 
         Second order in time (BDF2 with growing steps), the first step of first order.
         """
@@ -141,14 +141,14 @@ class Course:
         return float(np.interp(time, np.linspace(0.0, self.profile["duration"], len(currents)), currents))
 
     def _warm_chamber(self) -> None:
-        """The air that is shut in gives what it takes: it is as warm as the mean of the faces around it."""
+        """Warm the enclosed air by what it takes: it is as warm as the mean of the faces around it."""
         by, faces = self.heated_by, self.heated_by.mesh.Boundaries("chamber")
         area = ng.Integrate(1.0, by.mesh, ng.BND, definedon=faces)
         if area > 0.0:
             by.chamber.Set(ng.Integrate(by.now, by.mesh, ng.BND, definedon=faces) / area)
 
     def _warm_sink(self, length: float) -> None:
-        """The sink at the cold sides takes their heat, and gives its own to the air."""
+        """Warm the sink at the cold sides by their heat; it gives its own to the air."""
         if not self.sunk:
             return
         by, v = self.heated_by, self.values

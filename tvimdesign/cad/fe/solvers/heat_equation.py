@@ -27,7 +27,7 @@ to the air that is shut in around blocks."""
 
 
 def edge_contact(values: dict[str, float]) -> float:
-    """Conductance between the rim of a pad and what it leans against [W/m2 K]."""
+    """Return the conductance between the rim of a pad and what it leans against [W/m2 K]."""
     return values.get("pad_edge_contact", EDGE_CONTACT)
 
 
@@ -42,7 +42,7 @@ class Meshed(NamedTuple):
 
 
 def meshed(points: Any, names: Any, enclosed: Any) -> Meshed:
-    """Hexahedra of all named cells, with named faces to the air; `enclosed` says which air is shut in."""
+    """Return hexahedra of all named cells, with named faces to the air; `enclosed` says which air is shut in."""
     mesh = Mesh(dim=3)
     materials = sorted(set(names.ravel()) - {""})
     for number, name in enumerate(OUTSIDE, 1):
@@ -86,7 +86,8 @@ _SIDES = tuple((axis, side) for axis in range(3) for side in (0, 1))
 
 
 def _outside(name: str, air: str) -> str:
-    """Kind of a face of a part to some air. In a slot the cold sides alone lose heat, through its one opening; the
+    """Return the kind of a face of a part to some air. In a slot the cold sides alone lose heat, through its one
+    opening; the
     housing loses it outside, not to the room it closes."""
     if air == "chamber":
         return "chamber"
@@ -140,7 +141,7 @@ class Heated:
         return self.mesh.MaterialCF(bodies, default=0.0)
 
     def _melting(self) -> tuple[float, float]:
-        """Where melting begins [degC], and over how many kelvin it goes on."""
+        """Return where melting begins [degC], and over how many kelvin it goes on."""
         start, end = (self.values[f"pcl_melting_{side}"] for side in ("start", "end"))
         return start - KELVIN, end - start
 
@@ -164,7 +165,8 @@ class Heated:
         return sum(k * one * other for k, one, other in pairs)
 
     def _outwards(self) -> tuple[Any, Any]:
-        """Direction along which a cell's first conductivity counts: from the axis, of pads that stand along their face.
+        """Return direction along which a cell's first conductivity counts: from the axis, of pads that stand along
+        their face.
 
         Their legs conduct some sixty times as well along the pad as through it, so that some degrees count.
         """
@@ -179,7 +181,10 @@ class Heated:
         return found[0], found[1]
 
     def _conductivities(self) -> list[Any]:
-        """Along, around and up the axis [W/m K]; of the polymer and the air at the temperatures that are expected."""
+        """Return conductivities along, around and up the axis [W/m K].
+
+        Of polymer and air at the expected temperatures.
+        """
         c, t = self.values, self.guess
         start, width = self._melting()
         molten = (clipped(t, start, start + width) - start) / width

@@ -16,7 +16,7 @@ _ASIDE = 1.3e-4
 
 
 def materials_of(grid: Grid, surfaces: Any) -> NDArray[np.str_]:
-    """The part each cell is of; `air` in gaps, nothing where the air is open. Surfaces are points and triangles."""
+    """Return part each cell is of; `air` in gaps, nothing where the air is open. Surfaces are points and triangles."""
     mm, shape = grid.mm, (len(grid.along.middles), len(grid.around.middles), len(grid.up.middles))
     found = np.full(shape, "", dtype="U20")
     drawn = sorted({name.rsplit(".", 1)[0] for name in surfaces})
@@ -43,7 +43,7 @@ _PARTS = {"housing": "housing", "rotor": "rotor", "pcl_arc": "layer", "pcl_block
 
 
 def _crossed(points: Array, triangles: Any, x: float, y: float) -> Array:
-    """Levels at which an upright line passes a closed surface, from below."""
+    """Return the levels at which an upright line passes a closed surface, from below."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     reach = [(np.minimum(np.minimum(a, b), c)[:, axis], np.maximum(np.maximum(a, b), c)[:, axis]) for axis in (0, 1)]
     near = np.ones(len(a), dtype=bool)
@@ -62,7 +62,7 @@ def _crossed(points: Array, triangles: Any, x: float, y: float) -> Array:
 
 
 def _tell_pads_apart(grid: Grid, found: Any) -> None:
-    """The sides of the pads, and the legs between them."""
+    """Part the sides of the pads from the legs between them."""
     mm = grid.mm
     if grid.upright:
         thick = np.arcsin(mm["pad_depth"] / mm["pcl_inner_radius"])
@@ -97,19 +97,20 @@ def _cut_slots(grid: Grid, found: Any) -> None:
 
 
 def _in_pocket(grid: Grid) -> Any:
-    """What a pocket takes of the floor, its clearance around the pad included."""
+    """Return what a pocket takes of the floor, its clearance around the pad included."""
     mm = grid.mm
     r, a, _ = _places(grid)
     return (r > mm["pocket_inner_radius"]) & (r < mm["pocket_outer_radius"]) & (a < 0.5 * mm["pocket_span"])
 
 
 def _places(grid: Grid) -> tuple[Array, Array, Array]:
-    """Middles of the cells along, around and up, each along its own axis."""
+    """Return the middles of the cells along, around and up, each along its own axis."""
     return (grid.along.middles[:, None, None], grid.around.middles[None, :, None], grid.up.middles[None, None, :])
 
 
 def _closed(grid: Grid, found: Any) -> Any:
-    """Where the air cannot move: the gap below the plate, or the clearances above and below what stands on a ring."""
+    """Return where the air cannot move: the gap below the plate, or the clearances above and below what stands on a
+    ring."""
     mm = grid.mm
     r, z = grid.along.middles[:, None, None], grid.up.middles[None, None, :]
     between = (z > 0.0) & (z < mm["rotor_bottom_level"])
@@ -125,7 +126,8 @@ def _closed(grid: Grid, found: Any) -> Any:
 
 
 def enclosed(grid: Grid, names: NDArray[np.str_]) -> NDArray[np.str_]:
-    """What air is that no cell has: the `chamber` around blocks that stand, their vanes' `slot`, the `room` of the
+    """Return what air is that no cell has: the `chamber` around blocks that stand, their vanes' `slot`, the `room` of
+    the
     springs within the housing's wall, else the ambient's."""
     found, mm = np.full(names.shape, "", dtype="U7"), grid.mm
     r, a = grid.along.middles[:, None, None], grid.around.middles[None, :, None]

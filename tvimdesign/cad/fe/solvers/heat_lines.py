@@ -44,12 +44,12 @@ class Lines:
 
     @property
     def thickened(self) -> Array:
-        """What the sheets before each end add to where it stands [mm]."""
+        """Thickness that the sheets before each end add to where it stands [mm]."""
         return THIN * np.concatenate([[0.0], np.cumsum(self.sheets)])
 
 
 def lines(start: float, coarser: float, *parts: Part) -> Lines:
-    """From a start, parts with their end, how many cells, and how much wider each is than the one before.
+    """Return from a start, parts with their end, how many cells, and how much wider each is than the one before.
 
     A part with no cell is a sheet at its end. A part that begins where it ends, or beyond, is left out.
     """
@@ -65,7 +65,10 @@ def lines(start: float, coarser: float, *parts: Part) -> Lines:
 
 
 def graded(stops: Iterable[float], edges: Sequence[float], radius: float, coarser: float) -> list[Part]:
-    """Parts of one cell each between stops, narrow at edges; in rad at a radius [mm], or in mm at the radius 1."""
+    """Return the parts of one cell each between stops, narrow at edges.
+
+    In rad at a radius [mm], or in mm at the radius 1.
+    """
     rising = sorted(stops)
     kept = [rising[0]]
     for stop in rising[1:-1]:
@@ -84,7 +87,7 @@ def graded(stops: Iterable[float], edges: Sequence[float], radius: float, coarse
 
 
 def _width(place: float, edges: Sequence[float], radius: float) -> float:
-    """Width a cell should have at a place [mm]."""
+    """Return width a cell should have at a place [mm]."""
     return min(WIDEST, EDGE + WIDER * radius * min(abs(place - edge) for edge in edges))
 
 
@@ -103,11 +106,11 @@ class Grid:
 
     @property
     def upright(self) -> bool:
-        """Whether pads stand beside blocks, and do not lie below arcs."""
+        """True if pads stand beside blocks, and do not lie below arcs."""
         return self.mm.get("vane_count", 0.0) > 0.0
 
     def turned(self, way: Array, radius: Array) -> Array:
-        """Angle [rad] from `middle` of a way around the axis: pads that stand have flat backs.
+        """Return angle [rad] from `middle` of a way around the axis: pads that stand have flat backs.
 
         In a pad and behind it the way of the line is that of a pad of the vane's angle at the inner radius.
         """
@@ -123,7 +126,7 @@ class Grid:
         return np.where(way <= face, way, np.where(way < face + inner, within, behind))
 
     def points(self) -> Array:
-        """Corners of all cells [m], shape (along, around, up, 3)."""
+        """Return the corners of all cells [m], shape (along, around, up, 3)."""
         r, a, z = np.meshgrid(self.along.ends, self.around.ends, self.up.ends, indexing="ij")
         radius = r + self.along.thickened[:, None, None]
         angle = self.middle + self.turned(a, r) + self.around.thickened[None, :, None] / radius
@@ -132,12 +135,12 @@ class Grid:
 
 
 def face_angle(mm: dict[str, float]) -> float:
-    """Angle [rad] from the middle of the rotor's vane to the face of the housing's."""
+    """Return angle [rad] from the middle of the rotor's vane to the face of the housing's."""
     return 0.5 * mm["rotor_vane_angle"] + mm["block_angle"]
 
 
 def grid_of(mm: dict[str, float], coarser: float, slot: float) -> Grid:
-    """The cells of a module, with a slot as wide as that [mm], within bounds, at the rims of its pads."""
+    """Return the cells of a module, with a slot as wide as that [mm], within bounds, at the rims of its pads."""
     return (_around_a_vane if mm.get("vane_count", 0.0) > 0.0 else _around_an_arc)(
         mm, coarser, float(np.clip(slot, *SLOT))
     )
@@ -173,13 +176,13 @@ def _around_an_arc(mm: dict[str, float], coarser: float, slot: float) -> Grid:
 
 
 def _windowed(mm: dict[str, float]) -> tuple[list[float], list[float]]:
-    """Where the window below a pad ends, along and around."""
+    """Return where the window below a pad ends, along and around."""
     inner, outer, ledge = mm["pcl_inner_radius"], mm["pcl_outer_radius"], mm["window_ledge"]
     return [inner + ledge, outer - ledge], [0.5 * mm["arc_span"] - ledge / inner]
 
 
 def _tiled(mm: dict[str, float]) -> tuple[list[float], list[float]]:
-    """Where rigid modules and the windows below them end, along and around."""
+    """Return where rigid modules and the windows below them end, along and around."""
     ledge, place, count = mm["window_ledge"], mm["tile_radius"], round(mm["tiles_per_arc"])
     along, around = [], []
     for less in (0.0, ledge):

@@ -1,4 +1,4 @@
-"""What is read off the course of temperatures: of the polymer by columns, of the structure's parts, of the outside."""
+"""Readings of the course of temperatures: of the polymer by columns, of the structure's parts, of the outside."""
 
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from heat_grid import PADS
 
 SLICES = 48
 """Even slices of the layer, between whose cells' faces temperatures are straight: a molten film is thinner than a
-cell, and how a squeezed one flows is told by slices that are alike."""
+cell, and how a squeezed one flows shows in slices that are alike."""
 
 
 class Layer:
@@ -43,7 +43,8 @@ class Layer:
         self.pads = sum(float(_volumes(points)[tuple(found.cells[name])].sum()) for name in PADS)
 
     def course(self, states: Any) -> tuple[Any, Any, Any]:
-        """Temperatures [degC]: of slices of the cells, shape (times, columns, slices), the mean, and that of the far
+        """Return temperatures [degC]: of slices of the cells, shape (times, columns, slices), the mean, and that of
+        the far
         face."""
         faces = self._face(self.own, 0, states), self._face(self.own, 1, states)
         slices = np.concatenate([faces[0][..., :1], faces[1]], axis=-1) @ self.at_slices
@@ -52,7 +53,7 @@ class Layer:
         return slices, mean, far @ self.weights.sum(axis=1)
 
     def _face(self, cells: Any, side: int, states: Any) -> Any:
-        """Mean temperature of the cells' faces at a side along the columns."""
+        """Return mean temperature of the cells' faces at a side along the columns."""
         shift = np.eye(3, dtype=int).reshape(3, 3, *(1,) * (cells.ndim - 1))
         corners = [cells + side * shift[self.axis]]
         for axis in range(3):
@@ -62,7 +63,7 @@ class Layer:
 
 
 def _of_cells(found: Meshed, own: Any, states: Any) -> Any:
-    """Mean of the corners of each cell at each time."""
+    """Return the mean of the corners of each cell at each time."""
     ways = [(a, b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
     return np.mean(
         [states[:, found.corners[tuple(own[axis] + way[axis] for axis in range(3))]] for way in ways], axis=0
@@ -79,7 +80,7 @@ def _middles(points: Any) -> Any:
 
 
 def _volumes(points: Any) -> Any:
-    """Of all cells [m3], by the edges at their middles."""
+    """Return of all cells [m3], by the edges at their middles."""
     edges = []
     for axis in range(3):
         edge = np.diff(points, axis=axis)
@@ -92,7 +93,7 @@ def _volumes(points: Any) -> Any:
 
 
 def parts(found: Meshed, grid: heat_lines.Grid, states: Any, points: Any) -> dict[str, Any]:
-    """Mean temperatures [degC] of the structure's parts at each time; of what lies on the layer in slices."""
+    """Return mean temperatures [degC] of the structure's parts at each time; of what lies on the layer in slices."""
     mm, volumes = grid.mm, _volumes(points)
     rotor = found.cells["rotor"]
     r, z = grid.along.middles[rotor[0]], grid.up.middles[rotor[2]]
@@ -115,7 +116,7 @@ def parts(found: Meshed, grid: heat_lines.Grid, states: Any, points: Any) -> dic
 
 
 def _sliced(own: Any, axis: int, along: heat_lines.Lines, mean: Any) -> Any:
-    """Temperatures of eight even slices in depth, shape (times, 8), the first beside the layer."""
+    """Return the temperatures of eight even slices in depth, shape (times, 8), the first beside the layer."""
     levels = np.unique(own[axis])
     each = np.array([mean(own[:, own[axis] == level]) for level in levels])
     depths = np.diff(along.ends)[levels]
@@ -126,7 +127,7 @@ def _sliced(own: Any, axis: int, along: heat_lines.Lines, mean: Any) -> Any:
 
 
 def write_field(path: Path, found: Meshed, state: Any) -> None:
-    """The outside with its temperatures."""
+    """Write the outside with its temperatures."""
     quads = np.array([[corner.nr for corner in one.vertices] for one in found.mesh.Elements(ng.BND)])
     places = np.array([vertex.point for vertex in found.mesh.vertices]) * 1e3
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

@@ -46,7 +46,7 @@ METAL = 0.33
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
-    """Stiffness of the joint at the core's top and of each part [N*m/rad]; stresses at 1 N*m [MPa]."""
+    """Return the stiffness of the joint at the core's top and of each part [N*m/rad]; stresses at 1 N*m [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
     keeps_volume = values.get("peltier_bulk_modulus", 0.0) > RUBBER * values["peltier_shear_modulus"]
@@ -83,7 +83,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
 
 
 def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
-    """Shear modulus and Lame's first constant of each material [N/mm^2]."""
+    """Return shear modulus and Lame's first constant of each material [N/mm^2]."""
     own = values["structure_poissons_ratio"]
     structure = values["structure_youngs_modulus"] * 1e-6 / 2 / (1 + own)
     shear = {"pcl": values["storage_modulus@cold"] * 1e-6, "pad": values["peltier_shear_modulus"] * 1e-6}
@@ -103,7 +103,7 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
 
 
 def _displacements(mesh: Any, order: int) -> Any:
-    """Quadratic displacements, of another order in the pads and on their faces."""
+    """Return quadratic displacements, of another order in the pads and on their faces."""
     one = H1(mesh, order=LOWER, dirichlet="turned|fixed")
     if order != LOWER:
         for element in mesh.Elements(VOL):
@@ -130,19 +130,19 @@ class Held:
         self.inverse = self.form.mat.Inverse(self.space.FreeDofs(), "sparsecholesky")
 
     def solved(self, force: Any) -> Any:
-        """Displacement under a vector of forces; what is held does not move."""
+        """Return displacement under a vector of forces; what is held does not move."""
         moved = force.CreateVector()
         moved.data = self.inverse * force
         return moved
 
     def work(self, found: Any) -> float:
-        """Twice the strain energy of a displacement [N*mm]."""
+        """Return twice the strain energy of a displacement [N*mm]."""
         pulled = found.vec.CreateVector()
         pulled.data = self.form.mat * found.vec
         return float(InnerProduct(pulled, found.vec))
 
     def turned(self) -> Any:
-        """Displacement where the core's top is turned by one radian."""
+        """Return displacement where the core's top is turned by one radian."""
         found = GridFunction(self.space)
         found.Set(CF((-y, x, 0)), definedon=self.space.mesh.Boundaries("turned"))
         right = found.vec.CreateVector()
@@ -152,7 +152,10 @@ class Held:
 
 
 def _energies(mesh: Any, density: Any, mm: elastic.Found, torque: float) -> elastic.Found:
-    """Twice the strain energy of each part [N*mm], of all the torque at one radian; the pads have what is left."""
+    """Return twice the strain energy of each part [N*mm], of all the torque at one radian.
+
+    The pads have what is left.
+    """
     core = IfPos(mm["core_radius"] + 0.01 - sqrt(x * x + y * y), 1, 0)
     shares = {name: Integrate(density, mesh, definedon=mesh.Materials(name)) for name in ("pcl", "housing")}
     rotor = mesh.Materials("rotor")

@@ -1,4 +1,4 @@
-"""What is read off the solved joint: stresses at the core's foot, along the arcs' edges, the largest in layer and core,
+"""Readings of the solved joint: stresses at the core's foot, along the arcs' edges, the largest in layer and core,
 and the forces on its feet."""
 
 from typing import Any
@@ -30,7 +30,8 @@ STRETCH = 2.0
 
 
 def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
-    """Core's von Mises stress [MPa] at one newton metre at its foot, the highest mean over a millimetre along its
+    """Return core's von Mises stress [MPa] at one newton metre at its foot, the highest mean over a millimetre along
+    its
     surface, of a sharp foot that over the first millimetre above it."""
     angles = np.linspace(0, 2 * np.pi, 73)[:-1]
     radius, height = (one[:, None] for one in foot_surface.places(mm["core_radius"], mm.get("foot_fillet", 0.0)))
@@ -40,7 +41,8 @@ def at_foot(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
 
 
 def at_plate(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
-    """Rotor plate's von Mises stress [MPa] at one newton metre beside the core's foot, a mean over thickness and the
+    """Return rotor plate's von Mises stress [MPa] at one newton metre beside the core's foot, a mean over thickness
+    and the
     first millimetre: the highest of all stretches of two millimetres around the core, and the mean around it."""
     low, high = mm["rotor_bottom_level"], mm["rotor_top_level"]
     outward, angles, levels = np.meshgrid(
@@ -56,7 +58,7 @@ def at_plate(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
 
 
 def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
-    """Layer's shear [MPa] at one newton metre, means over one thickness in from the arcs' edges.
+    """Return layer's shear [MPa] at one newton metre, means over one thickness in from the arcs' edges.
 
     Of the whole inner and outer edges and ends, and the highest of all stretches of two millimetres along them.
     """
@@ -93,7 +95,7 @@ def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
 
 
 def in_bodies(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
-    """Layer's shear and core's von Mises stress [MPa] at one newton metre."""
+    """Return layer's shear and core's von Mises stress [MPa] at one newton metre."""
     points = mesh.MapToAllElements(IntegrationRule(TET, 2), VOL)
     material = np.array([e.mat for e in mesh.Elements(VOL)])
     each = len(points) // len(material)
@@ -110,7 +112,7 @@ def in_bodies(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
 
 
 def at_feet(space: Any, tensor: Any, torque: float, count: int) -> Found:
-    """Largest force on a foot [N] at one newton metre, across its screw and along it, from the feet's reactions.
+    """Return largest force on a foot [N] at one newton metre, across its screw and along it, from the feet's reactions.
 
     Feet stand evenly around the axis. The work of the stress on a field that moves one foot alone is its reaction.
     """

@@ -25,13 +25,13 @@ SLIVER = 0.005
 
 
 def tube(inner: float, outer: float, bottom: float, top: float) -> Any:
-    """Ring about the axis [mm]."""
+    """Return ring about the axis [mm]."""
     whole = Cylinder(Pnt(0, 0, bottom), Dir(0, 0, 1), r=outer, h=top - bottom)
     return whole - Cylinder(Pnt(0, 0, bottom - 1), Dir(0, 0, 1), r=inner, h=top - bottom + 2) if inner else whole
 
 
 def sectors(mm: dict[str, float], bottom: float, top: float, wider: float = 0.0, ledge: float = 0.0) -> list[Any]:
-    """One sector with sharp corners for each arc of PCL, wider on each side, or narrower by a ledge [mm]."""
+    """Return one sector with sharp corners for each arc of PCL, wider on each side, or narrower by a ledge [mm]."""
     inner, outer = mm["pcl_inner_radius"] - wider + ledge, mm["pcl_outer_radius"] + wider - ledge
     half, found = 0.5 * mm["arc_span"] - ledge / mm["pcl_inner_radius"], []
     for arc in range(round(mm["arc_count"])):
@@ -46,7 +46,10 @@ def sectors(mm: dict[str, float], bottom: float, top: float, wider: float = 0.0,
 
 
 def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = PRESSED) -> list[Any]:
-    """Solids that carry the torque, named, with the size of their elements; `pressed`: of pads, over thickness."""
+    """Return the solids that carry the torque, named, with the size of their elements.
+
+    `pressed`: of pads, over thickness.
+    """
 
     def read(name: str) -> Any:
         return OCCGeometry(str(folder / f"{name}.step")).shape
@@ -83,7 +86,8 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
 
 
 def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[str, str, float]]:
-    """Files of the blocks of one sense, which are pressed, and of what they press on, with name and size of elements.
+    """Return files of the blocks of one sense, which are pressed, and of what they press on, with name and size of
+    elements.
 
     Blocks are counted around the axis from a rotor's vane, heaters from a housing's: each has two of them.
     """
@@ -103,14 +107,14 @@ def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[s
 
 
 def _sheared(folder: Path, mm: dict[str, float]) -> list[tuple[str, str, float]]:
-    """Files of the arcs of PCL, and of the rigid modules below them, with name and size of elements."""
+    """Return files of the arcs of PCL, and of the rigid modules below them, with name and size of elements."""
     kinds = {"pcl": "pcl", "peltier_pad": "pad"} if mm["spreader_depth"] else {"pcl": "pcl"}
     named = {path.stem: label for kind, label in kinds.items() for path in sorted(folder.glob(f"{kind}*.step"))}
     return [(name, label, SIZES["layer"]) for name, label in named.items()]
 
 
 def _ring_housing(whole: Any, mm: dict[str, float], pads: list[Any]) -> Any:
-    """Housing of the compression module without its hub above the floor and its wall.
+    """Return the housing of the compression module without its hub above the floor and its wall.
 
     Pads stand off the floors of their pockets, beyond their ends too: without the gap the lower edge of a block, or the
     end of that edge, would belong to the vane as well, and a line or a point that is tied bears more than a soft pad.
@@ -126,7 +130,7 @@ def _ring_housing(whole: Any, mm: dict[str, float], pads: list[Any]) -> Any:
 
 
 def _with_gaps(housing: Any, pads: list[Any], gap: float) -> Any:
-    """Housing whose pockets' walls stand off the pads."""
+    """Return housing whose pockets' walls stand off the pads."""
     for pad in pads:
         for sense in (-1, 0, 1):
             housing -= pad.Move(_along(pad, sense * gap) - Vec(0, 0, gap))
@@ -134,7 +138,7 @@ def _with_gaps(housing: Any, pads: list[Any], gap: float) -> Any:
 
 
 def _along(pad: Any, length: float) -> Any:
-    """A length [mm] along the longest level edge of a plate that stands upright."""
+    """Return a length [mm] along the longest level edge of a plate that stands upright."""
     level = [edge for edge in pad.edges if abs(edge.end.z - edge.start.z) < 1e-6]
     longest = max(level, key=lambda edge: float(edge.mass))
     way = longest.end - longest.start
@@ -142,7 +146,7 @@ def _along(pad: Any, length: float) -> Any:
 
 
 def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
-    """Housing of the shear module with a plain wall, and the openings for its pads with sharp corners.
+    """Return the housing of the shear module with a plain wall, and the openings for its pads with sharp corners.
 
     Where a radius leaves a tenth of a millimetre straight no mesh is found.
     """
@@ -159,14 +163,14 @@ def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
 
 
 def _pad_pockets(mm: dict[str, float]) -> list[Any]:
-    """Pockets of pads cut to the PCL, and the windows below them."""
+    """Return pockets of pads cut to the PCL, and the windows below them."""
     pads, floor = -mm["peltier_thickness"], -mm["floor_thickness"]
     pockets = sectors(mm, pads, 1.0, wider=PAD_GAP)
     return [*pockets, *sectors(mm, floor - 1.0, pads, ledge=mm["window_ledge"])]
 
 
 def _tile_pockets(mm: dict[str, float]) -> list[Any]:
-    """Pockets of rigid modules with the spreader on them, and the window below each module."""
+    """Return pockets of rigid modules with the spreader on them, and the window below each module."""
     low, top = -mm["floor_thickness"] - 1.0, -mm["pad_depth"]
     deep, long = (0.5 * mm[f"peltier_{size}"] - mm["window_ledge"] for size in ("width", "length"))
     count, found = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP)
@@ -203,7 +207,7 @@ def refine(whole: Any, mm: dict[str, float], coarser: float) -> None:
 
 
 def _beside_window(edge: Any, mm: dict[str, float]) -> bool:
-    """Whether a level edge is that of a window below a pad: all of it is a ledge away from the arc's rims."""
+    """Return whether a level edge is that of a window below a pad: all of it is a ledge away from the arc's rims."""
     ends = [np.hypot(point.x, point.y) for point in (edge.start, edge.end)]
     inner, outer = mm["pcl_inner_radius"] + mm["window_ledge"], mm["pcl_outer_radius"] - mm["window_ledge"]
     return bool(min(ends) > inner - 0.01 and max(ends) < outer + 0.01)
@@ -228,7 +232,10 @@ def name_faces(whole: Any, mm: dict[str, float]) -> None:
 
 
 def _stands(beside: bool, wide: float, mm: dict[str, float]) -> bool:
-    """Whether a face at the ground is what holds the housing: a torque sensor's flange, or else a foot; no skirt."""
+    """Return whether a face at the ground is what holds the housing: a torque sensor's flange, or else a foot.
+
+    No skirt.
+    """
     if mm["flange_outer_radius"]:
         return not beside and wide < 2 * mm["flange_outer_radius"] + 0.1
     return beside and wide < 3 * mm["mount_boss_radius"]

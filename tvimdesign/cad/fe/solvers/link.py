@@ -12,7 +12,7 @@ from ngsolve import CF, BilinearForm, GridFunction, InnerProduct, Integrate, Lin
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
-    """Stiffness at the tool hole [N*m/rad]."""
+    """Return the stiffness at the tool hole [N*m/rad]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
     core = Cylinder(Pnt(0, 0, mm["link_bottom_level"] - 1.0), Dir(0, 0, 1), r=mm["core_radius"], h=1.0)

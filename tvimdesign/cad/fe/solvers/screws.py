@@ -45,7 +45,7 @@ SHARP = 8
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
-    """Radius at which friction acts [mm]. Raises ValueError where the faces that touch do not settle."""
+    """Return the radius at which friction acts [mm]. Raises ValueError where the faces that touch do not settle."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
     mesh, places = _meshed(folder, mm, coarser)
@@ -94,7 +94,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
 
 
 def _meshed(folder: Path, mm: dict[str, float], coarser: float) -> tuple[Any, list[tuple[float, float]]]:
-    """Mesh of the link on the upper part of the core, and where the screws stand [mm]."""
+    """Return mesh of the link on the upper part of the core, and where the screws stand [mm]."""
     bottom, circle = mm["link_bottom_level"], mm["link_bolt_circle_radius"]
     deep = DEEP * mm["link_screw_depth"]
     whole = OCCGeometry(str(folder / "link.step")).shape
@@ -137,7 +137,7 @@ def _meshed(folder: Path, mm: dict[str, float], coarser: float) -> tuple[Any, li
 
 
 def _tightened(mesh: Any, space: Any, v: Any, t: Any, places: Any, head: float) -> Any:
-    """A newton of every screw on the link's upper face under its head, and up on the walls of its hole in the core."""
+    """Return a newton of every screw: on the link under its head, and up on the walls of its hole in the core."""
     load = LinearForm(space)
     for a, b in places:
         away = sqrt((x - a) ** 2 + (y - b) ** 2)

@@ -37,7 +37,7 @@ SIZE = 0.9
 
 
 def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elastic.Found:
-    """Rate [N*m/rad] and stresses at one newton metre [MPa]."""
+    """Return rate [N*m/rad] and stresses at one newton metre [MPa]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, coil = inputs["mm"], inputs["coil"]
     shear = inputs["values"]["spring_youngs_modulus"] * 1e-6 / (2 * (1 + POISSON))  # N/mm^2
@@ -68,7 +68,7 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
 
 
 def _push(mesh: Any, inputs: dict[str, Any], arm: float) -> tuple[Any, Any]:
-    """A force of one newton on the leg where the pin meets it: its density and its direction."""
+    """Return a force of one newton on the leg where the pin meets it: its density and its direction."""
     mm, coil = inputs["mm"], inputs["coil"]
     wire, azimuth, radius = mm["wire_diameter"], coil["leg_azimuth"], 0.5 * coil["diameter"]
     out = CF((sin(azimuth), -cos(azimuth), 0))
@@ -82,7 +82,8 @@ def _push(mesh: Any, inputs: dict[str, Any], arm: float) -> tuple[Any, Any]:
 
 
 def _stresses(mesh: Any, tensor: Any, inputs: dict[str, Any], radius: float, arm: float) -> elastic.Found:
-    """Largest fibre and von Mises stress [MPa per N*m] at the coil's inner fibre, and the fibre's mean over the coil.
+    """Return largest fibre and von Mises stress [MPa per N*m] at the coil's inner fibre, and the fibre's mean over the
+    coil.
 
     Largest of smooth curves through 400 samples: single elements scatter by some per cent.
     """
@@ -118,7 +119,7 @@ def _waves(angles: Any) -> tuple[Any, ...]:
 
 
 def _peak(mesh: Any, field: Any, bottom: float, top: float) -> float:
-    """Largest value [MPa] of a field between two levels, at the points of integration."""
+    """Return largest value [MPa] of a field between two levels, at the points of integration."""
     points = mesh.MapToAllElements(IntegrationRule(TET, 3), VOL)
     levels = np.asarray(z(points)).ravel()
     return float(np.asarray(field(points)).ravel()[(levels > bottom) & (levels < top)].max())

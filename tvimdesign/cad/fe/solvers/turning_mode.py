@@ -20,11 +20,14 @@ class Solves(Protocol):
     """Displacement under a vector of forces with feet and core's top held."""
 
     def __call__(self, force: Any) -> Any:
-        """Solve; the force is changed."""
+        """Return solve; the force is changed."""
 
 
 def frequency(mesh: Any, values: dict[str, float], solved: Solves, shape: Any, torque: float) -> float:
-    """Frequency [Hz] by the static shape and the torque [N*mm] of one radian. Raises ValueError where none is found."""
+    """Return frequency [Hz] by the static shape and the torque [N*mm] of one radian.
+
+    Raises ValueError where none is found.
+    """
     u, v = shape.space.TnT()
     mass = BilinearForm(_density(mesh, values) * InnerProduct(u, v) * dx, symmetric=True, nonassemble=True)
     carried = (values["moving_inertia"] - values["rotor_inertia"]) * 1e6  # kg*mm^2
@@ -54,7 +57,7 @@ def frequency(mesh: Any, values: dict[str, float], solved: Solves, shape: Any, t
 
 
 def _density(mesh: Any, values: dict[str, float]) -> Any:
-    """Of every material [kg/mm^3]."""
+    """Return of every material [kg/mm^3]."""
     structure = values["structure_density"]
     kinds = {"rotor": structure, "housing": structure, "pcl": values["pcl_density"], "pad": values["peltier_density"]}
     kinds |= {name: values.get(f"{name}_density", 0.0) for name in ("spreader", "liner")}
