@@ -11,8 +11,7 @@ import pytest
 import yaml
 from cad_designs import shipped_design
 
-from tvimdesign.study.design import design_json
-from tvimdesign.study.text.json_places import JsonPlaces
+from tvimdesign.study.design import JsonPlaces, design_json
 
 
 def marks(node: yaml.Node, path: str = "") -> Iterator[tuple[str, int, int]]:

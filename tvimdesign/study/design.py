@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, TypeGuard
 
+import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from tvimdesign import __version__
@@ -22,10 +24,10 @@ from tvimdesign.device import MODES, Choice, Input, Table, table_for
 from tvimdesign.study.reader import read_tree
 from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.study import Study
-from tvimdesign.study.text.json_places import JsonPlaces
 from tvimdesign.study.text.mistakes import At, Mistakes, StudyError, quoted, step
 from tvimdesign.study.text.source import is_folder, ordinary_bytes, printable
 from tvimdesign.study.text.values import below, limits
+from tvimdesign.study.text.yaml_text import LOADER
 from tvimdesign.study.tree import tree_of_values
 
 MAX_BYTES = 10_000_000
@@ -274,3 +276,32 @@ def _stop(problems: Mistakes, data: bytes, version: object) -> None:
     located = ((mistake, places.at(mistake.path)) for mistake in problems.items)
     problems.items = [replace(mistake, line=at.line, column=at.column) for mistake, at in located]
     problems.stop()
+
+
+class JsonPlaces:
+    """Lines and columns of the values in a JSON file, which is YAML too; a broken file has none."""
+
+    def __init__(self, data: bytes) -> None:
+        """Read a whole JSON file."""
+        self._root: Any = None
+        try:
+            text = data.decode(json.detect_encoding(data), "surrogatepass")
+            json.loads(text)
+            self._root = yaml.compose(text, Loader=LOADER)
+        except (ValueError, RecursionError, yaml.YAMLError):
+            return
+
+    def at(self, path: str) -> At:
+        """Return the place of a path such as `study.module.current`, or of the last of its steps that exists."""
+        node = place = self._root
+        for name in re.findall(r"[^.\[\]]+", path):
+            if isinstance(node, yaml.MappingNode):
+                entries = {key.value: (key, value) for key, value in node.value}
+            elif isinstance(node, yaml.SequenceNode):
+                entries = {str(number): (item, item) for number, item in enumerate(node.value)}
+            else:
+                break
+            if name not in entries:
+                break
+            place, node = entries[name]
+        return At(place.start_mark.line + 1, place.start_mark.column + 1) if place else At(0, 0)

@@ -14,7 +14,7 @@ from tvimdesign.study.text.mistakes import At, Mistake, Mistakes, StudyError, qu
 from tvimdesign.study.text.python_values import node_of
 from tvimdesign.study.text.source import check_characters, printable, read_text
 from tvimdesign.study.text.values import misfit
-from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text, compose, yaml_of
+from tvimdesign.study.text.yaml_text import Mapping, Node, Text, compose, yaml_of
 
 _OF_A_SEARCH = ("vary", "minimize", "front")
 """The sections that go with the last variable."""
@@ -114,23 +114,8 @@ def _setting_node(value: str, problems: Mistakes) -> Node:
     """Return the node behind `=`: a list or a mapping in YAML's brackets, else text as it is."""
     if not value.lstrip().startswith(("[", "{")):
         return node_of(value, problems.file, problems)
-    try:
-        return _placed(compose(check_characters(value, problems), problems), problems.file)
-    except StudyError as error:
-        raise StudyError(replace(problem, line=0, column=0) for problem in error.problems) from None
-
-
-def _placed(node: Node, file: str) -> Node:
-    """Return the node as one that comes from an option."""
-    if isinstance(node, Mapping):
-        entries = {
-            name: (replace(key, line=0, column=0, file=file), _placed(value, file))
-            for name, (key, value) in node.entries.items()
-        }
-        return Mapping(0, 0, entries, file)
-    if isinstance(node, Sequence):
-        return replace(node, line=0, column=0, items=[_placed(item, file) for item in node.items], file=file)
-    return replace(node, line=0, column=0, file=file)
+    place = At(0, 0, problems.file)
+    return compose(check_characters(value, problems, place), problems, place)
 
 
 def with_value(tree: StudyTree, name: str, value: Node, source: str, problems: tuple[Mistake, ...] = ()) -> StudyTree:

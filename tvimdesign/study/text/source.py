@@ -42,15 +42,17 @@ def _too_big(size: int) -> str:
     return f"the file has {size / 1e6:.3g} MB, a study at most {MOST_BYTES / 1e6:.0f} MB; give the path of a study"
 
 
-def check_characters(text: str, problems: Mistakes) -> str:
-    """Return the text; raises StudyError where it is too long or holds characters that no study has."""
+def check_characters(text: str, problems: Mistakes, place: At | None = None) -> str:
+    """Return the text; raises StudyError, at a `place` if given, for one that is too long or has control characters."""
     if len(text) > MOST_BYTES:
         problems.add(At(0, 0), "", _too_big(len(text)))
     elif odd := CONTROL.search(text):
-        problems.add(_place(text, odd.start()), "", f"control character U+{ord(odd[0]):04X}", "plain text", "remove it")
+        problems.add(
+            place or _place(text, odd.start()), "", f"control character U+{ord(odd[0]):04X}", "plain text", "remove it"
+        )
     elif tab := _TAB_INDENT.search(text):
         problems.add(
-            _place(text, tab.end() - 1), "", "a tab at the start of a line", "spaces: YAML indents with spaces"
+            place or _place(text, tab.end() - 1), "", "a tab at the start of a line", "spaces: YAML indents with spaces"
         )
     problems.stop()
     return text

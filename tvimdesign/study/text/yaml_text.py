@@ -24,7 +24,7 @@ _TAGS = {
     "map": {"map"},
 }
 _TAG_PREFIX = "tag:yaml.org,2002:"
-_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,14 +78,17 @@ class Broken:
 Node: TypeAlias = Text | Sequence | Mapping | Broken
 
 
-def compose(text: str, problems: Mistakes) -> Node:
-    """Turn YAML text into one node, noting every problem of form; raises StudyError where it cannot go on."""
-    builder = _Builder(problems)
+def compose(text: str, problems: Mistakes, place: At | None = None) -> Node:
+    """Turn YAML text into one node, noting every problem of form; raises StudyError where it cannot go on.
+
+    `place` is that of every node if the text stands in no file, but in an option.
+    """
+    builder = _Builder(problems, place)
     try:
         for event in _events(text):
             builder.take(event)
     except yaml.YAMLError as error:
-        _note_syntax(error, text, problems)
+        _note_syntax(error, text, problems, place)
         problems.stop()
     if builder.root is None or (isinstance(builder.root, Text) and builder.root.empty):
         problems.add(At(0, 0), "", "the study is empty", hint="`tvimdesign new` writes a commented one")
@@ -95,7 +98,7 @@ def compose(text: str, problems: Mistakes) -> Node:
 
 
 def _events(text: str) -> Iterator[Any]:
-    yield from yaml.parse(text, Loader=_LOADER)
+    yield from yaml.parse(text, Loader=LOADER)
 
 
 @dataclass
@@ -112,13 +115,14 @@ class _Builder:
     """Stacks events into nodes."""
 
     problems: Mistakes
+    place: At | None = None
     root: Node | None = None
     stack: list[_Open] = field(default_factory=list)
     nodes: int = 0
 
     def take(self, event: Any) -> None:
         """Take one event of the parser."""
-        place = At(event.start_mark.line + 1, event.start_mark.column + 1)
+        place = self.place or At(event.start_mark.line + 1, event.start_mark.column + 1)
         match event:
             case yaml.DocumentStartEvent() if self.root is not None:
                 self.problems.add(place, "", "a second YAML document starts here", "one study a file")
@@ -135,11 +139,11 @@ class _Builder:
     def _scalar(self, event: Any, place: At) -> None:
         odd = CONTROL.search(event.value)
         if not self._tag_allowed(event, "text", place):
-            self._add(Broken(place.line, place.column))
+            self._add(Broken(place.line, place.column, place.file))
         elif odd:
             self._refuse(place, f"control character U+{ord(odd[0]):04X}", "plain text")
         else:
-            self._add(Text(place.line, place.column, event.value, plain=event.style is None or event.style == ""))
+            self._add(Text(place.line, place.column, event.value, not event.style, place.file))
 
     def _start(self, event: Any, place: At) -> None:
         kind = "list" if isinstance(event, yaml.SequenceStartEvent) else "map"
@@ -160,7 +164,7 @@ class _Builder:
 
     def _refuse(self, place: At, message: str, expected: str) -> None:
         self.problems.add(place, self._path(), message, expected)
-        self._add(Broken(place.line, place.column))
+        self._add(Broken(place.line, place.column, place.file))
 
     def _add(self, node: Node) -> None:
         self.nodes += 1
@@ -173,13 +177,13 @@ class _Builder:
             self.root = node
 
     def _close(self, done: _Open) -> None:
-        line, column = done.place.line, done.place.column
+        line, column, file = done.place.line, done.place.column, done.place.file
         if done.kind == "broken":
-            self._add(Broken(line, column))
+            self._add(Broken(line, column, file))
         elif done.kind == "list":
-            self._add(Sequence(line, column, done.children))
+            self._add(Sequence(line, column, done.children, file))
         else:
-            self._add(Mapping(line, column, self._entries(done.children)))
+            self._add(Mapping(line, column, self._entries(done.children), file))
 
     def _entries(self, children: list[Node]) -> dict[str, tuple[Text, Node]]:
         entries: dict[str, tuple[Text, Node]] = {}
@@ -215,7 +219,7 @@ _REMEDIES = (
 )
 
 
-def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes) -> None:
+def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes, fixed: At | None) -> None:
     """Note the parser's complaint at its place, with what usually helps."""
     mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
     complaint = " ".join(str(part) for part in (getattr(error, "context", ""), getattr(error, "problem", "")) if part)
@@ -223,7 +227,7 @@ def _note_syntax(error: yaml.YAMLError, text: str, problems: Mistakes) -> None:
     lines = text.splitlines()
     line = lines[place.line - 1] if 0 < place.line <= len(lines) else ""
     hint = next((remedy for sign, words, remedy in _REMEDIES if words in complaint and re.search(sign, line)), "")
-    problems.add(place, "", f"not valid YAML ({complaint or 'unreadable'})", hint=hint)
+    problems.add(fixed or place, "", f"not valid YAML ({complaint or 'unreadable'})", hint=hint)
 
 
 # --- from nodes back to text ---
