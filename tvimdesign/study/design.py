@@ -97,7 +97,25 @@ def write_design(design: Design, path: Path) -> Path:
 
 
 def read_design(path: str | os.PathLike[str]) -> Design:
-    """Read a design; raises StudyError with all that is wrong with it, InputError where there is no such file."""
+    """Read a design from its file.
+
+    Parameters
+    ----------
+    path
+        A `design.json` that `tvimdesign run` wrote.
+
+    Returns
+    -------
+    Design
+        The design, whose study, choices and values have been checked.
+
+    Raises
+    ------
+    StudyError
+        With every mistake in the file and its line.
+    InputError
+        If there is no such file, or it cannot be read.
+    """
     path = Path(path)
     shown = printable(path)
     try:
@@ -143,8 +161,6 @@ def _check_form(error: ValidationError, data: Any, problems: Mistakes, path: str
     """Note what pydantic says, once for each place: a value that may be of several kinds has a fault for each."""
     messages: dict[str, str] = {}
     for fault in error.errors(include_url=False):
-        if _of_the_other_kind(data, fault["loc"]):
-            continue
         where = ".".join(filter(None, [path, *_inside(data, fault["loc"])]))
         message = "unknown name" if fault["type"] == "extra_forbidden" else fault["msg"]
         messages[where] = message if where not in messages else f"{messages[where]}; or: {message}"
@@ -162,15 +178,6 @@ def _inside(data: Any, places: Iterable[str | int]) -> Iterator[str]:
 
 
 _KINDS = {"float", "str", "Range", "Options"}
-
-
-def _of_the_other_kind(data: Any, places: tuple[str | int, ...]) -> bool:
-    """Return whether a variable with the ends of a range was tried as a list, or a list as a range."""
-    for place in places:
-        if place in ("Range", "Options"):
-            return isinstance(data, Mapping) and ("lower" in data or "upper" in data) == (place == "Options")
-        data = data.get(place) if isinstance(data, Mapping) else None
-    return False
 
 
 def _check_design(design: Design, problems: Mistakes) -> None:

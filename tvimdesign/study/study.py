@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import Table, table_for
@@ -44,7 +44,13 @@ class Options(_Part):
     source: str | None = None
 
 
-Vary: TypeAlias = Range | Options
+def _kind(vary: Any) -> str:
+    """Return which of the two a variable's data mean, so that only its mistakes are reported."""
+    ranged = isinstance(vary, Range) or (isinstance(vary, Mapping) and not {"lower", "upper"}.isdisjoint(vary))
+    return "Range" if ranged else "Options"
+
+
+Vary: TypeAlias = Annotated[Annotated[Range, Tag("Range")] | Annotated[Options, Tag("Options")], Discriminator(_kind)]
 
 
 class Requirement(_Part):
