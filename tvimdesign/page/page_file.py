@@ -25,7 +25,7 @@ _ALWAYS = ("main.js", "tables.js", "data.js", "figures.js", "files.js")
 
 
 def page_html(page: Page) -> bytes:
-    """The page as UTF-8. The same page gives the same bytes."""
+    """Return the page as UTF-8. The same page gives the same bytes."""
     drawn = list(figures(page))
     text: str = template("page.html.jinja").render(
         page=page,
@@ -38,7 +38,7 @@ def page_html(page: Page) -> bytes:
 
 
 def _with_files(text: str, files: Mapping[str, bytes]) -> str:
-    """A page's text with the files that it carries, as many as it has room for."""
+    """Return a page's text with the files that it carries, as many as it has room for."""
     begin, imports, end = text.rpartition('<script type="importmap">')
     room = MOST - len(text.encode()) - _RESERVE
     for address, data in files.items():
@@ -49,7 +49,7 @@ def _with_files(text: str, files: Mapping[str, bytes]) -> str:
 
 
 def figures(page: Page) -> Iterator[Drawn]:
-    """Every figure of a page that its code draws, in order."""
+    """Yield every figure of a page that its code draws, in order."""
     yield from _figures([*page.first, *(block for section in page.sections for block in section.blocks)])
 
 
@@ -62,7 +62,7 @@ def _figures(blocks: Sequence[Block]) -> Iterator[Drawn]:
 
 
 def _modules(drawn: Sequence[Drawn]) -> dict[str, str]:
-    """The page's code by the names it is imported by; libraries only where a figure needs them."""
+    """Return the page's code by the names it is imported by; libraries only where a figure needs them."""
     libraries = {name for one in drawn for name in one.libraries}
     own = [path for path in _own_modules() if path in _ALWAYS or drawn]
     return {f"page/{name}": _address(name) for name in (*own, *(f"vendor/{name}.js" for name in sorted(libraries)))}
@@ -70,7 +70,7 @@ def _modules(drawn: Sequence[Drawn]) -> dict[str, str]:
 
 @cache
 def _own_modules() -> tuple[str, ...]:
-    """Modules of static/ and its folders, but no libraries."""
+    """Return modules of static/ and its folders, but no libraries."""
     found = []
     folders = [PurePosixPath()]
     while folders:
@@ -85,7 +85,7 @@ def _own_modules() -> tuple[str, ...]:
 
 @cache
 def _address(name: str) -> str:
-    """A module as an address that holds it: a page that was opened from a disk cannot import other files."""
+    """Return a module as an address that holds it: a page that was opened from a disk cannot import other files."""
     return f"data:text/javascript;base64,{base64.b64encode(_static(name).encode()).decode()}"
 
 
@@ -95,18 +95,18 @@ def _static(name: str) -> str:
 
 
 def _json(data: Any) -> str:
-    """JSON that can stand in a script element. Raises ValueError for what JSON has no number for."""
+    """Return JSON that can stand in a script element. Raises ValueError for what JSON has no number for."""
     return json.dumps(data, allow_nan=False, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def packed(data: bytes) -> str:
-    """Bytes as the page's code reads them: gzip in base64; the same bytes every time."""
+    """Return bytes as the page's code reads them: gzip in base64; the same bytes every time."""
     return base64.b64encode(gzip.compress(data, 6, mtime=0)).decode()
 
 
 @cache
 def template(name: str) -> Any:
-    """A template, compiled once; it escapes all text."""
+    """Return a template, compiled once; it escapes all text."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(

@@ -11,7 +11,7 @@ from tvimdesign.page.page_file import figures, packed, template
 
 
 def page_fragment(page: Page, left_out: Collection[str] = ()) -> dict[str, Any]:
-    """Status, first screen and sections but those `left_out`, as HTML, with data and packed bytes of their figures."""
+    """Return status, first screen and sections but those `left_out`, as HTML, with the data of their figures."""
     shown = replace(page, sections=[one for one in page.sections if one.name not in left_out])
     macros = template("blocks.html.jinja").module
     drawn = list(figures(shown))

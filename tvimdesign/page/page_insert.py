@@ -9,7 +9,7 @@ from tvimdesign.page.page_file import template
 
 
 def with_section(text: str, section: Section, before: str) -> str | None:
-    """A page's text with one more section, before the one named `before`; in place of an earlier one of its name.
+    """Return a page's text with one more section, before the one named `before`; it replaces one of its name.
 
     The section draws no figure of its own. None where the text is no page that has `before`.
     """
@@ -23,6 +23,6 @@ def with_section(text: str, section: Section, before: str) -> str | None:
 
 
 def _without(text: str, name: str) -> str:
-    """The text without a section and its entry in the contents."""
+    """Return the text without a section and its entry in the contents."""
     text = re.sub(rf'<li><a href="#{name}">[^\n]*</li>\n\s*', "", text, count=1)
     return re.sub(rf'<section id="{name}".*?</section>\n', "", text, count=1, flags=re.DOTALL)

@@ -45,28 +45,28 @@ def print_rows(mode: str, word: str, as_json: bool) -> None:
 
 
 def named_rows(mode: str) -> list[Quantity]:
-    """The rows that a study may name, in the table's order. Raises InputError for no such mode."""
+    """Return the rows that a study may name, in the table's order. Raises InputError for no such mode."""
     return [row for row in table_for(mode).quantities if not (isinstance(row, Output) and (row.hidden or row.instant))]
 
 
 def mode_names() -> tuple[str, ...]:
-    """Modes that have rows."""
+    """Return the modes."""
     return MODES
 
 
 def row_names() -> list[str]:
-    """Names of the rows of every mode, each once."""
+    """Return names of the rows of every mode, each once."""
     return list(dict.fromkeys(row.name for mode in MODES for row in named_rows(mode)))
 
 
 def setting_names() -> list[str]:
-    """What `--set` takes: inputs and choices, and outputs after `require.`, each with the `=`."""
+    """Return what `--set` takes: inputs and choices, and outputs after `require.`, each with the `=`."""
     every = [row for mode in MODES for row in named_rows(mode)]
     return list(dict.fromkeys(f"require.{row.name}=" if isinstance(row, Output) else f"{row.name}=" for row in every))
 
 
 def matching(rows: Sequence[Quantity], word: str) -> list[Quantity]:
-    """The group of that name and the row so called; else rows with the word, or what engineers mean by it."""
+    """Return the group of that name and the row so called; else rows with the word, or what engineers mean by it."""
     word = " ".join(word.lower().split())
     named = [row for row in rows if word in (row.group.lower(), row.name)]
     terms = (word, *_words().get(word, ()))
@@ -80,13 +80,13 @@ def _text(row: Quantity) -> str:
 
 @cache
 def _words() -> dict[str, tuple[str, ...]]:
-    """What people look for, with what the table says instead."""
+    """Return what people look for, with what the table says instead."""
     text = files("tvimdesign.report").joinpath("row_words.yaml").read_text(encoding="utf-8")
     return {word: tuple(terms) for word, terms in plain_data(text).items()}
 
 
 def _print_groups(rows: Sequence[Quantity], mode: str, console: Console) -> None:
-    """A line for each group: how many names it has, and those a summary shows or a search may change."""
+    """Print a line for each group: how many names it has, and those a summary shows or a search may change."""
     groups = list(dict.fromkeys(row.group for row in rows))
     console.print(f"{len(rows)} names of {mode} mode in {len(groups)} groups, with those that are asked for most:\n")
     grid = Grid(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
@@ -104,7 +104,7 @@ def _print_groups(rows: Sequence[Quantity], mode: str, console: Console) -> None
 
 
 def _important(rows: Sequence[Quantity]) -> list[str]:
-    """Variables and the outputs that summaries have, then what is better one way; of a group without any, choices."""
+    """Return variables and headline outputs, then what is better one way; of a group without any, choices."""
     names = [row.name for row in rows if _asked_for(row)]
     names += [row.name for row in rows if getattr(row, "better", None) and row.name not in names]
     return (names or [row.name for row in rows if isinstance(row, Choice)] or [row.name for row in rows])[:_SHOWN]
@@ -115,7 +115,7 @@ def _asked_for(row: Quantity) -> bool:
 
 
 def _print_found(rows: Sequence[Quantity], word: str, console: Console) -> None:
-    """Those asked for most, then the others by group: a name on a line with what it is, below it what it means."""
+    """Print those asked for most, then the others by group: a name with its facts, below it its description."""
     also = _words().get(word.lower())
     if also:
         console.print(f"{word}: rows with {', '.join(also)}\n", style="dim", markup=False)
@@ -132,7 +132,7 @@ def _print_found(rows: Sequence[Quantity], word: str, console: Console) -> None:
 
 
 def _facts(plain: dict[str, Any]) -> str:
-    """What a row is, in a few words: `variable, 2.413 mm` or `input in GPa, from spring_material`."""
+    """Return what a row is, in a few words: `variable, 2.413 mm` or `input in GPa, from spring_material`."""
     kind, default, unit = plain["kind"], plain["default"], plain["unit"]
     if not default or default.startswith("from "):
         return ", ".join(filter(None, (f"{kind} in {unit}" if unit else kind, default)))
@@ -160,7 +160,7 @@ def _plain(row: Quantity) -> dict[str, Any]:
 
 
 def _only_with(row: Quantity) -> str:
-    """What an input or a choice counts for nothing without; an output's description says what it is then."""
+    """Return the feature without which an input or a choice has no effect; empty for an output."""
     idle = () if isinstance(row, Output) else row.requires
     return "".join(f"; of no effect while {feature.choice} is {feature.without}" for feature in idle)
 
@@ -180,7 +180,7 @@ def _entry(row: Quantity, kind: str, unit: str, default: str, allowed: str, name
 
 
 def _range(row: Input) -> str:
-    """How well the table's own default is known, where nobody has measured it."""
+    """Return how well the table's own default is known, where nobody has measured it."""
     if row.range_of is not None:
         return f"the range of {row.range_of[1]} of {row.range_of[0]}"
     if row.low is None or row.high is None:

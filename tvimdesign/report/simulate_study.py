@@ -59,7 +59,7 @@ def simulate_study(
 
 
 def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[str]]:
-    """The module of a study or of a design, and which one that is, in a sentence; ratings a design is beyond."""
+    """Return the module of a study or of a design, and which one that is, in a sentence; ratings a design is beyond."""
     if source.suffix == ".json":
         if settings:
             raise InputError(f"--set {settings[0]}: {source} is a design, which is finished; give the study's file")
@@ -76,7 +76,7 @@ def _rig(source: Path, settings: Sequence[str]) -> tuple[ResolvedModule, list[st
 
 
 def _records(resolved: ResolvedModule) -> dict[str, Path]:
-    """Files of the catalogue records the module is made of."""
+    """Return files of the catalogue records the module is made of."""
     return {
         f"{row.category}/{resolved.values[row.name].name}": resolved.study.catalog.path(
             row.category, resolved.values[row.name].name
@@ -87,18 +87,18 @@ def _records(resolved: ResolvedModule) -> dict[str, Path]:
 
 
 def sheet_csv(sheet: CurveTable) -> str:
-    """A sheet as CSV, each column headed by its name and unit."""
+    """Return a sheet as CSV, each column headed by its name and unit."""
     curves = {column.name: _shown(column) for column in sheet.columns}
     return curves_csv(curves, {column.name: column.unit for column in sheet.columns}, "1")
 
 
 def _shown(column: Column) -> list[float]:
-    """A column's values in its unit."""
+    """Return a column's values in its unit."""
     return [from_si(float(value), column.unit) for value in column.values]
 
 
 def findings(trial: Trial) -> dict[str, Any]:
-    """What was read off a test as plain data, every number in its unit."""
+    """Return what was read off a test as plain data, every number in its unit."""
     return {
         **head(),
         "test": trial.test,
@@ -118,7 +118,7 @@ def findings(trial: Trial) -> dict[str, Any]:
 
 
 def _parts(found: Finding) -> Iterator[tuple[str, float | None]]:
-    """The numbers of a finding; where history decides there is no one value, only the nominal one of an interval."""
+    """Yield the numbers of a finding; if history decides there is no one value, only the nominal one of an interval."""
     if found.low is None and found.high is None:
         yield "value", found.value
         return
@@ -126,12 +126,12 @@ def _parts(found: Finding) -> Iterator[tuple[str, float | None]]:
 
 
 def _plain(value: float | None, unit: str) -> float | None:
-    """A number in its unit; JSON has no infinity, what never happens is null."""
+    """Return a number in its unit; JSON has no infinity, what never happens is null."""
     return from_si(value, unit) if value is not None and math.isfinite(value) else None
 
 
 def figure_data(trial: Trial) -> dict[str, Any]:
-    """What the figure of a test is drawn from: every panel with its lines in the units of the axes."""
+    """Return what the figure of a test is drawn from: every panel with its lines in the units of the axes."""
     sheets = {sheet.name: sheet for sheet in trial.sheets}
     return {"title": trial.title, "panels": [_panel(panel, sheets) for panel in trial.panels]}
 
@@ -178,7 +178,7 @@ def _print_trial(trial: Trial, console: Console) -> None:
 
 
 def findings_table(trial: Trial) -> Grid:
-    """What was read off, a row for each finding."""
+    """Return what was read off, a row for each finding."""
     rows = [(found.name, _value(found), pretty(found.unit), found.meaning) for found in trial.findings]
     return grid("", ("finding", "value", "unit", "meaning"), rows, right=(1,))
 

@@ -19,7 +19,7 @@ def list_examples() -> None:
 
 
 def example_names() -> tuple[str, ...]:
-    """Names of the shipped studies."""
+    """Return names of the shipped studies."""
     return tuple(examples())
 
 

@@ -15,7 +15,7 @@ _NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^
 
 @cache
 def _labels() -> dict[str, str]:
-    """Labels of quantities whose names do not read as words."""
+    """Return labels of quantities whose names do not read as words."""
     return dict(plain_data(resources.files(__package__).joinpath("labels.yaml").read_text(encoding="utf-8")))
 
 

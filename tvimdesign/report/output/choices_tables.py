@@ -18,7 +18,7 @@ _BETTER = 1e-5
 
 
 def best_rows(choosing: Choosing, table: Table) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """Columns, and a row for each of the best combinations: choices, then objective and outputs against the best."""
+    """Return columns, and a row for each of the best combinations: choices, objective and outputs against the best."""
     best = choosing.best[0]
     rows = []
     for one in choosing.best:
@@ -29,7 +29,7 @@ def best_rows(choosing: Choosing, table: Table) -> tuple[tuple[str, ...], list[t
 
 
 def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | float] | None = None) -> str:
-    """What standard sizes cost against the best design in between; empty where none is known.
+    """Return what standard sizes cost against the best design in between; empty where none is known.
 
     `own` are the design's choices where it was chosen with margins: its combination need not be the best of those that
     were ranked without. Both sides are without margins, so the price is that of the sizes alone.
@@ -58,12 +58,12 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
 
 
 def _own(choosing: Choosing, own: Mapping[str, str | float] | None) -> Standard | None:
-    """The combination that the design has: the best, or the one of the best that margins led to."""
+    """Return the combination that the design has: the best, or the one of the best that margins led to."""
     return next((one for one in choosing.best if own is None or _same(one.choices, own)), None)
 
 
 def _same(choices: Mapping[str, str | float], own: Mapping[str, str | float]) -> bool:
-    """Whether a combination is the design's own."""
+    """Return whether a combination is the design's own."""
     return all(
         value == own.get(name, value)
         if isinstance(value, str) or isinstance(own.get(name, value), str)
@@ -73,7 +73,7 @@ def _same(choices: Mapping[str, str | float], own: Mapping[str, str | float]) ->
 
 
 def choices_with_margins(answer: StudyResult) -> dict[str, str | float] | None:
-    """The design's own choices of what is listed, where margins may have led to another than the best combination."""
+    """Return the design's own choices from lists, if margins may have led to another than the best combination."""
     choosing = answer.solution.choosing if answer.solution else None
     if choosing is None or not choosing.best or not answer.design.study.get("robust"):
         return None
@@ -85,7 +85,7 @@ def choices_with_margins(answer: StudyResult) -> dict[str, str | float] | None:
 
 
 def tally_in_words(choosing: Choosing) -> str:
-    """How many combinations there are, what became of them, and how far that can be trusted."""
+    """Return how many combinations there are, what became of them, and how far that can be trusted."""
     work = choosing.work
     runs = work.warm + work.cold
     said = [f"{_count(choosing.combinations, 'combination')}: {_fates(choosing)}."]
@@ -133,7 +133,7 @@ def _fates(choosing: Choosing) -> str:
 def choosing_data(
     choosing: Choosing | None, table: Table, own: Mapping[str, str | float] | None = None
 ) -> ChoosingEntry | None:
-    """The account as plain data; None where nothing is listed. `own`: as of `price_in_words`."""
+    """Return the account as plain data; None where nothing is listed. `own`: as of `price_in_words`."""
     if choosing is None:
         return None
     best, between = _own(choosing, own), choosing.between
@@ -169,7 +169,7 @@ def _plain(one: Standard, table: Table) -> Listed:
 
 
 def _shares(one: Standard, other: Standard) -> dict[str, float]:
-    """How much more of each minimised output a design has than another, as a share."""
+    """Return how much more of each minimised output a design has than another, as a share."""
     return {name: value / other.values[name] - 1.0 for name, value in one.values.items()}
 
 

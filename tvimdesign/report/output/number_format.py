@@ -22,14 +22,14 @@ closed = with_config(ConfigDict(extra="forbid"))
 
 
 class Head(TypedDict):
-    """What every JSON file of results begins with."""
+    """The first entries of every JSON file of results."""
 
     format: Literal[1]
     units: Literal["SI"]
 
 
 def head() -> Head:
-    """The first entries of a JSON file of results."""
+    """Return the first entries of a JSON file of results."""
     return {"format": FORMAT, "units": UNITS}
 
 
@@ -58,7 +58,7 @@ Ends = tuple[float | None, float | None]
 
 
 def number_entry(value: float, unit: str, ends: Ends | None = None) -> NumberEntry:
-    """A number (SI) of a quantity people read in `unit`, with what it may lie between (SI) where that is known."""
+    """Return a number (SI) of a quantity people read in `unit`, with its range (SI) if that is known."""
     low, high = ends or (None, None)
 
     def shown(number: float | None) -> float | None:
@@ -74,5 +74,5 @@ def number_entry(value: float, unit: str, ends: Ends | None = None) -> NumberEnt
 
 
 def finite(value: float | None) -> float | None:
-    """JSON has no infinity: what never happens is null."""
+    """Return a number, or None for what never happens: JSON has no infinity."""
     return value if value is not None and math.isfinite(value) else None

@@ -20,7 +20,7 @@ _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
 
 
 def tone_of(text: str) -> Tone:
-    """What a word that says how something stands means."""
+    """Return what a word that says how something stands means."""
     return next((tone for tone, pattern in _TONES if pattern.search(text)), "")
 
 
@@ -28,8 +28,9 @@ def grid(
     caption: str, heads: Sequence[str], rows: Sequence[Sequence[str]], *, right: Collection[int] = (),
     code: Collection[int] = (0,), toned: Collection[int] = (), note: str = "",
 ) -> Grid:  # fmt: skip
-    """A grid from rows of text; columns of `right` are numbers, of `code` names of the study, of `toned` say how it
-    stands.
+    """Return a grid from rows of text.
+
+    Columns of `right` are numbers, of `code` names of the study; those of `toned` say how something stands.
     """
     cells = [
         [
@@ -43,7 +44,7 @@ def grid(
 
 
 def sort_key(text: str) -> float | None:
-    """The number a text begins with; of `never` one beyond all others."""
+    """Return the number a text begins with; of `never` one beyond all others."""
     if text == "never":
         return 1e300
     found = _NUMBER.match(text.replace("−", "-"))
@@ -51,12 +52,12 @@ def sort_key(text: str) -> float | None:
 
 
 def study_section(text: str) -> Section:
-    """The study's own file."""
+    """Return the study's own file."""
     return Section("study", "Study", [Listing("The study's file", text)])
 
 
 def versions_section(folder: ResultsFolder, inputs: Mapping[str, str] | None = None) -> Section:
-    """What made the page: versions, commit, and the records the module was made from."""
+    """Return what made the page: versions, commit, and the records the module was made from."""
     made_by = folder.made_by
     libraries = ", ".join(f"{name} {version}" for name, version in made_by["libraries"].items() if version)
     rows = [
@@ -70,17 +71,17 @@ def versions_section(folder: ResultsFolder, inputs: Mapping[str, str] | None = N
 
 
 def commit_words(made_by: Mapping[str, Any]) -> str:
-    """The commit in short, where the program runs from a source tree."""
+    """Return the commit in short, where the program runs from a source tree."""
     return f", commit {made_by['commit'][:12]}" if made_by["commit"] else ""
 
 
 def made_by_words(folder: ResultsFolder) -> str:
-    """The page's last line."""
+    """Return the page's last line."""
     return f"Written by tvimdesign {folder.made_by['tvimdesign']}{commit_words(folder.made_by)}."
 
 
 def there(folder: ResultsFolder, files: Mapping[str, str]) -> dict[str, str]:
-    """Those of some files that the folder has."""
+    """Return those of some files that the folder has."""
     return {name: says for name, says in files.items() if (folder.path / name).exists()}
 
 

@@ -23,7 +23,7 @@ _TICK = 0.25  # s
 
 
 def wide_console() -> Console:
-    """Standard output: as wide as the terminal, and wide enough for a table where there is none."""
+    """Return standard output: as wide as the terminal, and wide enough for a table where there is none."""
     console = OwnMarkupConsole(highlight=False)
     wide = not console.is_terminal and "COLUMNS" not in os.environ
     return OwnMarkupConsole(highlight=False, width=WIDTH) if wide else console
@@ -50,7 +50,7 @@ def progress_output() -> Iterator[Progress]:
 
 
 class _Shown:
-    """What is said, shown with the time by a thread that ticks, as the work itself says something only now and then."""
+    """The progress line, shown with the time by a thread that ticks, as work reports only now and then."""
 
     def __init__(self, console: Console) -> None:
         self._console = console
@@ -98,13 +98,13 @@ _COUNTED = re.compile(r"(?P<of>.*?)(?P<done>\d+) of (?:about )?(?P<all>\d+)")
 
 
 class RemainingTime:
-    """What is left of a series, by the mean time of those of its steps that are done; unknown before the first is.
+    """The remaining time of a series, by the mean time of its steps so far; unknown before the first is done.
 
     What is said between two steps belongs to the one before it; after the last step it is something else.
     """
 
     def __init__(self) -> None:
-        """Nothing has been said."""
+        """Start without a series."""
         self._series: tuple[str, str] | None = None
         self._first, self._began = 0, 0.0
         self._end: float | None = None
@@ -126,19 +126,19 @@ class RemainingTime:
             self._end = now + each * (last - number + 1)
 
     def left(self, now: float) -> float | None:
-        """Seconds that are left; None where nothing can be said of it."""
+        """Return seconds that are left; None where nothing can be said of it."""
         return None if self._end is None else max(self._end - now, 0.0)
 
 
 def clock(elapsed: float, left: float | None) -> str:
-    """`12 s, about 30 s left`; nothing within the first second."""
+    """Return `12 s, about 30 s left`; nothing within the first second."""
     if elapsed < 1.0:
         return ""
     return duration(elapsed) + ("" if left is None or left < 1.0 else f", about {duration(left)} left")
 
 
 def duration(seconds: float) -> str:
-    """`8 s`, `2 min 05 s`, `1 h 12 min`."""
+    """Return `8 s`, `2 min 05 s`, `1 h 12 min`."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"

@@ -26,7 +26,7 @@ class Provenance(NamedTuple):
 
 
 def provenance(name: str, design: Design, table: Table, find_record: FindRecord) -> Provenance:
-    """Where the number of a full name comes from, in a design."""
+    """Return where the number of a full name comes from, in a design."""
     row, base = table.quantity(name), name.partition("@")[0]
     if not isinstance(row, Input):
         return Provenance("computed", "computed", *design.intervals.get(name, (None, None)))
@@ -43,7 +43,7 @@ def provenance(name: str, design: Design, table: Table, find_record: FindRecord)
 
 
 def _record_of(row: Input, design: Design, table: Table) -> tuple[str, str] | None:
-    """(choice, field) that an input comes from, if from a record: one bought whole before any other."""
+    """Return (choice, field) that an input comes from, if from a record: one bought whole before any other."""
     if row.stock_record is None:
         return row.record
     chosen = table.quantity(row.stock_record[0])
@@ -53,14 +53,14 @@ def _record_of(row: Input, design: Design, table: Table) -> tuple[str, str] | No
 
 
 def _without(choice: str, row: Input, design: Design, table: Table) -> bool:
-    """Whether an input with a default of its own comes from a choice that stands for no record."""
+    """Return whether an input with a default of its own comes from a choice that stands for no record."""
     chosen = table.quantity(choice)
     assert isinstance(chosen, Choice)
     return row.falls_back and design.choices[choice] in chosen.options
 
 
 def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord) -> Ends | None:
-    """The range of a factor of a chosen record's value, as the record has it."""
+    """Return the range of a factor of a chosen record's value, as the record has it."""
     if row.range_of is None:
         return None
     chosen = table.quantity(row.range_of[0])
@@ -72,7 +72,7 @@ def _of_factor(row: Input, design: Design, table: Table, find_record: FindRecord
 def _of_record(
     choice: str, field: str, row: Input, design: Design, table: Table, find_record: FindRecord
 ) -> Provenance:
-    """As the chosen record has it; as the row says where there is no such record any more."""
+    """Return the source in the chosen record; that of the row if there is no such record any more."""
     chosen = table.quantity(choice)
     assert isinstance(chosen, Choice)
     if design.choices[choice] in chosen.options:

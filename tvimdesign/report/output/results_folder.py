@@ -291,7 +291,7 @@ def _version(name: str) -> str | None:
 
 
 def _commit() -> str | None:
-    """Commit of the source tree this package runs from, or None when it runs from an installed wheel."""
+    """Return commit of the source tree this package runs from, or None when it runs from an installed wheel."""
     source = Path(__file__).resolve().parents[3]
     if not (source / ".git").exists():
         return None

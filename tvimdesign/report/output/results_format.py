@@ -18,7 +18,7 @@ Shares = dict[str, float | None]
 
 @closed
 class IntervalEntry(NumberEntry):
-    """What an output may be, given what nobody has measured: between `low` and `high` with 95 %, all moved together."""
+    """The range of an output over unmeasured inputs: between `low` and `high` with 95 %, all moved together."""
 
     one_at_a_time: NumberEntry
     """Least and largest with one input at an end of its range."""
@@ -49,7 +49,7 @@ class ShareEntry(TypedDict):
 
 @closed
 class UncertaintyEntry(TypedDict):
-    """How sure a design is: what varies from part to part, and, apart from it, what nobody has measured."""
+    """The uncertainty of a design: what varies from part to part and, apart from it, unmeasured inputs."""
 
     parts_yield: ShareEntry | None
     """Modules that keep the limits, parts within their tolerances and all else as assumed."""
@@ -111,7 +111,7 @@ class IdealizationEntry(TypedDict):
 
 @closed
 class CoolingEntry(TypedDict):
-    """Whether the heater can cool and does, and the times of the way back with its pads unpowered where it does."""
+    """Cooling by current: if the heater can and does, and the times of the way back with its pads unpowered."""
 
     able: bool
     used: bool
@@ -145,7 +145,7 @@ class LostTo(TypedDict):
 
 @closed
 class Yield(TypedDict):
-    """What modules drawn at random keep of a design of which a yield was asked for, and of the one without margins."""
+    """The yield of a design of which one was asked for, and of the one without margins, by random modules."""
 
     asked: float
     modules: int
@@ -167,7 +167,7 @@ class Listed(TypedDict):
 
 @closed
 class ChoosingEntry(TypedDict):
-    """How listed choices were searched."""
+    """The search over listed choices."""
 
     combinations: int
     solved: int
@@ -222,7 +222,7 @@ class ActiveConstraintEntry(TypedDict):
 
 @closed
 class Search(TypedDict):
-    """How the optimum was found."""
+    """The search for the optimum."""
 
     objective: float | None
     reference: Shares
@@ -265,7 +265,7 @@ class Optimum(TypedDict):
 
 @closed
 class Starts(TypedDict):
-    """What became of the starts."""
+    """The starts of the search, and how they ended."""
 
     count: int
     converged: int
@@ -361,7 +361,7 @@ class Answered(Head):
 
 @closed
 class RunResults(Answered):
-    """What a run came to: results.json, and with `folder` and `not_done` the output of `run --json`."""
+    """The result of a run: results.json, and with `folder` and `not_done` the output of `run --json`."""
 
     why: NotRequired[Why]
     starts: NotRequired[Starts]
@@ -378,7 +378,7 @@ class RunResults(Answered):
 
 @closed
 class RefusedRun(Head):
-    """What is left of a run whose study was refused before there was any design: the reason."""
+    """A run whose study was refused before there was any design, with the reason."""
 
     name: str
     mode: str
@@ -389,7 +389,7 @@ class RefusedRun(Head):
 
 
 def results_schema() -> dict[str, Any]:
-    """The JSON schema of results.json and of `run --json`, made from the types above."""
+    """Return the JSON schema of results.json and of `run --json`, made from the types above."""
     made: TypeAdapter[Any] = TypeAdapter(RunResults | RefusedRun)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "tvimdesign results",
             **made.json_schema()}  # fmt: skip

@@ -26,7 +26,7 @@ _ROUND = 1e-5
 
 
 def number(value: float, digits: int = 4) -> str:
-    """A number for people: `digits` significant figures, no needless zeros, `never` for an infinite time."""
+    """Return a number for people: `digits` significant figures, no needless zeros, `never` for an infinite time."""
     if math.isinf(value):
         return "never"
     text = f"{value:.{digits}g}"
@@ -82,7 +82,7 @@ def mark(name: str, answer: StudyResult) -> str:
 
 
 def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[float, str]:
-    """What is left of a limit: a share with the unit 1, or in the row's unit where the limit has no size of its own."""
+    """Return what is left of a limit: a share with the unit 1, or in the row's unit if the limit has no size."""
     if not check.absolute:
         return check.margin, "1"
     unit = table.unit(check.output)
@@ -91,7 +91,7 @@ def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[
 
 
 def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
-    """The margin for people: in percent or in the row's unit; rounding is not a margin."""
+    """Return the margin for people: in percent or in the row's unit; rounding is not a margin."""
     if not math.isfinite(check.margin):
         return "never"
     margin, unit = margin_of(check, table)
@@ -114,7 +114,7 @@ def margin_words(check: ConstraintCheck, table: Table) -> str:
 
 
 def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | None = None) -> CheckEntry:
-    """One check as plain data; `ends` (SI) where history leaves its output open."""
+    """Return one check as plain data; `ends` (SI) where history leaves its output open."""
     margin, margin_unit = margin_of(check, table)
     return {
         "limit": check.text,
@@ -128,7 +128,7 @@ def check_row(check: ConstraintCheck, table: Table, ends: tuple[float, float] | 
 
 
 def results(answer: StudyResult, table: Table) -> Answered:
-    """Everything a script wants to know: every number in its unit and in SI, every check, how it was found."""
+    """Return everything a script wants to know: every number in its unit and in SI, every check, how it was found."""
     design, reached = answer.design, answer.solution.yield_reached if answer.solution else None
     find_record, ends = catalog_of(design).record, answer.intervals
 
@@ -183,7 +183,7 @@ def results(answer: StudyResult, table: Table) -> Answered:
 
 
 def yield_entry(reached: YieldReached, table: Table) -> Yield:
-    """The account of a yield that was asked for, with units."""
+    """Return the account of a yield that was asked for, with units."""
     nominal = {name: number_entry(value, table.unit(name)) for name, value in reached.nominal.items()}
     return cast("Yield", asdict(reached) | {"nominal": nominal})
 
@@ -204,7 +204,7 @@ def _entry(name: str, value: float, answer: StudyResult, table: Table, find_reco
 
 
 def _all_finite(data: Any) -> Any:
-    """Plain data with null for what is not finite."""
+    """Return plain data with null for what is not finite."""
     if isinstance(data, Mapping):
         return {key: _all_finite(value) for key, value in data.items()}
     if isinstance(data, list | tuple):
@@ -213,7 +213,7 @@ def _all_finite(data: Any) -> Any:
 
 
 def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, IntervalEntry] | None = None) -> str:
-    """The values of `results` as CSV, in the units people read: what each is, how well it is known, and from where.
+    """Return the values of `results` as CSV, in the units people read, with status, range and source.
 
     `may_be_low` to `may_be_high` are the intervals over what nobody has measured; `measure_first` carries most of one.
     """
@@ -231,7 +231,7 @@ def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, Inter
 
 
 def curves_csv(curves: Mapping[str, list[float]], units: Mapping[str, str], other: str) -> str:
-    """Columns of equal length as CSV, each headed by name and unit; `other` is the unit of what is not in `units`."""
+    """Return columns of equal length as CSV, headed by name and unit; `other` is the unit of what is not in `units`."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(f"{name} [{pretty(units.get(name, other)) or 1}]" for name in curves)

@@ -113,7 +113,7 @@ class OwnMarkupConsole(Console):
     """A rich console on which names, paths and sentences of a user never are markup, and never an error."""
 
     def render_str(self, text: str, **options: Any) -> Text:
-        """A text with this package's own tags obeyed; without any where they do not match, as in a file's name."""
+        """Return a text with this package's own tags obeyed; without any if they do not match, as in a file's name."""
         markup = options.pop("markup", None)
         options |= {"emoji": False}  # or `:key:` would be a picture
         if not (markup or (markup is None and self._markup)):

@@ -16,24 +16,24 @@ Value = Callable[[str], float]
 
 
 def soft_in_words(design: Design, table: Table) -> str:
-    """`|Z| <= 12.7 N·m/rad at 1 Hz, twice hot`: what the joint is from `softening_time` on."""
+    """Return `|Z| <= 12.7 N·m/rad at 1 Hz, twice hot`: what the joint is from `softening_time` on."""
     return _soft(design.value, design.choices["impedance_targets"], table)
 
 
 def soft_of_module(resolved: ResolvedModule) -> str:
-    """The same of a module that is no design."""
+    """Return what soft means in a module that is no design."""
     return _soft(resolved.quantity, str(resolved.values["impedance_targets"]), resolved.table)
 
 
 def stiff_in_words(design: Design, table: Table) -> str:
-    """`|Z| >= 231 N·m/rad at 1 Hz, half of cold`: what the joint is from `stiffening_time` on."""
+    """Return `|Z| >= 231 N·m/rad at 1 Hz, half of cold`: what the joint is from `stiffening_time` on."""
     band = design.value("stiffening_band")
     of = "stiff_impedance" if design.choices["impedance_targets"] == "stated" else "cold"
     return f"{_at('>=', 'stiff', 'cold', design.value, table)}, {_PARTS.get(band, f'1/{band:.3g} of')} {of}"
 
 
 def notes(design: Design, table: Table) -> dict[str, str]:
-    """What must be known to read an output right, by its name: of times, what the joint is then."""
+    """Return what must be known to read an output right, by its name: of times, what the joint is then."""
     soft, stiff = f"soft: {soft_in_words(design, table)}", f"stiff: {stiff_in_words(design, table)}"
     found = {"softening_time": soft, "stiffening_time": stiff, "equilibrium_stiffening_time": stiff}
     if design.choices["response_criterion"] == "softening":
@@ -44,7 +44,7 @@ def notes(design: Design, table: Table) -> dict[str, str]:
 
 
 def meaning(name: str, design: Design, table: Table) -> str:
-    """What an output is, with what must be known to read it."""
+    """Return what an output is, with what must be known to read it."""
     note = notes(design, table).get(name)
     return table.quantity(name).description + (f" ({note})" if note else "")
 

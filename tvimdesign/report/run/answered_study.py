@@ -111,7 +111,7 @@ def answer_study(
 
 
 def proving(study: Study) -> Study:
-    """The study with every combination of listed choices solved."""
+    """Return the study with every combination of listed choices solved."""
     return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
 
 
@@ -157,7 +157,7 @@ _OF_RESULTS = tuple(UncertaintyEntry.__annotations__)
 
 
 def drawings(answered: AnsweredStudy) -> list[Drawing]:
-    """Every figure of an answer, with what it is drawn from; none where there is no design."""
+    """Return every figure of an answer, with what it is drawn from; none where there is no design."""
     from tvimdesign.report.run import run_plot_data
 
     if not answered.result.found:

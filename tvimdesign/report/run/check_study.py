@@ -39,14 +39,14 @@ def refuse_what_cannot_be(study: Study, *, proof: bool = True) -> Study:
 
 
 def describe(study: Study) -> str:
-    """One line on what a valid study asks, then one for each of its records that contradicts itself."""
+    """Return one line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
     asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
     return "\n".join([asked, *record_checks(study), *foreseen_ratings(study)])
 
 
 def foreseen_ratings(study: Study) -> list[str]:
-    """Ratings that the module the study starts from is beyond and the study neither accepts nor excludes."""
+    """Return ratings that the module the study starts from is beyond and the study neither accepts nor excludes."""
     from tvimdesign.solve.optimizer.ratings import exceeded_at_start
 
     try:

@@ -38,7 +38,7 @@ class Diagnostics:
 
     @property
     def sound(self) -> bool:
-        """Whether nothing speaks against the problem."""
+        """True if nothing speaks against the problem."""
         return (
             self.derivatives.right
             and not self.structure.idle
@@ -92,7 +92,7 @@ def inspect_study(study: Study, progress: Progress) -> Diagnostics:
 
 
 def in_words(found: Diagnostics) -> list[str]:
-    """The check for people, every finding with what to do about it."""
+    """Return the check for people, every finding with what to do about it."""
     lines = [*_scaling(found), *_conditioning(found.conditioning), *_derivatives(found.derivatives)]
     lines += _structure(found.structure)
     converged = f"converged in {found.start.iterations} iterations, objective {found.start.objective:.5g}"
@@ -153,7 +153,7 @@ def _structure(found: Structure) -> list[str]:
 
 
 def plain(found: Diagnostics) -> dict[str, Any]:
-    """The check as plain data; null for what is infinite."""
+    """Return the check as plain data; null for what is infinite."""
     reported = asdict(found) | {"sound": found.sound}
     reported["start"].pop("seconds")
     finite: dict[str, Any] = _finite(reported)

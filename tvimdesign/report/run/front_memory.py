@@ -33,7 +33,7 @@ class FolderMemory:
         folder.write_json(f"{PROGRESS}/asked.json", asked)
 
     def recall(self, number: int, objective: Objective) -> Point | Failure | None:
-        """The answer to a question; None where it is not there, or was of another objective."""
+        """Return the answer to a question; None where it is not there, or was of another objective."""
         known = _read(self._folder.path / PROGRESS / f"{number:04d}.json")
         if known is None or known["goal"] != _plain_objective(objective):
             return None

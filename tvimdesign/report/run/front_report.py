@@ -38,7 +38,7 @@ class FrontOfRun:
     """The front a study asks for, where it does, on its way through a run."""
 
     def __init__(self, study: Study, table: Table, folder: ResultsFolder | None = None) -> None:
-        """Nothing is done yet; in a `folder` what is found is kept on the way, so that another run can go on there.
+        """Prepare; in a `folder` each point is stored on the way, so that another run can continue there.
 
         Raises InputError where the folder holds the beginning of another study's front.
         """
@@ -97,21 +97,21 @@ class FrontOfRun:
         folder.remove(PROGRESS)
 
     def drawings(self) -> list[Drawing]:
-        """Its figure, where it has points."""
+        """Return its figure, where it has points."""
         if self.front is None or self.optimum is None or not self.front.points:
             return []
         return [Drawing("front", "front_figure.front", figure_data(self.front, self.optimum, self.table))]
 
 
 def of_ratings(point: Point, study: Mapping[str, Any], table: Table) -> dict[str, Any]:
-    """A point's status, with the ratings it is beyond, not accepted by the study and accepted."""
+    """Return a point's status, with the ratings it is beyond, not accepted by the study and accepted."""
     names = [limit.output for limit in exceeded(point.values, table)]
     above, accepting = sorted_by_acceptance(names, study.get("accept", ()))
     return {"status": ABOVE_RATING if above else OPTIMAL, "above_rating": above, "accepting": accepting}
 
 
 def design_of(point: Point, number: int, found: StudyResult, table: Table) -> Design:
-    """A point as a design of its own, as `tvimdesign cad` takes it."""
+    """Return a point as a design of its own, as `tvimdesign cad` takes it."""
     return found.design.model_copy(
         update={
             "tvimdesign": __version__,
@@ -126,13 +126,13 @@ def design_of(point: Point, number: int, found: StudyResult, table: Table) -> De
 
 
 def shown_names(study: Study, front: Front) -> list[str]:
-    """What a table of the front has: the traded outputs, the other minimised ones, every variable that is a number."""
+    """Return the columns of a front's table: traded and other minimised outputs, and the variables that are numbers."""
     numbers = [name for name in study.vary if name in front.points[0].values] if front.points else []
     return list(dict.fromkeys([*front.outputs, *study.minimize, *numbers]))
 
 
 def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> list[float]:
-    """The share of modules drawn at random that keep all limits, for each point. Raises TimeOverError."""
+    """Return the share of modules drawn at random that keep all limits, for each point. Raises TimeOverError."""
     inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
     from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
 
@@ -141,7 +141,7 @@ def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> l
 
 
 def said_of_ratings(above: Sequence[tuple[str, ...]]) -> str:
-    """Which points are beyond ratings that the study does not accept."""
+    """Return which points are beyond ratings that the study does not accept."""
     points = ", ".join(str(number) for number, names in enumerate(above, start=1) if names)
     named = ", ".join(dict.fromkeys(name for names in above for name in names))
     return f"points {points} of the front are beyond their rating, which the study does not accept: {named}"
@@ -154,7 +154,7 @@ def front_csv(
     kept: Sequence[float] = (),
     above: Sequence[tuple[str, ...]] = (),
 ) -> str:
-    """A line for each point, in units; the ratings it is beyond where any point is beyond one not accepted."""
+    """Return a line for each point, in units; the ratings it is beyond where any point is beyond one not accepted."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     heads = [f"{name} [{pretty(table.unit(name))}]" for name in names]
@@ -176,7 +176,7 @@ def front_csv(
 
 
 def status(front: Front, place: int) -> str:
-    """What a point is: the knee, an end, or one between."""
+    """Return what a point is: the knee, an end, or one between."""
     if place == front.knee:
         return "knee"
     return front.points[place].where if front.points[place].where.startswith("least ") else "between"
@@ -189,7 +189,7 @@ def plain(
     kept: Sequence[float] = (),
     above: Sequence[tuple[str, ...]] = (),
 ) -> FrontEntry:
-    """The front as plain data, in units and in SI; null is never."""
+    """Return the front as plain data, in units and in SI; null is never."""
 
     def entry(number: int, point: Point) -> FrontPoint:
         found: FrontPoint = {
@@ -218,7 +218,7 @@ def plain(
 
 
 def in_words(front: Front, table: Table) -> list[str]:
-    """What the front says: its knee and what things cost there, what is degenerate, what is missing."""
+    """Return what the front says: its knee and what things cost there, what is degenerate, what is missing."""
     said = []
     if front.knee is not None:
         point = front.points[front.knee]
@@ -234,7 +234,7 @@ def in_words(front: Front, table: Table) -> list[str]:
 
 
 def _no_trade(front: Front, table: Table) -> str:
-    """Which outputs hardly change over the front, and what to do about it."""
+    """Return which outputs hardly change over the front, and what to do about it."""
     spans = []
     for name in front.little_traded:
         ends = [point.values[name] for point in front.points]
@@ -248,7 +248,7 @@ def _no_trade(front: Front, table: Table) -> str:
 
 
 def _costs(front: Front, knee: int) -> list[str]:
-    """What a hundredth less of each output costs from the knee to the nearest point that has less of it."""
+    """Return what a hundredth less of each output costs from the knee to the nearest point that has less of it."""
     points, here, shares = front.points, front.points[knee], front.shares
     distances = np.linalg.norm(shares - shares[knee], axis=1)
     found = []
@@ -266,7 +266,7 @@ def _costs(front: Front, knee: int) -> list[str]:
 
 
 def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:
-    """Every point's outputs in units, with the knee and the weighted optimum."""
+    """Return every point's outputs in units, with the knee and the weighted optimum."""
 
     def shown(point: Point) -> list[float]:
         return [from_si(point.values[name], table.unit(name)) for name in front.outputs]

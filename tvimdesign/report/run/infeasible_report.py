@@ -17,7 +17,7 @@ from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 
 def complaint(answer: StudyResult, table: Table) -> str:
-    """What to say where no design was found: what cannot hold together, what is broken least, and what to do."""
+    """Report that no design was found: the conflict, the least violations, and what to do."""
     solution = answer.solution
     conflict_set = solution.conflict_set if solution else None
     kept = solution is not None and solution.feasible and meaning(FEASIBLE).words in answer.design.status
@@ -63,13 +63,13 @@ def _in_words(name: str, value: str | float, table: Table) -> str:
 
 
 def _worst_of_each(checks: Iterable[ConstraintCheck]) -> list[ConstraintCheck]:
-    """The checks with the least margin first; of those that one requirement puts on several outputs, one."""
+    """Return the checks with the least margin first; of those that one requirement puts on several outputs, one."""
     ordered = sorted(checks, key=lambda check: check.margin)
     return list({check.part_of or check.text: check for check in reversed(ordered)}.values())[::-1]
 
 
 def above_rating(answer: StudyResult, table: Table) -> str:
-    """What to say of an optimum beyond ratings that the study does not accept; empty where it is beyond none."""
+    """Report an optimum beyond ratings that the study does not accept; empty if it is beyond none."""
     names = answer.design.above_rating
     if answer.solution is None or not names:
         return ""
@@ -83,7 +83,7 @@ def above_rating(answer: StudyResult, table: Table) -> str:
 
 
 def endings(starts: Sequence[Start]) -> list[str]:
-    """The starts that did not converge, by how they ended, with what to do."""
+    """Return the starts that did not converge, by how they ended, with what to do."""
     failed = Counter(start.status for start in starts if not start.converged)
     lines = []
     for status, count in failed.most_common():
@@ -94,7 +94,7 @@ def endings(starts: Sequence[Start]) -> list[str]:
 
 
 def optima(answer: StudyResult) -> list[Optimum]:
-    """Every distinct optimum: its objective, the first start that found it, how many did, and its free numbers (SI)."""
+    """Return every distinct optimum: objective, first start that found it, how many did, free numbers (SI)."""
     solution = answer.solution
     if solution is None:
         return []
@@ -105,7 +105,7 @@ def optima(answer: StudyResult) -> list[Optimum]:
 
 
 def starts_reported(answer: StudyResult) -> Starts:
-    """Share of the free starts that converged, every optimum, and what became of the others."""
+    """Return share of the free starts that converged, every optimum, and what became of the others."""
     starts = answer.solution.free_starts if answer.solution else ()
     failed = [start for start in starts if not start.converged]
     return {
@@ -120,7 +120,7 @@ def starts_reported(answer: StudyResult) -> Starts:
 
 
 def conflicts_reported(conflict_set: ConflictSet | None) -> Conflict | None:
-    """The conflict as plain data, SI; None where there is none."""
+    """Return the conflict as plain data, SI; None where there is none."""
     if conflict_set is None:
         return None
     return {

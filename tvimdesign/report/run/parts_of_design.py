@@ -84,7 +84,7 @@ class BackgroundPartsJob:
 
 
 def plain_report(report: CadReport) -> Parts:
-    """The parts' checks, files and notes as plain data."""
+    """Return the parts' checks, files and notes as plain data."""
     return {
         "checks": [check.plain() for check in report.checks], "files": list(report.files), "notes": list(report.notes)
     }  # fmt: skip
@@ -127,7 +127,7 @@ def print_solid_checks(checks: Sequence[SolidCheck], console: Console) -> None:
 
 
 def in_short(checks: Sequence[SolidCheck]) -> str:
-    """How many checks passed, how many did not, and the worst failure."""
+    """Return how many checks passed, how many did not, and the worst failure."""
     found = worst_first(checks)
     counts = (f"{sum(check.level == level for check in found)} {level}s" for level in _COLOURS)
     said = [f"{sum(check.level == 'pass' for check in checks)} of {len(checks)} checks on the solids passed"]
@@ -137,14 +137,14 @@ def in_short(checks: Sequence[SolidCheck]) -> str:
 
 
 def worst_first(checks: Sequence[SolidCheck]) -> list[SolidCheck]:
-    """Failures, then warnings, those that miss their limit by the most first."""
+    """Return failures, then warnings, those that miss their limit by the most first."""
     rank = {"failure": 0, "warning": 1}
     reported = [check for check in checks if check.level in rank]
     return sorted(reported, key=lambda check: (rank[check.level], -_missed(check), check.name))
 
 
 def _missed(check: SolidCheck) -> float:
-    """By what share of it a value misses its limit."""
+    """Return the share of its limit by which a value misses it."""
     return abs(check.value - check.limit) / max(abs(check.limit), 1e-9)
 
 

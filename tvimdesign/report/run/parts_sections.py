@@ -23,13 +23,13 @@ _LEVELS = ("failure", "warning", "pass")
 
 
 def preview(cad: Path) -> Picture | None:
-    """The module whole, where CAD has drawn it."""
+    """Return the module whole, where CAD has drawn it."""
     path = cad / file_names.PREVIEW
     return Picture(path.read_bytes(), "The module, whole and opened") if path.exists() else None
 
 
 def solids_section(cad: Path, study: str) -> Section:
-    """The assembly to turn; or, where no parts were made, how to make them."""
+    """Return the assembly to turn; or, where no parts were made, how to make them."""
     model, data = cad / file_names.ASSEMBLY_GLB, cad / file_names.ASSEMBLY_DATA
     if not (model.exists() and data.exists()):
         words = (
@@ -49,7 +49,7 @@ def solids_section(cad: Path, study: str) -> Section:
 
 
 def checks_section(cad: Path) -> list[Section]:
-    """Every check on the solids, those that did not pass first."""
+    """Return every check on the solids, those that did not pass first."""
     path = cad / "checks.json"
     if not path.exists():
         return []
@@ -76,7 +76,7 @@ def _with_unit(check: Mapping[str, Any], what: str) -> str:
 
 
 def materials_section(cad: Path) -> list[Section]:
-    """The bill of materials, with links to the files a part is made from."""
+    """Return the bill of materials, with links to the files a part is made from."""
     rows = _csv(cad / file_names.BILL_OF_MATERIALS)
     if not rows:
         return []
@@ -96,13 +96,13 @@ def materials_section(cad: Path) -> list[Section]:
 
 
 def _files(names: list[str]) -> Cell:
-    """Links to a part's files, by their endings."""
+    """Return links to a part's files, by their endings."""
     links = tuple((name.rpartition(".")[2].upper(), f"{FOLDER}/{name}") for name in names)
     return Cell(" ".join(text for text, _ in links), links=links)
 
 
 def steps_section(cad: Path) -> list[Section]:
-    """How the parts go together, in order, with the pictures that CAD has drawn."""
+    """Return how the parts go together, in order, with the pictures that CAD has drawn."""
     path = cad / file_names.ASSEMBLY_DATA
     if not path.exists():
         return []
@@ -116,7 +116,7 @@ def steps_section(cad: Path) -> list[Section]:
 
 
 def spring_section(cad: Path) -> list[Section]:
-    """What the spring's maker needs."""
+    """Return what the spring's maker needs."""
     rows = _csv(cad / file_names.SPRING_TABLE)
     if not rows:
         return []
@@ -126,7 +126,7 @@ def spring_section(cad: Path) -> list[Section]:
 
 
 def carried_files(cad: Path) -> dict[str, bytes]:
-    """The files that a part, a row of the bill of materials or the spring sheet leads to, by their addresses."""
+    """Return the files that a part, a row of the bill of materials or the spring sheet leads to, by their addresses."""
     names = [name for row in _csv(cad / file_names.BILL_OF_MATERIALS) for name in row["files"].split()]
     data = cad / file_names.ASSEMBLY_DATA
     if data.exists():
@@ -137,7 +137,7 @@ def carried_files(cad: Path) -> dict[str, bytes]:
 
 
 def _csv(path: Path) -> list[dict[str, str]]:
-    """Rows of a table, by column; none where there is no such file."""
+    """Return rows of a table, by column; none where there is no such file."""
     if not path.exists():
         return []
     with path.open(encoding=TABLE_ENCODING, newline="") as file:

@@ -25,7 +25,7 @@ _PROFILES = 5
 
 
 def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
-    """Every figure of a run, with its data."""
+    """Return every figure of a run, with its data."""
     data = plot_data(answer, table)
     rooms = {
         "cycle": "cycle_figures", "stiffness_and_damping": "cycle_figures", "power_and_energy": "cycle_figures",
@@ -35,7 +35,7 @@ def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
 
 
 def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
-    """Data of every figure by the figure's name."""
+    """Return data of every figure by the figure's name."""
     design = answer.design
 
     def shown(name: str) -> float:
@@ -76,7 +76,7 @@ def plot_data(answer: StudyResult, table: Table) -> dict[str, dict[str, Any]]:
 
 
 def _history(curves: Curves) -> dict[str, Any]:
-    """What is drawn of a phase: columns over its time, and the temperatures through the polymer at some moments."""
+    """Return columns of a phase over its time, and the temperatures through the polymer at some moments."""
     time, through = curves["time"], through_the_layer(curves)
     moments = [min(bisect_left(time, time[-1] * i / (_PROFILES - 1)), len(time) - 1) for i in range(_PROFILES)]
     profiles = [{"time": time[at], "temperatures": [curves[name][at] for name in through]} for at in moments]
@@ -84,19 +84,19 @@ def _history(curves: Curves) -> dict[str, Any]:
 
 
 def through_the_layer(curves: Curves) -> list[str]:
-    """Columns with the temperatures through the polymer, from the pads on."""
+    """Return columns with the temperatures through the polymer, from the pads on."""
     return ["near_face", *(name for name in curves if name.startswith("cell_")), "far_face"]
 
 
 def _depths(answer: StudyResult, table: Table) -> list[float]:
-    """Depths [mm] from the Peltier side at which a profile has its temperatures: both faces, the cells between them."""
+    """Return the depths [mm] from the Peltier side at which a profile has its temperatures."""
     depth = from_si(table.evaluate(answer.design.values, ["pcl_depth"])["pcl_depth"], "mm")
     cells = sum(name.startswith("cell_") for name in answer.histories["softening"])
     return [0.0, *((i + 0.5) / cells * depth for i in range(cells)), depth]
 
 
 def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
-    """Torque over angle at every operating point: of the joint as it is for small motions, and of its springs."""
+    """Return torque over angle at every operating point, of the joint for small motions, and of its springs."""
     loops = []
     for point in design.study["operating_points"]:
         frequency, springs = design.value(f"frequency@{point}"), design.value("spring_stiffness")
@@ -114,7 +114,7 @@ def _torque(design: Design, shown: Callable[[str], float]) -> dict[str, Any]:
 
 
 def _parts(design: Design, table: Table) -> dict[str, float]:
-    """Mass [g] of each part: the rows the module's mass is the sum of."""
+    """Return mass [g] of each part: the rows the module's mass is the sum of."""
     total = table.quantity("module_mass")
     assert isinstance(total, Output)
     return {name_in_words(name.removesuffix("_mass")): from_si(design.value(name), "g") for name in total.needs}
@@ -128,7 +128,7 @@ _ENDLESS = 1e9
 
 
 def free_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
-    """Every free variable: where it began and where it is, as shares of its range; none where nothing varies."""
+    """Return every free variable: where it began and where it is, as shares of its range; none where nothing varies."""
     if answer.solution is None:
         return []
     rows = []
@@ -145,7 +145,7 @@ def free_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
 
 
 def margin_groups(answer: StudyResult, table: Table) -> list[dict[str, Any]]:
-    """The study's limits, the machine's where they are near, and the advice the design does not follow.
+    """Return the study's limits, the machine's where they are near, and the advice the design does not follow.
 
     A limit that has a size of its own is drawn in percent of it, one that has none in its quantity's unit.
     """

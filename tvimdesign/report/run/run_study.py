@@ -119,7 +119,7 @@ def _plots_ahead() -> PlotProcess:
 def _asked_of_design(
     making: BackgroundPartsJob | None, folder: ResultsFolder, uncertainty: UncertaintyProcess | None
 ) -> Designed:  # fmt: skip
-    """What is asked of a design as soon as it is there: its parts, where they are made, and how sure it is."""
+    """Return a function that begins the parts and the uncertainty of a design as soon as it is there."""
 
     def asked(design: Design) -> None:
         if making:
@@ -167,7 +167,7 @@ def _end_as(answered: AnsweredStudy) -> None:
 def _say_last(
     answered: AnsweredStudy, folder: Path, failures: Sequence[TvimError], without: str, *, as_json: bool
 ) -> None:  # fmt: skip
-    """What was told as JSON, or where to look first; `without` says what is not installed, if anything is not."""
+    """Print the JSON, or where to look first; `without` says what is not installed, if anything is not."""
     from tvimdesign.report.output.terminal import print_lines
     from tvimdesign.report.run.first_screen import look_first
 

@@ -32,7 +32,7 @@ def sensitivities(answer: StudyResult, deadline: Deadline) -> tuple[OutputSensit
 
 
 def sensitivities_csv(found: OutputSensitivities, resolved: ResolvedModule) -> str:
-    """One line for each output and variable: d ln output / d ln variable, the derivative, and what 1 % more adds."""
+    """Return a line for each output and variable: logarithmic and plain derivative, and what 1 % more adds."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     table = resolved.table
@@ -52,7 +52,7 @@ def _difference(unit: str) -> str:
 
 
 def heat_map(found: OutputSensitivities, resolved: ResolvedModule) -> dict[str, Any]:
-    """Elasticities, one row an output, without the rows and columns in which nothing stands."""
+    """Return elasticities, one row an output, without the rows and columns in which nothing stands."""
     cells = {(one.output, one.variable): one.logarithmic for one in entries(found, resolved)}
     reported = {place for place, value in cells.items() if value is not None and abs(value) >= _SHOWN}
     outputs = [name for name in found.outputs if any(name == output for output, _ in reported)]

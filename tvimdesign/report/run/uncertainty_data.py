@@ -56,19 +56,19 @@ class Uncertainty:
             sobol_points(len(contributors), MODULES, self.study.solver.seed)
 
     def _tolerant(self, resolved: ResolvedModule) -> ResolvedModule:
-        """A module with the tolerances that count."""
+        """Return a module with the tolerances that count."""
         tolerances = resolved.study.tolerances if self.own else standard_tolerances(self.table)
         return replace(resolved, study=resolved.study.model_copy(update={"tolerances": tolerances}))
 
     def of(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> DesignUncertainty:
-        """What there is to say of one design; `modules` and `draws` are powers of two."""
+        """Return the uncertainty of one design; `modules` and `draws` are powers of two."""
         resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.asked)
         return self.model.at(resolved, modules, draws)
 
     def data(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> dict[str, Any]:
-        """That in the units people read: `entry` for results.json, what the screen needs beside it, and the seconds."""
+        """Return the entry for results.json, with the assumptions for the screen and the seconds."""
         began = time.perf_counter()
         found = self.of(design, modules, draws)
         rows = {name: _rows(name, one.swings, one.nominal, self.table) for name, one in found.intervals.items()}
@@ -79,7 +79,7 @@ class Uncertainty:
         }
 
     def entry(self, found: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
-        """Plain data for results.json."""
+        """Return plain data for results.json."""
         return {
             "parts_yield": _share(found.together),
             "modules": modules,
@@ -98,7 +98,7 @@ class Uncertainty:
 
 
 def interval_entry(name: str, one: Interval, table: Table, before: tuple[float, float] | None = None) -> IntervalEntry:
-    """An interval in the unit people read, and in SI, with that of before the measurements, if there were any."""
+    """Return an interval in the unit people read, and in SI, with the one before measurements, if there were any."""
     unit = table.unit(name)
     return {
         **number_entry(one.nominal, unit, (one.low, one.high)),
@@ -119,7 +119,7 @@ def _share(share: Yield | None) -> ShareEntry | None:
 
 
 def _rows(output: str, swings: Sequence[Swing], nominal: float, table: Table) -> list[dict[str, Any]]:
-    """The unmeasured inputs that an output rests on most, the most important first; none that hardly moves it."""
+    """Return the unmeasured inputs that move an output most, the most important first; none that hardly moves it."""
     rows = []
     for swing in swings[:_NAMED]:
         one, unit = swing.moved, table.unit(swing.moved.name)

@@ -30,12 +30,12 @@ _AROUND = 1000
 
 
 def folder_of_verification(run: Path) -> Path:
-    """Where the verification of a run stands, unless told."""
+    """Return where the verification of a run stands, unless told."""
     return run.with_name(f"{run.resolve().name}-verified")
 
 
 def verification_sections(run: Path) -> list[Section]:
-    """The section of a run's page where there is a verification of this very design; none otherwise."""
+    """Return the section of a run's page where there is a verification of this very design; none otherwise."""
     folder = folder_of_verification(run)
     if not _is_of(folder, run):
         return []
@@ -43,7 +43,7 @@ def verification_sections(run: Path) -> list[Section]:
 
 
 def verification_section(folder: Path, run: Path, room: float = MOST) -> Section:
-    """Rows worst first, what to make of them, and those fields for which there is `room` in the page [bytes]."""
+    """Return rows worst first, a conclusion, and those fields for which there is `room` in the page [bytes]."""
     found: dict[str, Any] = json.loads((folder / DATA).read_text("utf-8"))
     cells = [
         (row["name"], number(row["model"]), number(row["fe"]), row["unit"], f"{row['ratio']:.3f}",
@@ -80,6 +80,6 @@ def put_on_page(folder: Path, run: Path) -> bool:
 
 
 def _is_of(folder: Path, run: Path) -> bool:
-    """Whether a folder has the verification of a run's design, as it is now."""
+    """Return whether a folder has the verification of a run's design, as it is now."""
     design = run / DESIGN
     return (folder / DATA).exists() and design.exists() and made_from(folder, "design") == digest_of(design)

@@ -21,25 +21,25 @@ _RULES_SHOWN = 5
 
 
 def binding(answer: StudyResult) -> list[ActiveConstraint]:
-    """The limits that hold the design, the costliest first."""
+    """Return the limits that hold the design, the costliest first."""
     held = answer.solution.held if answer.solution and answer.found else ()
     return sorted((one for one in held if one.shadow_price > PRICE_SHOWN), key=lambda one: -one.shadow_price)
 
 
 def slack(answer: StudyResult) -> list[ActiveConstraint]:
-    """The limits that could be somewhat tighter and change nothing, those with the least margin first."""
+    """Return the limits that could be somewhat tighter and change nothing, those with the least margin first."""
     held = answer.solution.held if answer.solution and answer.found else ()
     found = [one for one in held if one.shadow_price <= PRICE_SHOWN and one.margin > NOTHING]
     return sorted(found, key=lambda one: one.margin)
 
 
 def sentences(answer: StudyResult) -> list[str]:
-    """What each binding limit costs, in words."""
+    """Return what each binding limit costs, in words."""
     return [_sentence(held) for held in binding(answer)]
 
 
 def _sentence(held: ActiveConstraint) -> str:
-    """`1 % more spring_stiffness (now >= 5.2 N·m/rad) costs 0.11 % module_mass and saves 0.01 % response_time.`"""
+    """Return `1 % more spring_stiffness (now >= 5.2 N·m/rad) costs 0.11 % module_mass and saves ...`."""
     more = "more" if ">=" in held.name else "less"
     subject = f"{held.step} {more} {held.output} (now{held.text.removeprefix(held.output)})"
     if not held.sensitivity:
@@ -59,7 +59,7 @@ def _listed(parts: Sequence[str]) -> str:
 
 
 def slack_in_words(answer: StudyResult, table: Table) -> str:
-    """The study's slack requirements with their margin, and the machine's rules that have the least."""
+    """Return the study's slack requirements with their margin, and the machine's rules that have the least."""
     found = slack(answer)
     own = [one for one in found if one.origin == "require"]
     rules = [one for one in found if one.origin not in ("require", "vary")]
@@ -74,7 +74,7 @@ def _margin(held: ActiveConstraint, table: Table) -> str:
 
 
 def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
-    """Every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
+    """Return every limit and end of a range at the optimum: how it stands, its margin, and what a step of it costs."""
     rows: list[LimitEntry] = []
     tight, loose = binding(answer), slack(answer)
     held = answer.solution.held if answer.solution and answer.found else ()
@@ -94,12 +94,12 @@ def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
 
 
 def why(answer: StudyResult, table: Table) -> Why:
-    """Everything this page says, as plain data; costs are percent of each output for a step of the limit."""
+    """Return everything this page says, as plain data; costs are percent of each output for a step of the limit."""
     return {"limits": why_rows(answer, table), "sentences": sentences(answer)}
 
 
 def why_csv(answer: StudyResult, table: Table) -> str:
-    """The rows as CSV, one column for each minimised output."""
+    """Return the rows as CSV, one column for each minimised output."""
     outputs = list(answer.design.study["minimize"])
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")

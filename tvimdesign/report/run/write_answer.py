@@ -55,7 +55,7 @@ def finish(folder: ResultsFolder, answered: AnsweredStudy) -> None:
 
 
 def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
-    """Files an answer was made from: the study's, where it has one, and those of the records the design uses."""
+    """Return the files of the study, if it has one, and of the records the design uses."""
     path, choices = answered.tree.path, answered.result.design.choices
     records = {
         f"{row.category}/{choices[row.name]}": answered.study.catalog.path(row.category, choices[row.name])
@@ -69,7 +69,7 @@ def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
 def write_failure(
     folder: ResultsFolder, tree: StudyTree, study: Study, progress: Progress, *, as_json: bool
 ) -> Iterator[None]:
-    """Where a study is found to have no design, write why, and the study, before the error goes on."""
+    """Write a study and why it has no design, if it has none, before the error goes on."""
     try:
         yield
     except InfeasibleError as error:

@@ -19,12 +19,12 @@ _CARRIED = 0.05
 
 
 def yield_of(answer: StudyResult) -> YieldReached | None:
-    """The account of a yield that the study asks for; None without a design or without one asked for."""
+    """Return the account of a yield that the study asks for; None without a design or without one asked for."""
     return answer.solution.yield_reached if answer.solution and answer.found else None
 
 
 def reached_in_words(reached: YieldReached) -> str:
-    """How many modules keep all limits, of how many it was asked, and what it was without margins."""
+    """Return how many modules keep all limits, of how many it was asked, and what it was without margins."""
     return (
         f"{percent(reached.together)} of {reached.modules} modules drawn keep every limit, where "
         f"{percent(reached.asked)} are asked for and {percent(reached.nominal_together)} would without margins"
@@ -32,14 +32,14 @@ def reached_in_words(reached: YieldReached) -> str:
 
 
 def cost_of_margins(answer: StudyResult, reached: YieldReached, table: Table) -> list[str]:
-    """What each minimised output is without the margins, and with them."""
+    """Return what each minimised output is without the margins, and with them."""
     return _changes(answer, reached.nominal, answer.design.values, table)
 
 
 def gain_without_margins(
     answer: StudyResult, constant: Mapping[str, float], reached: YieldReached, table: Table
 ) -> list[str]:
-    """What each minimised output is with the best constant currents, and with those that follow a profile."""
+    """Return what each minimised output is with the best constant currents, and with those that follow a profile."""
     return _changes(answer, constant, reached.nominal, table)
 
 
@@ -48,7 +48,7 @@ def _changes(answer: StudyResult, before: Mapping[str, float], after: Mapping[st
 
 
 def below_yield(answer: StudyResult) -> str:
-    """What to say of a design that fewer modules keep than asked: which limits, by which tolerance; else empty."""
+    """Report a design that fewer modules satisfy than asked: which limits, by which tolerance; else empty."""
     reached, limit = yield_of(answer), answer.solution.out_of_time if answer.solution else None
     if answer.design.status != BELOW_YIELD or not answer.found:
         return ""
@@ -76,7 +76,7 @@ def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float
 
 
 def lost_in_words(lost: LostTo) -> str:
-    """A limit that too many modules break, and the tolerances that carry its spread."""
+    """Return a limit that too many modules break, and the tolerances that carry its spread."""
     named = [f"{name} {percent(share, 2)}" for name, share in lost.carriers.items() if share >= _CARRIED]
     return f"{lost.text}, which {percent(lost.share)} keep{'; its spread is of ' if named else ''}{', '.join(named)}"
 

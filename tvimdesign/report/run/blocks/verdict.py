@@ -51,14 +51,14 @@ _TONES: dict[Kind, Tone] = {
 
 @dataclass(frozen=True)
 class Verdict:
-    """What to do with a result, and why."""
+    """The advice on a result, with its reason."""
 
     kind: Kind
     text: str
 
     @property
     def tone(self) -> Tone:
-        """How a page shows it."""
+        """Tone in which a page shows it."""
         return _TONES[self.kind]
 
 

@@ -32,7 +32,7 @@ VARY = "vary the current or a size, and write "
 
 
 class RunWarning(NamedTuple):
-    """What is wrong, what to write in the study, and the level: `grave`, `serious` or none."""
+    """A warning: its text, the line to write in the study, and its level, `grave`, `serious` or none."""
 
     text: str
     cure: str = ""
