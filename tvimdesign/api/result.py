@@ -273,7 +273,7 @@ class Result:
     # --- what it looks like ---
 
     def _margin(self, check: Any) -> str:
-        return margin_text(check, self._answered.study.table).lstrip("-+")
+        return margin_text(check, self._answered.study.table).lstrip("-")
 
     def __repr__(self) -> str:
         """Name, mode and status in a line."""

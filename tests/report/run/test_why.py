@@ -68,7 +68,7 @@ def test_slack_limits_stand_in_the_order_of_their_room(found: StudyResult) -> No
     rooms = [held.margin for held in slack(found)]
     assert rooms == sorted(rooms)
     room = 100.0 * (found.design.value("spring_stiffness_seven_tenths_stroke") / 5.0 - 1.0)
-    assert f"spring_stiffness_seven_tenths_stroke >= 5 N·m/rad (margin {room:.1f}%)" in slack_in_words(found, TABLE)
+    assert f"spring_stiffness_seven_tenths_stroke >= 5 N·m/rad (margin {room:.2g} %)" in slack_in_words(found, TABLE)
 
 
 def test_the_table_on_file_has_a_column_for_each_output(found: StudyResult) -> None:

@@ -91,21 +91,14 @@ def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[
 
 
 def margin_text(check: ConstraintCheck | ActiveConstraint, table: Table) -> str:
-    """Return the margin for people: in percent or in the row's unit; rounding is not a margin."""
+    """Return the margin for people: `19 %`, `-0.016 rad`, `ample`; never for what never happens.
+
+    What is less than rounding is 0.
+    """
     if not math.isfinite(check.margin):
         return "never"
     margin, unit = margin_of(check, table)
     margin = margin if abs(check.margin) > NOTHING else 0.0
-    if unit == "1" and not check.absolute:
-        return f"{margin:+.1%}" if abs(margin) < 100 else "ample" if margin > 0.0 else "far off"
-    return f"{margin:+.3g} {pretty(unit)}".rstrip()
-
-
-def margin_words(check: ConstraintCheck, table: Table) -> str:
-    """Return the margin as the screen has it: `19 %`, `0.016 rad`, `ample`; never for what never happens."""
-    if not math.isfinite(check.margin):
-        return "never"
-    margin, unit = margin_of(check, table)
     if check.absolute:
         return f"{number(margin, 3)} {pretty(unit)}".rstrip()
     if abs(margin) >= 10.0:

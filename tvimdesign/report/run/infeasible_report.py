@@ -38,7 +38,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
             if conflict_set
             else "Where the solver ended, these are broken:"
         )
-        lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-+')}" for check in broken]
+        lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-')}" for check in broken]
     if not conflict_set:
         held = [h.text for h in solution.held if abs(h.residual) <= NOTHING] if solution else []
         lines += ["These stand in the way there, at their limits:", *(f"  {text}" for text in held)] if held else []
@@ -75,7 +75,7 @@ def above_rating(answer: StudyResult, table: Table) -> str:
         return ""
     checks = [check for check in answer.warnings if check.output in names]
     lines = [f"{answer.design.name}: the optimum is beyond what its materials or bought parts are rated for:"]
-    lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-+')}: {check.origin}" for check in checks]
+    lines += [f"  {check.text}, by {margin_text(check, table).lstrip('-')}: {check.origin}" for check in checks]
     accepted = ", ".join([*answer.design.accepting, *names])
     require = ", ".join(f'{name}: ">= 0 {table.unit(name)}"' for name in names)
     lines.append(f"Accept that in the study, `accept: [{accepted}]`, or exclude it: `require: {{{require}}}`.")

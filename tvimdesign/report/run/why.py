@@ -63,14 +63,10 @@ def slack_in_words(answer: StudyResult, table: Table) -> str:
     found = slack(answer)
     own = [one for one in found if one.origin == "require"]
     rules = [one for one in found if one.origin not in ("require", "vary")]
-    shown = [f"{one.text} (margin {_margin(one, table)})" for one in (*own, *rules[:_RULES_SHOWN])]
+    shown = [f"{one.text} (margin {margin_text(one, table)})" for one in (*own, *rules[:_RULES_SHOWN])]
     left = len(found) - len(shown)
     more = f"; {left} other rules and ends of ranges have more, or are in why.csv" if left else ""
     return f"Slack: {'; '.join(shown)}{more}." if shown else ""
-
-
-def _margin(held: ActiveConstraint, table: Table) -> str:
-    return margin_text(held, table).lstrip("+")
 
 
 def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:

@@ -13,7 +13,7 @@ from tvimdesign.report.output.axis_labels import label
 from tvimdesign.report.output.tables import (
     NOTHING,
     ends_text,
-    margin_words,
+    margin_text,
     mark,
     number,
     on_limit,
@@ -125,12 +125,12 @@ def _got(answer: StudyResult, table: Table, name: str, check: ConstraintCheck) -
 
 def _stands(answer: StudyResult, check: ConstraintCheck, table: Table) -> tuple[str, Tone]:
     if not check.kept:
-        return f"violated by {margin_words(check, table).lstrip('-')}", "bad"
+        return f"violated by {margin_text(check, table).lstrip('-')}", "bad"
     if check in answer.undecided:
         return "open: history decides", "warn"
     if abs(check.margin) <= NOTHING:
         return "at the limit", "warn"
-    return margin_words(replace(check, margin=check.worst), table), ""
+    return margin_text(replace(check, margin=check.worst), table), ""
 
 
 def assumption(row: Mapping[str, Any]) -> str:

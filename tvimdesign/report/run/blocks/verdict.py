@@ -24,7 +24,7 @@ from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.axis_labels import in_labels, label
-from tvimdesign.report.output.tables import margin_words, number, percent
+from tvimdesign.report.output.tables import margin_text, number, percent
 from tvimdesign.report.run.blocks.warnings import RunWarning
 from tvimdesign.report.run.yield_words import yield_of
 from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
@@ -127,7 +127,7 @@ def _worst(checks: Sequence[ConstraintCheck]) -> ConstraintCheck:
 
 
 def _violation(check: ConstraintCheck, table: Table) -> str:
-    return f"{in_labels(check.text)}, by {margin_words(check, table).lstrip('-')}"
+    return f"{in_labels(check.text)}, by {margin_text(check, table).lstrip('-')}"
 
 
 def _above_rating(answer: StudyResult) -> Verdict | None:
