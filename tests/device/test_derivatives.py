@@ -16,9 +16,7 @@ VARIABLES = [row.name for row in table_for("shear").inputs if row.variable and r
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "softening_time", "response_time")
 
 
-def test_every_output_has_the_derivatives_by_every_input_that_differences_show(
-    model: DeviceFunctions, numbers: dict[str, float]
-) -> None:
+def test_every_output_has_the_derivatives_of_differences(model: DeviceFunctions, numbers: dict[str, float]) -> None:
     inputs, cycle = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("cycle", len(model.switch_names))
     supplied = np.array([numbers[name] for name in model.switch_names])
     jacobian = ca.Function("jacobian", [inputs, cycle], [ca.jacobian(model.every_output(inputs, cycle), inputs)])
@@ -35,9 +33,7 @@ def test_every_output_has_the_derivatives_by_every_input_that_differences_show(
     assert np.all(np.isfinite(exact))
 
 
-def test_every_output_of_a_switch_has_the_derivatives_by_the_switch_that_differences_show(
-    unity: DeviceFunctions, numbers: dict[str, float]
-) -> None:
+def test_derivatives_by_the_switch_are_those_of_differences(unity: DeviceFunctions, numbers: dict[str, float]) -> None:
     supplied = np.array([numbers[name] for name in unity.switch_names])
     cycle = ca.MX.sym("cycle", len(supplied))
     jacobian = ca.Function("jacobian", [cycle], [ca.jacobian(unity.every_output(unity.start, cycle), cycle)])

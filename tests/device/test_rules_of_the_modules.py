@@ -35,7 +35,7 @@ def usual(name: str) -> set[tuple[str, float]]:
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_every_rule_of_a_module_has_the_sense_and_the_limit_of_what_it_is_about(mode: str) -> None:
+def test_every_rule_has_the_usual_sense_and_limit(mode: str) -> None:
     limited = [found for found in table_for(mode).outputs if found.rules or found.ratings or found.advice]
     assert len(limited) > 80
     for found in limited:
@@ -44,7 +44,7 @@ def test_every_rule_of_a_module_has_the_sense_and_the_limit_of_what_it_is_about(
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_what_must_exist_to_be_asked_for_is_ruled_at_or_above_where_it_does(mode: str) -> None:
+def test_rules_hold_at_or_above_where_geometry_exists(mode: str) -> None:
     for found in table_for(mode).outputs:
         for rule in found.rules:
             if rule.exists_above is not None:
@@ -55,7 +55,7 @@ def test_what_must_exist_to_be_asked_for_is_ruled_at_or_above_where_it_does(mode
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_a_summary_has_what_a_reader_asks_of_a_module_and_no_size_of_a_bought_part(mode: str) -> None:
+def test_a_summary_has_what_a_reader_asks_of_a_module(mode: str) -> None:
     headlines = {found.name for found in table_for(mode).outputs if found.headline}
     assert {"envelope_diameter", "module_mass", "joint_stiffness", "holding_torque", "response_time"} <= headlines
     # A tenth of the table at most: no gap, and nothing that is one of several screwed joints' alike.

@@ -14,7 +14,7 @@ EVENTS = ("far_face_time", "softening_time")
 VARIABLES = ("block_depth", "block_height", "vane_thickness", "pcl_outer_radius", "current")
 
 
-def test_every_output_has_the_derivatives_by_every_input_that_differences_show(
+def test_every_output_has_the_derivatives_of_differences(
     squeezed_model: DeviceFunctions, squeezed_switch: Cycle
 ) -> None:
     model = squeezed_model

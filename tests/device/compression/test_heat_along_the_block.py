@@ -50,7 +50,7 @@ def test_a_block_that_conducts_well_takes_its_heat_over_the_flux(squeezed: dict[
 
 
 @pytest.mark.parametrize(("factor", "current", "low", "high"), [(100.0, 1.5, 1.98, 2.05), (1.0, 40.0, 3.3, 4.0)])
-def test_twice_the_depth_takes_twice_as_long_by_flux_and_nearly_four_times_by_diffusion(
+def test_twice_the_depth_by_flux_and_by_diffusion(
     factor: float, current: float, low: float, high: float, squeezed: dict[str, Any]
 ) -> None:
     times = [
@@ -59,7 +59,7 @@ def test_twice_the_depth_takes_twice_as_long_by_flux_and_nearly_four_times_by_di
     assert low < times[1] / times[0] < high
 
 
-def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_the_flux(
+def test_twice_the_depth_takes_two_to_four_times_as_long(
     squeezed: dict[str, Any],
 ) -> None:
     ratios = []
@@ -70,7 +70,7 @@ def test_twice_the_depth_takes_two_to_four_times_as_long_the_more_the_stronger_t
     assert 2.0 < ratios[0] < ratios[-1] < 4.0
 
 
-def test_twice_the_depth_of_a_whole_module_tends_from_flux_to_diffusion_and_hardly_delays_the_soft_film() -> None:
+def test_twice_the_depth_of_a_whole_module() -> None:
     # Pads and vanes of both sides take heat as well, which does not double: at 1.5 A twice takes less than twice as
     # long. The deeper it is and the more heat comes in, the more diffusion counts; the joint is soft when a film of the
     # block is. What the free sides lose grows with the depth and is left out. Five vanes: in a ring of six, blocks of
@@ -125,7 +125,7 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 
-def test_floor_below_pads_gives_by_its_mean_and_what_its_depths_differ_by_the_way_of_a_cosine(
+def test_floor_below_pads_gives_by_mean_and_cosine(
     squeezed: dict[str, Any],
 ) -> None:
     found = TABLE.evaluate(squeezed, ["stack", "wall_depth"])

@@ -111,7 +111,7 @@ def test_spreaders_lose_heat_at_their_edges_and_backs() -> None:
     assert link_between(two, ("hot", 0), housing) > link_between(one, ("hot", 0), housing)
 
 
-def test_what_the_modules_are_given_is_stored_where_nothing_reaches_the_air() -> None:
+def test_heat_of_closed_modules_is_stored() -> None:
     # First law: along the rates the stored energy grows by the electrical power, whatever the links pass within.
     surfaces = ("rotor_coefficient", "housing_coefficient", "cold_side_coefficient", "surface_emissivity")
     closed = dict.fromkeys(surfaces, 1e-12)

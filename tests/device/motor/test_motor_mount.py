@@ -91,7 +91,7 @@ def test_the_hub_has_the_inertia_of_its_prisms_counted_point_by_point() -> None:
     assert found["motor_hub_inertia"] == pytest.approx(1270.0 * polar * 1e-15, rel=2e-3)
 
 
-def test_the_motor_is_in_the_mass_of_the_module_and_turns_on_its_own_side_of_the_springs() -> None:
+def test_the_motor_is_in_the_mass_of_the_module() -> None:
     rows = "module_mass drive_mass parts_inertia drive_inertia motor_hub_inertia structure_stiffness"
     bare, driven = values_of(rows), values_of(rows, **DRIVEN)
     assert bare["drive_mass"] == bare["drive_inertia"] == 0.0
@@ -170,7 +170,7 @@ def test_a_motor_s_torque_is_held_against_the_springs() -> None:
     assert weak["motor_torque_margin"] < 0.0  # 0.3 N m against the paper's springs
 
 
-def test_the_upper_bearing_of_the_motor_bears_the_tilt_of_a_force_at_the_link() -> None:
+def test_the_motor_s_upper_bearing_bears_the_tilt() -> None:
     rows = "motor_bearing_load motor_bearing_margin holding_torque link_length link_bottom_level motor_retainer_level"
     found = values_of(rows, **DRIVEN)
     # Moments about the lower bearing, 5 mm wide above the retainer; the upper one is below -17 mm, the link 4 mm thick.
@@ -181,7 +181,7 @@ def test_the_upper_bearing_of_the_motor_bears_the_tilt_of_a_force_at_the_link() 
     assert found["motor_bearing_margin"] == pytest.approx(1260.0 - found["motor_bearing_load"])
 
 
-def test_a_good_motor_mount_keeps_its_rules_and_each_is_broken_by_what_its_name_says() -> None:
+def test_each_rule_of_a_motor_mount_can_be_violated() -> None:
     assert min(values_of(" ".join(RULES | ENCODER_RULES), **DRIVEN).values()) > -1e-12
     for rule, module in {
         "motor_retainer_gap": {"foot_height": "5.4 mm"},
@@ -257,7 +257,7 @@ ON_SENSOR = DRIVEN | {
 }  # fmt: skip
 
 
-def test_a_torque_sensor_bears_the_motor_and_its_spigot_keeps_below_the_board() -> None:
+def test_a_torque_sensor_bears_the_motor() -> None:
     rows = "sensor_recess_depth encoder_board_level motor_bottom_level flange_outer_radius flange_volume housing_volume"
     both, driven = values_of(rows, **ON_SENSOR), values_of(rows, **DRIVEN | {"motor_base_thickness": "13 mm"})
     assert both["sensor_recess_depth"] == pytest.approx((6.0 + 0.4) * MM)  # spigot, and the running clearance
@@ -281,7 +281,7 @@ def test_a_torque_sensor_bears_the_motor_and_its_spigot_keeps_below_the_board() 
     assert volume["driven"] - volume["both"] == pytest.approx(holes + recess + groove + lip, rel=1e-6)
 
 
-def test_a_motor_on_a_sensor_keeps_its_rules_and_each_is_broken_by_what_its_name_says() -> None:
+def test_each_rule_of_a_motor_on_a_sensor_can_be_violated() -> None:
     flange = {
         "flange_bore_gap": {"sensor_flange": "iso_9409_40_4_m6"},  # 25 mm are too narrow for the board of 28
         "flange_seat_margin": {"motor_base_thickness": "12.1 mm"},

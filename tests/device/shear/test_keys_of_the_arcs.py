@@ -39,7 +39,7 @@ def test_keys_hold_their_section_times_the_shear_yield_of_frozen_pcl() -> None:
     assert shallow["key_holding_torque"] == pytest.approx(12 * yielding * 2.5e-3 * 0.8e-3 * 33e-3, rel=1e-9)
 
 
-def test_the_safety_of_keys_is_what_they_hold_over_the_layers_part_of_the_load() -> None:
+def test_safety_of_keys_over_the_layers_part_of_the_load() -> None:
     rows = ["key_safety", "layer_torque@cold", "bond_traction@cold", "hold_torque", "layer_polar_moment",
             "key_holding_torque"]  # fmt: skip
     values = TABLE.evaluate(inputs_of(), rows)
@@ -92,7 +92,7 @@ def test_keys_that_do_not_fit_are_refused(rule: str, module: dict[str, Any]) -> 
     assert [name for name in RULES if broken[name] < 0.0] == [rule]
 
 
-def test_the_rules_of_keys_are_limits_of_every_shear_study_and_of_no_compression_study() -> None:
+def test_only_shear_studies_have_rules_of_keys() -> None:
     for mode, held in (("shear", set(RULES)), ("compression", set())):
         study = read_study_text(f"mode: {mode}\n", "a test")
         assert {limit.output for limit in constraints_of(study, table_for(mode))} & set(RULES) == held

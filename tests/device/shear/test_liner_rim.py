@@ -27,7 +27,7 @@ def rim_of(one: dict[str, Any]) -> float:
     return sum(float(link.conductance) for link in links) / one["edge_length"]
 
 
-def test_a_liner_in_metal_gives_by_its_film_and_by_what_a_cold_wall_beside_it_takes() -> None:
+def test_a_liner_in_metal_gives_by_film_and_cold_wall() -> None:
     thin = {"liner_film": 0.02 * MM, "hot_contact": 1e9, "rotor_contact": 1e9}
     one = found("side_links", "edge_length", "liner_to_wall", "liner_sheet", "pcl_area", **thin)
     k = 0.5 * (one["pcl_conductivity_solid"] + one["pcl_conductivity_melt"])
@@ -50,7 +50,7 @@ def test_a_thicker_film_and_a_plastic_rotor_keep_heat_in_the_liner() -> None:
     assert plastic < 0.9 * bare
 
 
-def test_a_lip_takes_less_from_a_layer_below_a_liner_and_the_liner_gives_beside_it() -> None:
+def test_a_lip_takes_less_from_a_layer_below_a_liner() -> None:
     names = ("cold_end", "side_links", "edge_length")
     lips = {"melt_lip": "rings", "pcl_thickness": 0.6 * MM, "running_clearance": 0.1 * MM}
     lined, bare = (found(*names, **lips, liner_material=liner) for liner in ("pei_1010", "none"))

@@ -31,7 +31,7 @@ def found(*names: str, **module: Any) -> dict[str, Any]:
     return {**inputs, **TABLE.evaluate(inputs, list(names))}
 
 
-def test_the_slices_and_the_pads_give_a_metal_lip_what_a_cold_wall_takes_beyond_an_even_fall() -> None:
+def test_a_metal_lip_takes_what_a_cold_wall_takes() -> None:
     one = found("cold_end", hot_contact=1e9, rotor_contact=1e9)
     conductivity = 0.5 * (one["pcl_conductivity_solid"] + one["pcl_conductivity_melt"])
     # Slices that fall evenly from a kelvin to none are half a kelvin above it; a cold wall takes 2/pi ln cot(pi f/4).
@@ -51,7 +51,7 @@ def at_the_edge(excess: float) -> Callable[[Place], float]:
     return lambda place: excess if place[0] == "hot" else 0.0
 
 
-def test_a_metal_lip_is_as_cold_as_the_plate_and_a_plastic_one_is_between_plate_and_layer() -> None:
+def test_temperature_of_metal_and_plastic_lips() -> None:
     metal, plastic = (
         warm_lip(found("lip", structure_conductivity=k)["lip"], np.full(CELLS, 0.5), at_the_edge(1.0), alike)
         for k in (167.0, 0.2)
@@ -110,7 +110,7 @@ def test_a_molten_layer_gives_less_to_a_cold_lip_than_a_frozen_one() -> None:
     assert np.sum(molten.from_layer) / np.sum(frozen.from_layer) == pytest.approx(0.9 / 1.1, rel=0.01)
 
 
-def test_the_plate_beside_is_as_heavy_as_with_its_lips_and_conducts_better_where_they_stand() -> None:
+def test_the_plate_conducts_better_where_lips_stand() -> None:
     names = ("rotor_beside", "melt_lip_moments", "beside_area")
     lips, bare = (found(*names, melt_lip=kind) for kind in ("rings", "none"))
     more = sum(a.capacity - b.capacity for a, b in zip(lips["rotor_beside"], bare["rotor_beside"], strict=True))

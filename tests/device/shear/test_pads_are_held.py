@@ -36,7 +36,7 @@ def test_the_pull_of_the_layer_comes_to_the_ledges() -> None:
     assert held["ledge_tension"] <= held["bond"] * share * 1.01
 
 
-def test_the_bill_has_adhesive_for_pads_below_arcs_and_grease_for_those_in_vanes() -> None:
+def test_the_bill_has_adhesive_or_grease_for_pads() -> None:
     def kinds(mode: str, changes: dict[str, Any]) -> list[str]:
         return [one.kind for one in beside(design_of("held", changes, mode), {})]
 

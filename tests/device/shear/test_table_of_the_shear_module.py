@@ -80,7 +80,7 @@ def test_what_is_of_an_extra_is_refused_in_a_study_of_a_module_without_it() -> N
     of_every(OF_EXTRAS, check)
 
 
-def test_a_row_of_an_extra_is_computed_and_held_only_where_the_module_has_it() -> None:
+def test_a_quantity_of_a_lacking_feature_is_its_default() -> None:
     requires = (Feature("cover", "none"), Feature("motor", "none"))
     row = Output(
         name="gap", unit="mm", description="", group="", function=lambda m: 2.0 * m.width,
@@ -169,7 +169,7 @@ def test_every_input_says_where_its_default_comes_from() -> None:
     of_every(TABLE.inputs, check)
 
 
-def test_what_a_phase_supplies_depends_on_its_current_and_on_those_before_it() -> None:
+def test_a_phase_depends_on_its_current_and_earlier_ones() -> None:
     # A yield counts a limit where something that spreads is behind it; the source spreads by 1 %.
     assert "current" in TABLE.ancestors("current_margin")
     assert "cooling_current" not in TABLE.ancestors("current_margin")

@@ -133,7 +133,7 @@ def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
     assert values["spreader_resistance"] < 0.1 * expected
 
 
-def test_compliance_is_that_of_what_the_tiles_have_about_the_axis_and_of_the_spreader() -> None:
+def test_compliance_of_tiles_and_spreader() -> None:
     known = inputs_of()
     values = TABLE.evaluate(known, ["pad_compliance", "layer_polar_moment", "tile_radius"])
     # The tiles' polar moment by counting points.
@@ -186,7 +186,7 @@ def test_a_sheet_is_as_it_was() -> None:
     assert list(values.values()) == [4.0, 1.0, 0.0, 0.0, 0.0, flat["peltier_thickness"]]
 
 
-def test_spreaders_face_the_ledges_beside_the_tiles_and_only_their_edges_meet_the_walls() -> None:
+def test_spreaders_face_ledges_and_meet_walls_at_edges() -> None:
     rows = "stack pcl_area heated_area cold_area edge_length floor_web beside_area"
     known = inputs_of(tiles_per_arc=1.0, arc_span=1.36)
     values = TABLE.evaluate(known, rows.split())

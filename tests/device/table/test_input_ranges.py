@@ -59,7 +59,7 @@ def test_a_range_is_read_in_the_unit_of_the_default() -> None:
     assert INPUTS["coil_gap"].high == 0.2e-3
 
 
-def test_a_viscosity_is_moved_once_by_the_record_s_range_and_not_by_the_factor_too() -> None:
+def test_a_viscosity_moves_by_the_record_s_range_alone() -> None:
     factor = INPUTS["melt_viscosity_factor"]
     assert (factor.low, factor.high, factor.range_of) == (None, None, None)
     assert INPUTS["pcl_zero_shear_viscosity"].record == ("pcl_grade", "zero_shear_viscosity")

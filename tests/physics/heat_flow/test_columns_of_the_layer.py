@@ -11,6 +11,7 @@ from scipy.sparse import eye, kron
 from scipy.sparse.linalg import spsolve
 
 from tvimdesign.physics.heat_flow import columns, lumps, shape_factors
+from tvimdesign.physics.heat_flow.lumps import Link, Slope
 
 Array = NDArray[np.float64]
 
@@ -34,7 +35,7 @@ def layer_that_loses(flux: Array, width: float, across: int) -> Array:
 
 
 @pytest.mark.parametrize("width", [0.7, 1.5, 5.0])
-def test_a_layer_is_below_its_mean_by_what_conduction_in_two_dimensions_says(width: float) -> None:
+def test_a_layer_is_below_its_mean_as_in_two_dimensions(width: float) -> None:
     across, deep = 300, 60
     heights = (np.arange(deep) + 0.5) / deep
     waves = np.pi * np.arange(1, columns.SINES + 1)
@@ -48,7 +49,7 @@ def test_a_layer_is_below_its_mean_by_what_conduction_in_two_dimensions_says(wid
             assert ours == pytest.approx(below[column], abs=0.01)
 
 
-def test_what_a_layer_gives_evenly_falling_leaves_it_as_cold_in_the_mean_as_its_end_does() -> None:
+def test_evenly_falling_heat_cools_the_mean_as_the_end_does() -> None:
     across, deep, width = 200, 200, 1.2
     heights = (np.arange(deep) + 0.5) / deep
     flux = 1.0 / np.tan(0.5 * np.pi * heights)
@@ -131,3 +132,53 @@ def test_what_the_layer_gives_in_place_of_the_hot_side_is_the_same_heat() -> Non
     assert found["hot"][0] == pytest.approx(-3.0)
     # Seven, five, three and one sixteenth: it falls evenly to nothing at the far face.
     assert found["layer"][0] == pytest.approx(-7.0 * np.array([7.0, 5.0, 3.0, 1.0]) / 16.0)
+
+
+def conduction(count: int, length: float, first: float, last: float) -> Array:
+    """Conduction along a row of cells; at either end 2 where it is held at 0, 0 where nothing passes."""
+    diagonal = np.full(count, 2.0)
+    diagonal[0], diagonal[-1] = 1.0 + first, 1.0 + last
+    return (np.diag(diagonal) - np.eye(count, k=1) - np.eye(count, k=-1)) * (count / length) ** 2
+
+
+@pytest.mark.parametrize("slenderness", [0.8, 2.0, 6.0])
+def test_a_row_is_below_the_mean_by_what_conduction_in_two_dimensions_says(slenderness: float) -> None:
+    # Half the height and the conductivity are one; both ends are held, the faces lose 1.5 and 0.6.
+    deep, high, lost = 120, 120, (1.5, 0.6)
+    inside = kron(conduction(deep, slenderness, 2.0, 2.0), eye(high)) + kron(eye(deep), conduction(high, 2.0, 0.0, 0.0))
+    source = np.zeros((deep, high))
+    source[:, 0], source[:, -1] = -lost[0] * high / 2.0, -lost[1] * high / 2.0
+    found = np.asarray(spsolve(inside.tocsc(), source.ravel())).reshape(deep, high)
+    below = np.mean(found, axis=1)[:, None] - found
+    depths = (np.arange(deep) + 0.5) / deep
+    for row, place in enumerate((np.arange(high) + 0.5) / high * 2.0 - 1.0):
+        if abs(place) < 0.93:
+            ours = columns.row_below_mean(float(place), depths, slenderness, lost)
+            assert ours == pytest.approx(below[:, row], abs=0.025)
+
+
+@pytest.mark.parametrize("slenderness", [0.1, 0.4, 1.5])
+def test_uneven_heat_passes_an_edge_as_in_two_dimensions(slenderness: float) -> None:
+    # Height and conductivity one; the edge is held at a cosine over the height, whose end nothing passes.
+    along, high = 400, 80
+    edge = np.cos(np.pi * (np.arange(high) + 0.5) / high)
+    inside = kron(conduction(along, slenderness, 2.0, 0.0), eye(high)) + kron(
+        eye(along), conduction(high, 1.0, 0.0, 0.0)
+    )
+    source = np.zeros((along, high))
+    source[0] = 2.0 * (along / slenderness) ** 2 * edge
+    found = np.asarray(spsolve(inside.tocsc(), source.ravel())).reshape(along, high)
+    passed = 2.0 * along / slenderness * (edge - found[0])
+    assert passed == pytest.approx(
+        edge / shape_factors.uneven_way(slenderness), abs=0.01 / shape_factors.uneven_way(slenderness)
+    )
+
+
+def test_a_layer_gives_each_place_of_what_falls_before_it_its_own_heat() -> None:
+    # A face at 40 K that is 6 K warmer at the layer's near end than at its far one: 42, 40, 38 K before three cells.
+    cells = np.array([90.0, 70.0, 50.0])
+    slope = Slope(((("around", 1), 0.25), (("around", 3), 0.75)), ("around", 2), 0.5)
+    link = Link(("layer", 0), ("around", 0), 3.0, slope=slope)
+    found = lumps.linked([link], {"around": np.array([40.0, 50.0, 35.0, 46.0])}, {"layer": cells})
+    assert found["layer"][0] == pytest.approx(np.array([42.0, 40.0, 38.0]) - cells)
+    assert found["around"] == pytest.approx([90.0, 0.0, 0.0, 0.0])

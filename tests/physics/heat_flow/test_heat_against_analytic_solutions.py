@@ -91,7 +91,7 @@ def test_melting_front_advances_as_stefan_and_neumann_found(
     assert found == pytest.approx([expected] * 3, rel=HALF_PERCENT)
 
 
-def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bare_stack: Make, integrate: Run) -> None:
+def test_two_bodies_that_touch_meet_by_their_effusivities(bare_stack: Make, integrate: Run) -> None:
     # Aluminium at 100 degC on polycaprolactone at 22 degC: 97.5 degC (Carslaw and Jaeger, section 2.14).
     melting = polymer.Melting(1850.0, 1850.0, 1.0, 5000.0, 5001.0, 1e-3)
     stack = bare_stack(
@@ -141,9 +141,7 @@ def test_a_switched_off_stack_at_ambient_temperature_stays_as_it_is(bare_stack: 
     assert np.max(np.abs(heat.rates(state, stack, 0.0))) < 1e-12
 
 
-def test_a_wall_of_layer_joint_and_plate_at_rest_has_the_drops_of_its_resistances(
-    bare_stack: Make, integrate: Run
-) -> None:
+def test_a_wall_at_rest_has_the_drops_of_its_resistances(bare_stack: Make, integrate: Run) -> None:
     # 2 W (half of I^2 R) through 1000 mm^2: a drop is the flux over k/L, or over the coefficient of a joint or surface.
     stack = bare_stack(
         hot_contact=4000.0, plate_contact=500.0, plate_conductivity=0.8, plate_thickness=3e-3, plate_cells=3,

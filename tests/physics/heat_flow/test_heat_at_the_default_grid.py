@@ -156,7 +156,7 @@ def test_front_between_two_phases_advances_as_neumann_found(
     assert found.time == pytest.approx(1.0, abs=2.0 * HALF_PERCENT)
 
 
-def test_two_bodies_that_touch_meet_at_the_temperature_of_their_effusivities(bare_stack: Make, integrate: Run) -> None:
+def test_two_bodies_that_touch_meet_by_their_effusivities(bare_stack: Make, integrate: Run) -> None:
     # Aluminium at 100 degC on polycaprolactone at 22 degC. Once the heat is some cells deep, and not yet through.
     stack = bare_stack(
         conductivity_solid=0.225, conductivity_melt=0.225, hot_contact=1e-12, plate_contact=1e12, plate_thickness=60e-3,

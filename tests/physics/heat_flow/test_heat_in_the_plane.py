@@ -74,7 +74,7 @@ def test_a_fin_heated_at_its_root_is_as_warm_as_the_formula_says() -> None:
                                  rel=5e-3)  # fmt: skip
 
 
-def test_half_the_current_s_heat_leaves_legs_at_either_end_and_their_middle_is_warmer_by_an_eighth() -> None:
+def test_half_the_current_s_heat_leaves_legs_at_either_end() -> None:
     # I^2 R of 800 W/m2 in legs of 1 mm between two sheets kept cold: (I^2 R)/(8 K) above them (Incropera, ch. 3).
     x = lines((-1e-6, 0.0, 1, 1.0), (0.0, 1e-3, 40, 1.0), (1e-3, 1.001e-3, 1, 1.0))
     y = np.array([0.0, 1.0])

@@ -107,7 +107,7 @@ def test_no_heat_is_lost_where_freezing_takes_over(heated: tuple[Array, float, f
 
 
 @given(celsius=st.floats(25.0, 150.0))
-def test_a_layer_that_is_taken_over_anywhere_keeps_its_fraction_and_nearly_its_temperature(celsius: float) -> None:
+def test_a_layer_that_is_taken_over_keeps_its_fraction(celsius: float) -> None:
     melting, freezing = cycle_stack(), cycle_stack(freezing=FREEZING)
     state = heat.initial_state(melting, 4, 273.15 + celsius)
     before, after = (
@@ -152,7 +152,7 @@ def test_links_heat_what_they_touch(bare_stack: Callable[..., heat.Stack]) -> No
     assert heat.rates(state, stack, 0.0)[-1] == pytest.approx(gained / 15.0 / 100.0, rel=1e-6)
 
 
-def test_what_a_plate_differs_from_its_mean_goes_sideways_by_a_conductance_of_its_own() -> None:
+def test_uneven_plates_give_by_their_own_conductance() -> None:
     # Cells at 50, 40 and 30 degC beside a strip at 40 degC: the mean gives nothing, 0.1 W/K/3 times 10 K leave the
     # first cell and come into the last.
     even = cycle_stack(uneven_conductance=0.0, links=())

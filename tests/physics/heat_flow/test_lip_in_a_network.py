@@ -9,10 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from scipy.optimize import root
+from scipy.integrate import quad
+from scipy.optimize import brentq, root
 
+from tvimdesign.physics.heat_flow.conduction import Conductivities, shared
 from tvimdesign.physics.heat_flow.lip import Arm, Lip, warm_lip
 from tvimdesign.physics.heat_flow.lumps import Place
+from tvimdesign.physics.polymers.polymer import Melting
 
 Array = NDArray[np.float64]
 AIR, PLATE = ("air", 0), ("plate", 0)
@@ -86,3 +89,33 @@ def test_residuals_say_how_far_given_temperatures_are_off(
     ).residuals
     assert first == pytest.approx(-off[0], abs=1e-9)
     assert second == pytest.approx(-off[1], abs=1e-9)
+
+
+MELTING = Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
+
+
+def passed(conductivities: Conductivities, low: float, high: float) -> float:
+    """Integral of the conductivity over temperature [W/m], straight within the window, by quadrature."""
+
+    def at(temperature: float) -> float:
+        molten = min(max((temperature - MELTING.start) / (MELTING.end - MELTING.start), 0.0), 1.0)
+        return conductivities.solid + molten * (conductivities.melt - conductivities.solid)
+
+    return float(quad(at, low, high, points=[MELTING.start, MELTING.end], limit=200)[0])
+
+
+@pytest.mark.parametrize("share", [0.2, 0.5, 0.9])
+def test_one_conductivity_shares_the_temperature_itself(share: float) -> None:
+    assert shared(share, 363.0, 303.0, Conductivities(0.2, 0.2), MELTING) == pytest.approx(303.0 + 60.0 * share)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
+@pytest.mark.parametrize(("place", "wall"), [(365.0, 305.0), (350.0, 318.0), (330.0, 300.0)])
+def test_two_conductivities_share_the_potential(share: float, place: float, wall: float) -> None:
+    both = Conductivities(0.20, 0.16)  # about PCL's
+    whole = passed(both, wall, place)
+    exact = brentq(lambda one: passed(both, wall, one) - share * whole, wall, place)
+    found = shared(share, place, wall, both, MELTING)
+    assert found == pytest.approx(exact, abs=0.02 * (place - wall))
+    even = wall + share * (place - wall)
+    assert abs(found - exact) <= max(0.25 * abs(even - exact), 0.02)  # the step takes most of what the share misses

@@ -6,6 +6,8 @@ import textbook
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize_scalar
+from scipy.sparse import coo_matrix
+from scipy.sparse.linalg import spsolve
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.heat_flow import peltier
@@ -94,13 +96,13 @@ def test_best_coefficient_of_performance_is_the_textbooks(
     assert found == pytest.approx(cold / difference * (m - hot / cold) / (m + 1.0), rel=1e-6, abs=1e-6)
 
 
-def test_current_through_a_module_of_one_temperature_pumps_heat_to_the_hot_side() -> None:
+def test_current_pumps_heat_to_the_hot_side() -> None:
     module = peltier.PeltierModule(0.05, 2.0, 0.5)
     assert peltier.hot_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 + 1.0)
     assert peltier.cold_side_heat(module, 1.0, 300.0, 300.0) == pytest.approx(15.0 - 1.0)
 
 
-def test_a_40_mm_module_with_a_well_sunk_cold_side_stalls_near_76_degrees_at_1_5_amperes() -> None:
+def test_a_40_mm_module_stalls_near_76_degrees_at_1_5_amperes() -> None:
     # Its conductance takes back all it pumps: no layer behind it is ever warmer.
     module, cold = textbook.from_data_sheet(*SHEETS["teci_12706"][0]), 295.15
     stalled = brentq(lambda hot: peltier.hot_side_heat(module, 1.5, hot, cold), cold, 400.0)
@@ -124,7 +126,7 @@ def test_a_foil_heats_whichever_way_its_current_flows(
     assert given_off == pytest.approx(current**2 * resistance, rel=1e-9, abs=1e-9)
 
 
-def test_the_outer_side_of_an_insulated_foil_is_hotter_by_half_its_way_at_the_whole_flux() -> None:
+def test_an_insulated_foil_is_hotter_by_half_its_way() -> None:
     # A wire in the middle of 1.6 mm of silicone, 8 kW/m2 all to one side: q t/(2 k) = 91 K over the half it passes.
     flux, thickness, conductivity, area = 8e3, 1.6e-3, 0.07, 1.6e-3
     foil = peltier.PeltierModule(0.0, 45.0, conductivity * area / thickness)
@@ -133,7 +135,7 @@ def test_the_outer_side_of_an_insulated_foil_is_hotter_by_half_its_way_at_the_wh
     assert outer - 350.0 == pytest.approx(0.5 * flux * thickness / conductivity, rel=1e-9)
 
 
-def test_legs_that_the_current_heats_evenly_are_as_warm_as_their_heat_equation_says() -> None:
+def test_evenly_heated_legs_follow_the_heat_equation() -> None:
     # k A T'' = -I^2 R/L between two ends, solved by finite differences; 2 A through 3 ohm, 0.5 W/K from end to end.
     hot, cold, count = 390.0, 310.0, 400
     step = 1.0 / count
@@ -147,3 +149,54 @@ def test_legs_that_the_current_heats_evenly_are_as_warm_as_their_heat_equation_s
     middle = peltier.settled_middle(module, 2.0, hot, cold)
     assert middle == pytest.approx(profile[count // 2], abs=1e-3)
     assert peltier.legs_temperature(hot, middle, cold) == pytest.approx(mean, abs=1e-3)
+
+
+@pytest.mark.parametrize("conductance", [20.0, 200.0])
+def test_spreading_is_what_a_fins_efficiency_leaves_out(conductance: float) -> None:
+    # Half of a plate is fed, half is a fin of 2 mm that gives heat to a layer: tanh(m w)/(m w) (Incropera, ch. 3).
+    k, thickness, width = 167.0, 1e-3, 2e-3
+    mw = width * np.sqrt(conductance / (k * thickness))
+    exact = 1.0 / (conductance * (0.5 + 0.5 * np.tanh(mw) / mw)) - 1.0 / conductance
+    found = peltier.spreading_resistance(2.0 * width, width, 1.0, k, thickness)  # per metre along the edge
+    around_the_corner = 0.5 * width / k * peltier.AROUND_CORNER
+    assert found - around_the_corner == pytest.approx(exact, rel=0.02)
+
+
+def in_two_dimensions(fed: float, beside: float, thickness: float, k: float, across: int = 20) -> float:
+    """Mean temperature of a plate's upper face that an even flux of 1 W/m^2 leaves, below its fed lower face [K].
+
+    Half a module and half a gap, finite volumes; no heat passes the ends or the lower face beside the module.
+    """
+    step = thickness / across
+    columns, fed_columns = round((fed + beside) / step), round(fed / step)
+    count = columns * across
+    index = np.arange(count).reshape(columns, across)
+    pairs = [(index[:-1].ravel(), index[1:].ravel()), (index[:, :-1].ravel(), index[:, 1:].ravel())]
+    a, b = (np.concatenate(side) for side in zip(*pairs, strict=True))
+    diagonal = np.zeros(count)
+    np.add.at(diagonal, np.concatenate((a, b)), k)
+    diagonal[index[:fed_columns, 0]] += 2.0 * k
+    flux = np.zeros(count)
+    flux[index[:, -1]] = step
+    rows, cols = np.concatenate((a, b, np.arange(count))), np.concatenate((b, a, np.arange(count)))
+    matrix = coo_matrix((np.concatenate((-k * np.ones(2 * len(a)), diagonal)), (rows, cols))).tocsr()
+    return float(np.mean(spsolve(matrix, flux)[index[:, -1]]) + 0.5 * step / k)
+
+
+@pytest.mark.parametrize("beside", [8e-3, 4e-3, 2e-3])
+def test_a_plate_in_two_dimensions_falls_as_far(beside: float) -> None:
+    # What the plate adds across its thickness, t/k, is counted apart (`contact_resistance`).
+    fed, thickness, k = 4e-3, 0.8e-3, 167.0
+    found = peltier.spreading_resistance(fed + beside, fed, 1.0, k, thickness)
+    through = thickness / k
+    assert found + through == pytest.approx(in_two_dimensions(fed, beside, thickness, k), rel=0.05)
+
+
+def test_joints_and_plate_are_in_series() -> None:
+    # 1e-4 + 1e-3/167 + 1/(0.5 * 2e4) by hand
+    found = peltier.spreader_contact_resistance(1e4, 167.0, 1e-3, 0.5, 2e4)
+    assert found == pytest.approx(1e-4 + 5.988e-6 + 1e-4, rel=1e-6)
+
+
+def test_a_plate_that_is_all_fed_spreads_nothing() -> None:
+    assert peltier.spreading_resistance(1e-3, 1e-3, 0.1, 167.0, 1e-3) == 0.0

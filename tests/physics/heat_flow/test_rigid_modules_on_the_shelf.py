@@ -42,7 +42,7 @@ def largest_difference(module: peltier.PeltierModule, hot: float) -> float:
     return float(hot - found.fun)
 
 
-def test_the_shelf_has_thirty_and_a_fifth_of_the_values_of_those_with_a_sheet_are_assumed() -> None:
+def test_a_fifth_of_the_values_of_sheets_are_assumed() -> None:
     assert len(RIGID) >= 32
     without_sheet = {"qc_17", "flexible_1600", "polyimide_foil_12v", "polyimide_foil_24v", "comb_electrodes"}
     with_sheet = [CATALOG.record("peltiers", n) for n in CATALOG.names("peltiers") if n not in without_sheet]
@@ -106,7 +106,7 @@ CONTRADICT = (
 """Modules whose sheets say less cooling than their other ratings make: their records say so."""
 
 
-def test_cooling_power_is_that_of_the_sheet_within_a_tenth_or_the_record_says_so() -> None:
+def test_cooling_power_is_that_of_the_sheet_within_a_tenth() -> None:
     def check(name: str) -> None:
         record = CATALOG.record("peltiers", name)
         found = peltier.max_cooling_power(module_of(record), record.value("hot_side_temperature"))
@@ -140,7 +140,7 @@ def test_a_warmer_hot_side_raises_the_difference_as_the_sheet_says(name: str, ho
     assert largest_difference(module, hot) == pytest.approx(difference, abs=4.0)
 
 
-def test_the_second_rating_of_a_sheet_is_what_the_first_makes_of_it_within_a_tenth() -> None:
+def test_the_second_rating_agrees_with_the_first() -> None:
     def check(name: str) -> None:
         value = CATALOG.record("peltiers", name).value
         module, warm = module_of(CATALOG.record("peltiers", name)), value("warm_side_temperature")

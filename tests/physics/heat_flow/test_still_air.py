@@ -93,7 +93,7 @@ def test_a_room_beside_tiles_gives_what_conduction_in_two_dimensions_says(width:
 
 
 @pytest.mark.parametrize("slot", [0.25, 0.5, 1.0, 1.75])
-def test_a_clearance_gives_lip_and_floor_what_conduction_in_two_dimensions_says(slot: float) -> None:
+def test_a_clearance_gives_lip_and_floor_as_in_two_dimensions(slot: float) -> None:
     n = 24
     gap, deep, long = int(slot * n), 4 * int(max(slot, 1.0) * n), 5 * n
     inside = np.zeros((gap + long, deep + n), dtype=bool)
@@ -120,7 +120,7 @@ def test_a_clearance_gives_lip_and_floor_what_conduction_in_two_dimensions_says(
 
 
 @pytest.mark.parametrize("slenderness", [0.5, 0.8, 2.0])
-def test_a_ledge_s_lower_face_is_colder_than_its_mean_by_what_two_dimensions_say(slenderness: float) -> None:
+def test_a_ledge_s_lower_face_is_colder_as_in_two_dimensions(slenderness: float) -> None:
     wide = int(slenderness * N)
     inside = np.ones((wide + 3 * N, N), dtype=bool)
     sources = np.zeros(inside.shape)
@@ -133,7 +133,7 @@ def test_a_ledge_s_lower_face_is_colder_than_its_mean_by_what_two_dimensions_say
 
 
 @pytest.mark.parametrize(("begin", "width"), [(0.0, 0.3), (0.3, 0.7)])
-def test_a_lip_s_lower_face_is_warmer_than_its_mean_by_what_two_dimensions_say(begin: float, width: float) -> None:
+def test_a_lip_s_lower_face_is_warmer_as_in_two_dimensions(begin: float, width: float) -> None:
     share = 1.0 / 3.0
     inside = np.ones((3 * N, N), dtype=bool)
     sources = np.zeros(inside.shape)

@@ -56,9 +56,7 @@ def test_the_wall_takes_what_conduction_in_two_dimensions_says(free: float) -> N
 
 
 @pytest.mark.parametrize(("free", "contact"), [(0.1, 0.02), (0.2, 0.02), (0.1, 0.04)])
-def test_contacts_are_as_much_more_free_height_as_conduction_in_two_dimensions_says(
-    free: float, contact: float
-) -> None:
+def test_contacts_are_more_free_height_as_in_two_dimensions(free: float, contact: float) -> None:
     into = walled_layer(free, contact)[0, heights() > free] / (0.5 + contact * ACROSS)
     ours = walled_end((free + 2.0 * AT_CORNER * contact) / (1.0 + 2.0 * contact))
     assert ours.wall == pytest.approx(np.sum(into), rel=0.025)
@@ -76,7 +74,7 @@ def test_symbols_and_numbers_agree() -> None:
 
 
 @pytest.mark.parametrize(("free", "layer"), [(0.1, 0.4), (0.2, 0.5), (0.15, 0.25)])
-def test_layer_and_sheet_give_the_wall_what_conduction_in_two_dimensions_says(free: float, layer: float) -> None:
+def test_layer_and_sheet_give_the_wall_as_in_two_dimensions(free: float, layer: float) -> None:
     found, ours = walled_layer(free), sheeted_end(free, layer)
     own, above = heights() < layer, heights() > layer
     assert ours.wall == pytest.approx(np.sum(2.0 * found[0, own & (heights() > free)]), rel=0.03)
@@ -88,14 +86,14 @@ def test_layer_and_sheet_give_the_wall_what_conduction_in_two_dimensions_says(fr
 
 
 @pytest.mark.parametrize("layer", [0.25, 0.5])
-def test_a_sheet_alone_gives_the_wall_what_conduction_in_two_dimensions_says(layer: float) -> None:
+def test_a_sheet_alone_gives_the_wall_as_in_two_dimensions(layer: float) -> None:
     found, ours = walled_layer(layer), sheet_end(layer)
     assert ours.rim == pytest.approx(np.sum(2.0 * found[0, heights() > layer]), rel=0.015)
     missed = (1.0 - heights() - found)[:, heights() > layer] / ACROSS**2
     assert ours.sheet_colder == pytest.approx(np.sum(missed) / (1.0 - layer), rel=0.08)
 
 
-def test_a_layer_that_gives_by_its_slices_is_as_cold_in_the_mean_below_a_sheet() -> None:
+def test_a_layer_below_a_sheet_is_as_cold_in_the_mean() -> None:
     layer = 0.4
     ours = sheeted_end(0.1, layer)
     height = (np.arange(4000) + 0.5) / 4000
@@ -106,7 +104,7 @@ def test_a_layer_that_gives_by_its_slices_is_as_cold_in_the_mean_below_a_sheet()
     assert by_slices + from_sheet == pytest.approx(ours.colder * (2.0 - layer), rel=1e-3)
 
 
-def test_heat_that_leaves_the_free_end_makes_the_layer_colder_as_in_two_dimensions() -> None:
+def test_heat_from_the_free_end_cools_as_in_two_dimensions() -> None:
     free = 0.15
     found = -walled_layer(free, lost=1.0)
     # What leaves rises with the height, as in sin a near the corner; the near face gives half of it.

@@ -1,5 +1,6 @@
 """A squeezed block: stiffness against finite elements, rubber and plain compression; what one mode forgets."""
 
+import csv
 from typing import Any
 
 import bonded_block
@@ -8,8 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support import ROOT
 
-from tvimdesign.physics.layers import block
+from tvimdesign.physics.layers import block, layer
 
 Modes = list[tuple[float, float]]
 MELT = [(2.07e-2, 82.0), (6.5e-3, 104.0), (2.07e-3, 131.0), (6.5e-4, 165.0), (2.07e-4, 207.0), (6.5e-5, 261.0)]
@@ -104,3 +106,111 @@ def test_symbols_give_what_floats_give(modes: Modes) -> None:
     symbolic = ca.vertcat(*rows(*names))
     found = np.asarray(ca.Function("found", names, [symbolic])(*numbers)).ravel()
     assert found == pytest.approx([float(row) for row in rows(*numbers)], rel=1e-12)
+
+
+def test_a_cube_has_the_shape_factor_of_one_face_over_four() -> None:
+    assert block.shape_factor(0.01, 0.01, 0.01) == pytest.approx(0.25, rel=1e-12)
+    assert block.shape_stiffening(0.25) == pytest.approx(1.125, rel=1e-12)
+
+
+def test_limits_of_slender_and_flat_blocks() -> None:
+    youngs, poisson = 400e6, 0.45
+    shear, bulk = youngs / (2.0 * (1.0 + poisson)), block.bulk_modulus(youngs, poisson)
+
+    def apparent(shape: float) -> float:
+        shearing = 3.0 * shear * block.shape_stiffening(shape)
+        return 1.0 / (1.0 / shearing + 1.0 / block.volumetric_modulus(bulk, shape))
+
+    assert bulk == pytest.approx(1333.3e6, rel=1e-4)
+    assert apparent(0.0) == pytest.approx(youngs, rel=1e-12)
+    assert apparent(100.0) == pytest.approx(bulk, rel=1e-3)
+
+
+def test_stiffness_of_a_squeezed_block_is_force_times_arm_over_angle() -> None:
+    # 2 blocks of 1 cm2 and 400 MPa at 20 mm, 5 mm deep: 1 mrad is 20 um or 0.4 %, 160 N on each, 6.4 N*m together.
+    assert block.stiffness(400e6, 2, 1e-4, 20e-3, 5e-3) * 1e-3 == pytest.approx(6.4, rel=1e-12)
+    assert block.strain(20e-3, 1e-3, 5e-3) == pytest.approx(4e-3, rel=1e-12)
+    assert block.torque_at_stress(1.6e6, 2, 1e-4, 20e-3) == pytest.approx(6.4, rel=1e-12)
+
+
+def test_a_block_squeezed_to_half_needs_twice_its_plan() -> None:
+    # From 6 to 8 mm: 64 - 36 = 28 mm2 of squared radius become 56, and 36 + 56 = 92.
+    assert block.squeezed_outer_radius(6e-3, 8e-3, 0.2, 0.1) == pytest.approx(np.sqrt(92e-6), rel=1e-12)
+    assert block.squeezed_outer_radius(6e-3, 8e-3, 0.2, 0.0) == pytest.approx(8e-3, rel=1e-12)
+
+
+@pytest.mark.parametrize("modulus", [1e4, 1e8])
+def test_a_block_that_is_alike_all_through_is_soft_all_through(modulus: float) -> None:
+    assert block.soft_share(np.full(12, modulus), np.full(12, 0.3 * modulus)) == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("molten", [1, 3, 9])
+def test_a_molten_film_is_as_stiff_as_a_block_of_its_depth(molten: int) -> None:
+    storage, loss = np.full(12, 1e12), np.zeros(12)
+    storage[:molten], loss[:molten] = 2e4, 3e4
+    width, height, depth = 11e-3, 12e-3, 4e-3
+    series = complex(*layer.series_modulus(storage, loss))
+    share = block.soft_share(storage, loss)
+    assert share == pytest.approx(molten / 12.0, rel=1e-6)
+    shape = block.shape_factor(width, height, depth) / share
+    found = block.stiffness(3.0 * series * block.shape_stiffening(shape), 6, width * height, 18.5e-3, depth)
+    # By hand: 3 G (1 + 2 S^2) A r^2 over the film's own thickness, S = w h/(2 t (w + h)).
+    thick = depth * molten / 12.0
+    own = width * height / (2.0 * thick * (width + height))
+    alone = 6 * 3.0 * complex(2e4, 3e4) * (1.0 + 2.0 * own**2) * width * height * 18.5e-3**2 / thick
+    assert found == pytest.approx(alone, rel=1e-5)
+
+
+def test_where_the_film_lies_does_not_matter() -> None:
+    storage = np.geomspace(1e4, 1e8, 12)
+    assert block.soft_share(storage, 0.1 * storage) == pytest.approx(
+        block.soft_share(storage[::-1], 0.1 * storage[::-1])
+    )
+
+
+def test_slices_that_give_way_alike_count_alike_whether_they_store_or_lose() -> None:
+    # |G| is 5 in every slice: 3-4-5 either way round, and 0-5.
+    storage, loss = np.array([3.0, 4.0, 0.0, 5.0]), np.array([4.0, 3.0, 5.0, 0.0])
+    assert block.soft_share(storage, loss) == pytest.approx(1.0, rel=1e-12)
+
+
+RIGID = 1e15
+with (ROOT / "validation/fe_structure/pads.csv").open(newline="") as file:
+    PADS = [{name: float(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
+
+
+@pytest.mark.parametrize(("width", "height"), [(20.0, 20.0), (20.0, 40.0)])
+def test_a_thin_pad_is_as_stiff_as_the_pressure_in_it_makes_it(width: float, height: float) -> None:
+    # Of incompressible rubber pressed by e, bonded on both faces: grad^2 p = -12 G e/t^3 with p 0 at the edges, like
+    # Prandtl's membrane, so F = 3 G e J/t^3 with Saint-Venant's series for the torsion constant J of a rectangle.
+    a, b = height, width
+    odd = np.arange(1, 60, 2)
+    torsion = a * b**3 / 3.0 * (1.0 - 192.0 * b / (np.pi**5 * a) * np.sum(np.tanh(odd * np.pi * a / (2 * b)) / odd**5))
+    thin = 0.1
+    found = block.pad_stiffness((1.0, RIGID), (width, height), thin, (0.0, 0.0))
+    # Gent and Lindley's shape factor is a few percent to 12 % below the series for rectangles.
+    assert 0.87 < found / (3.0 * torsion / thin**3) < 1.01
+
+
+def test_a_tall_pad_without_a_slot_is_a_bar() -> None:
+    youngs = 9.0 * 5.0 * 1.0 / (3.0 * 5.0 + 1.0)
+    found = block.pad_stiffness((1.0, 5.0), (1.0, 2.0), 100.0, (0.0, 0.0))
+    assert found == pytest.approx(youngs * 2.0 / 100.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "pad", PADS, ids=lambda pad: f"{pad['width']:g} x {pad['height']:g}, slot {pad['slot_width']:g}"
+)
+def test_a_pad_over_a_slot_gives_as_in_fe(pad: dict[str, float]) -> None:
+    sides, slot = (pad["width"], pad["height"]), (pad["slot_width"], pad["slot_height"])
+    moduli = 1.0, 2.0 * (1.0 + pad["poissons_ratio"]) / (3.0 * (1.0 - 2.0 * pad["poissons_ratio"]))
+    found = block.pad_stiffness(moduli, sides, pad["thickness"], slot)
+    plain = 3.0 * sides[0] * sides[1] / pad["thickness"]
+    assert found / plain == pytest.approx(pad["over_three_g"], rel=0.13 if slot[0] == 0.0 else 0.09)
+
+
+def test_a_slot_that_narrows_to_nothing_leaves_the_whole_pad() -> None:
+    widths = np.linspace(0.0, 4.0, 400)
+    found = np.array([block.pad_stiffness((1.0, 1e3), (8.0, 10.0), 1.6, (w, 8.0)) for w in widths])
+    assert found[0] == pytest.approx(block.pad_stiffness((1.0, 1e3), (8.0, 10.0), 1.6, (0.0, 0.0)), rel=1e-12)
+    assert np.all(np.diff(found) <= 1e-9)

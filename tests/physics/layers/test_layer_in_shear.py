@@ -1,13 +1,19 @@
 """The sheared layer against quadrature and against complex arithmetic done by Python."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 
 from tvimdesign.physics.bodies.shapes import sector
-from tvimdesign.physics.layers import layer
+from tvimdesign.physics.layers import hold, layer
+from tvimdesign.physics.motions import laplace
+from tvimdesign.physics.motions.motion import Modes
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+from tvimdesign.simulation.working_cycle.symbols import symbols
 
 SPAN, INNER, OUTER = 4.0 * 0.8546, 26e-3, 40e-3
 moduli = st.tuples(st.floats(1e2, 1e9), st.floats(1e2, 1e9))
@@ -49,3 +55,104 @@ def test_torque_at_a_traction_is_the_moment_of_a_linear_traction() -> None:
     expected, _ = quad(lambda r: (limit * r / OUTER) * r * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
     found = layer.torque_at_traction(limit, sector(SPAN, INNER, OUTER).polar, OUTER)
     assert found == pytest.approx(expected, rel=1e-10)
+
+
+SPRINGS, STRUCTURE, LOAD = 5.61, 919.0, 0.583
+MELT = [(2.07e-2, 82.0), (6.5e-3, 104.0), (2.07e-3, 131.0), (6.5e-4, 165.0), (2.07e-4, 207.0), (6.5e-5, 261.0)]
+SOLID = [(1e10, 2.1e5), (10.0, 1.8e4), (1.0, 1.7e4), (0.1, 1.9e4), (0.01, 1.9e4), (0.001, 2.6e4)]
+HALF = [(300.0, 56.0), (0.4, 180.0), (0.05, 200.0), (8e-3, 240.0), (1.5e-3, 270.0), (2e-4, 350.0)]
+SPECTRA = {"melt": MELT, "half frozen": HALF, "solid": SOLID, "fluid": [(1.0, 300.0)]}
+WITHIN = 4e-4
+
+
+def test_weights_are_those_that_stehfest_printed() -> None:
+    printed = [1 / 12, -385 / 12, 1279, -46871 / 3, 505465 / 6, -473915 / 2, 1127735 / 3, -1020215 / 3, 328125 / 2,
+               -65625 / 2]  # fmt: skip
+    assert laplace.weights(10) == pytest.approx(printed, rel=1e-14)
+
+
+@pytest.mark.parametrize("time", [0.01, 1.0, 30.0])
+def test_known_transforms_come_back(time: float) -> None:
+    assert laplace.inverse(lambda s: (1.0 / s**2,), time)[0] == pytest.approx(time, rel=WITHIN)
+    assert laplace.inverse(lambda s: (s**-0.5,), time)[0] == pytest.approx(1.0 / np.sqrt(np.pi * time), rel=WITHIN)
+    assert laplace.inverse(lambda s: (1.0 / (s + 1.0 / time),), time)[0] == pytest.approx(np.exp(-1.0), rel=WITHIN)
+
+
+@pytest.mark.parametrize("time", [1e-3, 0.3, 4.0, 100.0])
+def test_one_mode_beside_springs_creeps_as_zeners_solid(time: float) -> None:
+    # Findley, ch. 5: springs K_s beside k with a dashpot, retarded with tau (K_s + k)/K_s; the structure rigid.
+    k, tau = 300.0, 0.1
+    fading = np.exp(-time / (tau * (SPRINGS + k) / SPRINGS))
+    angle = LOAD / SPRINGS * (1.0 - k / (SPRINGS + k) * fading)
+    found = hold.held(LOAD, time, SPRINGS, 1e14, [(tau, k)])
+    assert found.angle == pytest.approx(angle, rel=WITHIN)
+    # The one dashpot is where the mode is free of stress: theta less its torque over k.
+    free = angle - (LOAD - SPRINGS * angle) / k
+    assert found.set_angle == pytest.approx(free, rel=WITHIN)
+
+
+def by_radau(modes: Modes, time: float) -> tuple[float, float]:
+    """Angle, and where the modes are free of stress; unknowns are the angle and the torques of the modes."""
+    tau, k = np.array(modes).T
+    first = LOAD / (SPRINGS + 1.0 / (1.0 / STRUCTURE + 1.0 / np.sum(k)))
+
+    def rates(_: float, y: np.ndarray) -> np.ndarray:
+        lost = np.sum(y[1:] / tau)
+        carried = -STRUCTURE * lost / np.sum(k) / (1.0 + STRUCTURE / SPRINGS + STRUCTURE / np.sum(k))
+        return np.array([-carried / SPRINGS, *(k * (carried + lost) / np.sum(k) - y[1:] / tau)])
+
+    begin = np.array([first, *((LOAD - SPRINGS * first) * k / np.sum(k))])
+    angle, *torques = solve_ivp(rates, (0.0, time), begin, method="Radau", rtol=1e-8, atol=1e-10).y[:, -1]
+    return float(angle), float(angle - sum(torques) * (1.0 / STRUCTURE + 1.0 / np.sum(k)))
+
+
+@pytest.mark.parametrize("time", [1e-3, 0.1, 1.0, 10.0, 1000.0])
+@pytest.mark.parametrize("spectrum", SPECTRA)
+def test_angle_and_set_are_those_of_radau(spectrum: str, time: float) -> None:
+    modes = SPECTRA[spectrum]
+    angle, free = by_radau(modes, time)
+    assert hold.held(LOAD, time, SPRINGS, STRUCTURE, modes) == pytest.approx((angle, free), rel=WITHIN)
+
+
+def test_load_that_has_just_come_on_is_shared_by_springs_and_the_branch() -> None:
+    # 450 behind 919 is 302.1 N*m/rad, beside 5.61.
+    borne = hold.first_torque(LOAD, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
+    assert borne == pytest.approx(0.583 * 302.09 / 307.70, rel=1e-4)
+    later = hold.held(LOAD, 1e-9, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)]).angle
+    assert LOAD - SPRINGS * later == pytest.approx(borne, rel=1e-6)
+
+
+def test_set_of_spectra_that_relax_or_do_not() -> None:
+    assert hold.held(LOAD, 10.0, SPRINGS, STRUCTURE, [(1e16, 300.0)]).set_angle < 1e-15
+    assert hold.held(LOAD, 1e6, SPRINGS, STRUCTURE, MELT).set_angle == pytest.approx(LOAD / SPRINGS, rel=1e-9)
+
+
+def test_gap_costs_the_branch_its_share_of_the_way() -> None:
+    # To 0.1 rad 302.1 + 5.61 N*m/rad take 30.77 N*m; behind a gap of 0.04 rad the branch 18.13 and the springs 0.561.
+    loss = hold.impedance_loss(0.1, 0.04, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
+    assert loss == pytest.approx(1.0 - (18.13 + 0.561) / 30.77, rel=1e-3)
+    assert hold.impedance_loss(0.1, 0.0, SPRINGS, STRUCTURE, MELT) == 0.0
+
+
+@given(st.floats(-3.0, 5.0), st.floats(0.1, 3.0))
+def test_longer_holds_creep_further_and_never_beyond_the_springs(time: float, more: float) -> None:
+    for modes in SPECTRA.values():
+        shorter, longer = (hold.held(LOAD, 10.0**t, SPRINGS, STRUCTURE, modes) for t in (time, time + more))
+        assert 0.0 <= shorter.set_angle <= longer.set_angle * (1.0 + WITHIN)
+        assert longer.set_angle <= longer.angle * (1.0 + WITHIN) <= LOAD / SPRINGS * (1.0 + 2.0 * WITHIN)
+
+
+def test_symbols_and_arrays_give_what_floats_give() -> None:
+    def rows(load: Any, time: Any, springs: Any, stiffness: Any) -> list[Any]:
+        modes = [(0.3, stiffness), (20.0, 2.0 * stiffness)]
+        angle, gap = hold.held(load, time, springs, STRUCTURE, modes)
+        return [angle, gap, hold.impedance_loss(angle, gap, springs, STRUCTURE, modes)]
+
+    names = ca.SX.sym("load, time, springs, stiffness", 4)
+    numbers = np.array([[0.583, 1.0], [3.0, 0.4], [5.61, 9.0], [150.0, 4e4]])
+    found = ca.Function("found", [names], [ca.vertcat(*rows(*symbols(names)))])
+    arrays = rows(*numbers)
+    for i in range(2):
+        floats = [float(row) for row in rows(*(float(number) for number in numbers[:, i]))]
+        assert np.asarray(found(numbers[:, i])).ravel() == pytest.approx(floats, rel=1e-9)
+        assert [row[i] for row in arrays] == pytest.approx(floats, rel=1e-9)

@@ -1,18 +1,24 @@
-"""Play of loose springs, flanges and shafts against rigid bodies moved in space, and friction against virtual work."""
+"""Friction, play and tightening torque, against handbooks, statics and integrals of a cycle."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from scipy.optimize import brentq, minimize
 
 from tvimdesign.physics.motions.contacts import (
     bolted_torque,
+    disc_torque,
+    equivalent_damping,
     joint_play,
+    journal_torque,
+    loaded_damping,
     overhung_shift,
     sliding_torque,
     spring_play,
     tightened_force,
+    tightening_torque,
 )
 from tvimdesign.physics.solids import fasteners
 from tvimdesign.physics.springs.transmission import leg_ratio, pin_slip
@@ -88,7 +94,7 @@ def slid(p: float, r: float, offset: float, diameter: float) -> float:
 
 
 @pytest.mark.parametrize("ratio", [0.4, 0.5, 0.65])
-def test_a_leg_slides_on_its_pin_as_two_bodies_that_turn_about_their_own_axes(ratio: float) -> None:
+def test_a_leg_slides_on_its_pin_as_two_turning_bodies(ratio: float) -> None:
     r, offset, diameter = 57e-3, 15.4e-3, 4e-3
     p = ratio * r
     slip = float(pin_slip(p, r, offset, diameter))
@@ -109,7 +115,7 @@ def test_friction_under_screws_and_on_pins() -> None:
     assert sliding_torque(0.25, 8.0, 4e-3) == pytest.approx(8e-3, rel=1e-12)
 
 
-def test_a_loose_shaft_leans_between_its_supports_and_no_further_than_it_may() -> None:
+def test_a_loose_shaft_leans_no_further_than_it_may() -> None:
     # A line through the opposite ends of two plays of 0.1 mm, 5 mm apart, continued by 10 mm.
     line = np.polyfit([0.0, -5.0], [0.1, -0.1], 1)
     assert overhung_shift(0.1e-3, 5e-3, 10e-3, np.inf) == pytest.approx(1e-3 * np.polyval(line, 10.0), rel=1e-12)
@@ -120,3 +126,59 @@ def test_a_bonded_peg_turns_when_its_surface_shears() -> None:
     angles = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
     pieces = 24e6 * (0.9e-3 * 3.5e-3 * 2.0 * np.pi / angles.size) * 0.9e-3 * np.ones_like(angles)
     assert fasteners.peg_twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)
+
+
+def test_a_clamped_ring_slips_at_what_its_thin_rings_bear() -> None:
+    friction, force, inner, outer = 0.3, 250.0, 2e-3, 9e-3
+    pressure = force / (3.141592653589793 * (outer**2 - inner**2))
+    thin = quad(lambda r: friction * pressure * 2.0 * 3.141592653589793 * r * r, inner, outer)[0]
+    assert disc_torque(friction, force, inner, outer) == pytest.approx(thin, rel=1e-9)
+
+
+def test_a_thin_ring_slips_at_friction_times_force_times_radius() -> None:
+    assert disc_torque(0.3, 250.0, 8.999e-3, 9.001e-3) == pytest.approx(0.3 * 250.0 * 9e-3, rel=1e-6)
+
+
+def test_the_makers_estimate_for_a_ball_bearing() -> None:
+    # SKF: M = 0.5 mu P d. 100 N on a bore of 15 mm with 0.0015: 1.125 N*mm.
+    assert journal_torque(0.0015, 100.0, 15e-3) == pytest.approx(1.125e-3, rel=1e-12)
+
+
+def test_the_damping_loses_in_a_cycle_what_the_friction_does() -> None:
+    omega, amplitude, torque = 2.0 * np.pi, 0.104, 0.05
+    damping = equivalent_damping(torque, omega, amplitude)
+    viscous, _ = quad(lambda t: damping * (omega * amplitude * np.cos(omega * t)) ** 2, 0.0, 1.0)
+    assert viscous == pytest.approx(torque * 4.0 * amplitude, rel=1e-9)  # there, back, and both again
+
+
+@pytest.mark.parametrize("degrees", [0.0, 20.0, 60.0, 90.0])
+def test_friction_that_grows_with_the_load_over_a_cycle(degrees: float) -> None:
+    # K* of 7 N m/rad at that phase, friction a fifth of the load, 3 Hz, 0.1 rad: W by quadrature, b = W/(pi w a^2).
+    delta, omega, reach, share, size = np.radians(degrees), 6.0 * np.pi, 0.1, 0.2, 7.0
+    phase = np.linspace(0.0, 2.0 * np.pi, 200_001)
+    torque = share * size * reach * np.abs(np.sin(phase + delta))
+    energy = np.trapezoid(torque * np.abs(reach * np.cos(phase)), phase)
+    found = loaded_damping(share, size * np.cos(delta), size * np.sin(delta), omega)
+    assert found == pytest.approx(energy / (np.pi * omega * reach**2), rel=1e-8)
+
+
+def test_constant_friction_against_spring_and_dashpot() -> None:
+    constant = equivalent_damping(0.2 * 7.0 * 0.1, 2.0, 0.1)
+    assert loaded_damping(0.2, 7.0, 0.0, 2.0) == pytest.approx(0.5 * constant, rel=1e-12)
+    assert loaded_damping(0.2, 0.0, 7.0, 2.0) == pytest.approx(0.25 * np.pi * constant, rel=1e-12)
+
+
+@pytest.mark.parametrize(("diameter", "pitch"), [(2.0, 0.4), (3.0, 0.5), (4.0, 0.7), (5.0, 0.8)])
+def test_a_nut_factor_of_a_fifth_is_a_friction_of_fifteen_hundredths(diameter: float, pitch: float) -> None:
+    # Shigley, 10th ed., eq. 8-26: thread of 60 degrees on its pitch diameter, and a head that bears at 1.25 d.
+    friction, flank = 0.15, 1.0 / np.cos(np.radians(30.0))
+    at = diameter - 0.6495 * pitch  # ISO 724
+    slope = pitch / (np.pi * at)
+    thread = 0.5 * at * (slope + friction * flank) / (1.0 - friction * slope * flank)
+    by_parts = thread + 0.625 * friction * diameter  # mm, of one newton
+    assert tightening_torque(1.0, 1e-3 * diameter, 0.2) == pytest.approx(1e-3 * by_parts, rel=0.03)
+
+
+def test_a_torque_gives_the_tension_it_was_worked_out_from() -> None:
+    force = tightened_force(150e6, 3e-3)
+    assert tightening_torque(force, 3e-3, 0.2) == pytest.approx(0.2 * 150e6 * np.pi / 4.0 * 27e-9, rel=1e-12)

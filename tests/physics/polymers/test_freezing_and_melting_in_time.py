@@ -132,7 +132,7 @@ def test_psi_of_a_fraction_at_and_beyond_its_ends_is_finite() -> None:
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0])
-def test_heated_solid_melts_along_the_equilibrium_curve_half_a_second_behind(speed: float) -> None:
+def test_heated_solid_melts_half_a_second_behind_equilibrium(speed: float) -> None:
     # Equilibrium: straight from all solid at 50 degC to none at 65 degC. The lag is the melting time times the speed.
     start = CELSIUS + 48.0
     times = np.linspace(0.0, 20.0 / speed, 401)
@@ -148,7 +148,7 @@ def test_heated_solid_melts_along_the_equilibrium_curve_half_a_second_behind(spe
     assert np.mean(lag) == pytest.approx(0.5 * speed, abs=0.05)
 
 
-def test_part_molten_polymer_freezes_on_when_it_is_cooled_and_melts_on_when_it_is_heated() -> None:
+def test_part_molten_polymer_freezes_on_or_melts_on() -> None:
     psi = float(crystallization.extended(0.5, PCL))
     assert crystallization.rate(CELSIUS + 35.0, psi, PCL, MELTING) > 1e-3
     assert crystallization.rate(CELSIUS + 62.0, psi, PCL, MELTING) < -0.1
@@ -177,7 +177,7 @@ def test_pure_solid_and_pure_melt_have_the_enthalpies_of_the_melting_curve() -> 
         assert found == pytest.approx(polymer.enthalpy(CELSIUS + celsius, MELTING), rel=1e-12)
 
 
-def test_symbols_give_the_numbers_of_arrays_with_finite_first_and_second_derivatives() -> None:
+def test_symbols_give_numbers_with_finite_derivatives() -> None:
     kelvin, psi = ca.SX.sym("T"), ca.SX.sym("psi")
     both = ca.vertcat(kelvin, psi)
     value = crystallization.rate(kelvin, psi, PCL, MELTING)

@@ -70,7 +70,7 @@ def test_without_a_span_nothing_gives_way_and_far_from_the_hub_all_does() -> Non
     assert shrinkage.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 1.0) < 1e-3 * 65e-6 * 1.8e11
 
 
-def test_a_body_that_cannot_give_way_sideways_is_as_stiff_as_bulk_and_shear_modulus_say() -> None:
+def test_confined_modulus_by_bulk_and_shear_modulus() -> None:
     # Steel, handbook: K 160 GPa, G 79.3 GPa, E 207 GPa, nu 0.292 (Shigley, table A-5, for E, G and nu).
     youngs, poisson = 207e9, 0.292
     bulk, shear = youngs / (3.0 * (1.0 - 2.0 * poisson)), youngs / (2.0 * (1.0 + poisson))

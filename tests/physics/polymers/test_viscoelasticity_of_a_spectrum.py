@@ -91,7 +91,7 @@ def test_nothing_moves_before_the_load(modes: Modes) -> None:
 
 
 @NAMED
-def test_strain_under_and_after_a_load_is_what_the_internal_equations_integrate_to(modes: Modes) -> None:
+def test_strain_is_what_the_internal_equations_integrate_to(modes: Modes) -> None:
     # Modes in parallel: e_m' = gamma' - e_m/tau_m and sum G_m e_m = sigma, sigma constant, then none.
     taus, moduli = np.array(modes).T
 
@@ -129,7 +129,7 @@ def test_storage_and_loss_obey_kramers_and_kronig(modes: Modes) -> None:
 
 @NAMED
 @pytest.mark.parametrize("omega", [0.3, 30.0])
-def test_sine_in_time_shows_the_moduli_of_the_frequency_domain_within_one_percent(modes: Modes, omega: float) -> None:
+def test_sine_in_time_shows_the_moduli_within_one_percent(modes: Modes, omega: float) -> None:
     # Strain sin(wt) from rest, e_m' = gamma' - e_m/tau_m; the first harmonic of the stress over the sixth cycle.
     taus, moduli = np.array(modes).T
     period = 2.0 * math.pi / omega

@@ -57,7 +57,7 @@ each = pytest.mark.parametrize(
 
 
 @each
-def test_a_fillet_makes_core_and_plate_as_much_stiffer_and_softer_as_finite_elements_say(row: dict[str, float]) -> None:
+def test_a_fillet_changes_core_and_plate_as_in_fe(row: dict[str, float]) -> None:
     none, modulus = structure.Bores(0.0, 0.0, 1.0), 1e9
     radius, plate, fillet = (row[name] * MM for name in ("radius", "plate", "fillet"))
     per_length = 1.0 / structure.shaft_stiffness(modulus, radius, 1.0)

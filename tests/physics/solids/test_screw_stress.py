@@ -1,4 +1,4 @@
-"""Screws against the tables of VDI 2230 and ISO 898-1."""
+"""Screws against the tables of VDI 2230 and ISO 898-1, pegs against a worked example."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from tvimdesign.physics.solids import fasteners
+from tvimdesign.physics.solids.fasteners import peg_bearing_force as bearing_force
+from tvimdesign.physics.solids.fasteners import peg_shear_force as shear_force
 
 # Makers of screws print the tables of VDI 2230 (Mastik, catalogue, page 685: fine threads, edition of 2001): most
 # force of a screw of class 8.8 that uses 90 % of its yield strength, 640 MPa up to M16, and the torque for it.
@@ -41,3 +43,15 @@ def test_shear_alone_and_tension_alone() -> None:
     area = float(fasteners.stress_area(d, p))
     assert fasteners.combined_stress(100.0, 0.0, 0.0, d, p) == pytest.approx(100.0 / area)
     assert fasteners.combined_stress(0.0, 100.0, 0.0, d, p) == pytest.approx(np.sqrt(3.0) * 100.0 / area)
+
+
+def test_a_peg_of_20_mm_in_single_shear_bears_what_the_textbook_says() -> None:
+    # Area 314.16 mm^2, 100 MPa: 31.4 kN; on 15 mm of plate at 240 MPa: 72 kN.
+    assert shear_force(100e6, 20e-3) == pytest.approx(31.416e3, rel=1e-4)
+    assert bearing_force(240e6, 20e-3, 15e-3) == pytest.approx(72e3)
+
+
+def test_a_deep_peg_in_its_own_material_shears_off_first() -> None:
+    # sigma/sqrt(3) pi d^2/4 = sigma d h at h = pi d/(4 sqrt(3)) = 0.45345 d.
+    depth = 0.45345 * 3e-3
+    assert bearing_force(16e6, 3e-3, depth) == pytest.approx(shear_force(16e6 / np.sqrt(3.0), 3e-3), rel=1e-4)

@@ -11,7 +11,7 @@ import yaml
 from support import ROOT
 
 from tvimdesign.physics.layers import annular_lap, shear_lag
-from tvimdesign.physics.solids import structure, vane, wedge
+from tvimdesign.physics.solids import plate_beside_core, structure, vane, wedge
 
 FOLDER = ROOT / "validation"
 JOINTS = yaml.safe_load((FOLDER / "fe_structure/results.yaml").read_text())
@@ -317,7 +317,7 @@ def beside_walls(case: dict[str, Any], mm: dict[str, float], polar: float) -> fl
     return float(shear_lag.rim_rise(held, mm["pcl_thickness"] / mm["liner_thickness"]) / (1.0 + more))
 
 
-def test_a_liner_in_the_walls_of_its_recess_makes_the_edges_bear_what_they_do_in_fe() -> None:
+def test_edges_beside_a_liner_bear_what_they_do_in_fe() -> None:
     # The same module with liners softer and stiffer, and with its own free beside the walls, which adds nothing.
     case = SHIPPED["elbow_machined, shipped"]
     with (FOLDER / "fe_structure/liners.csv").open(newline="") as file:
@@ -396,3 +396,45 @@ def test_vanes_and_what_they_stand_on_are_as_stiff_as_in_fe(name: str) -> None:
 def test_a_block_s_force_leans_out_of_its_vane_as_in_fe(name: str, angle: float) -> None:
     # FE of the force on the face between block and vane, validation/fe_structure/lean_out.py.
     assert np.degrees(leaning_out(SHIPPED[name])[0]) == pytest.approx(angle, rel=0.04)
+
+
+MM = 1e-3
+PLATES = yaml.safe_load((ROOT / "validation/fe_structure/shipped.yaml").read_text())
+IN_SHEAR = [name for name, case in PLATES.items() if case["mode"] == "shear"]
+
+
+def fillet_beside(name: str) -> float:
+    mm = PLATES[name]["mm"]
+    return plate_beside_core.thicker_by_fillet(mm["rotor_thickness"] * MM, mm["foot_fillet"] * MM, MM)
+
+
+@pytest.mark.parametrize("name", IN_SHEAR)
+def test_all_around_a_core_the_plate_is_stressed_as_in_fe(name: str) -> None:
+    mm = PLATES[name]["mm"]
+    size = mm["rotor_thickness"] * MM, mm["core_radius"] * MM, MM
+    mean = structure.mises(plate_beside_core.shear_beside_core(1.0, *size)) * fillet_beside(name) * 1e-6
+    fe = PLATES[name]["found"]["plate_mises_mean"]
+    assert mean * plate_beside_core.ENTERS == pytest.approx(fe, rel=0.035)
+    if name in ("finger", "wrist_joint"):  # thin plates, whose fillets bear most: what stood here
+        assert mean / fillet_beside(name) > 1.1 * fe
+
+
+@pytest.mark.parametrize("fillet", [0.5, 1.0])
+def test_a_fillet_bears_what_stands_on_the_plate_there(fillet: float) -> None:
+    # A plate that is thick against the fillet: the fillet's section (1 - pi/4) q^2 makes it thicker by its mean height.
+    found = plate_beside_core.thicker_by_fillet(50.0, fillet, 1.0)
+    assert found == pytest.approx(1.0 - (1.0 - 0.25 * np.pi) * fillet**2 / 50.0, rel=2e-4)
+    assert plate_beside_core.thicker_by_fillet(4.0, 0.0, 1.0) == 1.0
+
+
+LINKS = yaml.safe_load((ROOT / "validation/fe_link/results.yaml").read_text())
+
+
+@pytest.mark.parametrize("name", LINKS)
+def test_the_link_bends_as_in_fe(name: str) -> None:
+    case = LINKS[name]
+    mm = {length: value * 1e-3 for length, value in case["mm"].items()}
+    youngs = case["youngs_modulus"] * 1e9
+    shear = structure.shear_modulus(youngs, case["poissons_ratio"])
+    sizes = 2.0 * mm["link_half_width"], mm["link_thickness"], mm["link_length"], mm["core_radius"]
+    assert structure.lever_stiffness(youngs, shear, *sizes) == pytest.approx(case["link"], rel=0.03)

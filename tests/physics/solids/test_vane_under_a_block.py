@@ -12,7 +12,7 @@ YOUNGS, SHEAR, WIDTH, THICKNESS, HEIGHT = 2.1e9, 0.76e9, 11e-3, 4e-3, 12e-3
 
 
 @pytest.mark.parametrize(("height", "free"), [(4e-3, 0.0), (12e-3, 0.0), (40e-3, 0.0), (5e-3, 1e-3), (2e-3, 6e-3)])
-def test_mean_deflection_is_that_of_a_beam_with_shear_integrated_along_its_height(height: float, free: float) -> None:
+def test_mean_deflection_is_that_of_a_beam_with_shear(height: float, free: float) -> None:
     load = 1000.0  # N/m, even, beyond what is free at the root
     inertia, area = WIDTH * THICKNESS**3 / 12.0, WIDTH * THICKNESS
 
@@ -40,7 +40,7 @@ def test_a_plate_let_into_a_sector_covers_what_points_count(thickness: float) ->
     assert radial_strip(thickness, inner, outer) == pytest.approx(counted, rel=1e-3)
 
 
-def test_a_root_s_moment_turns_the_plate_as_it_does_a_beam_on_which_six_alike_stand() -> None:
+def test_a_root_s_moment_turns_the_plate_as_a_beam() -> None:
     # Slope and no deflection at each vane, the ends of the beam joined: slope-deflection equations, 2 E I/L (2 a + b).
     count, radius, height, thickness = 6, 18.5e-3, 4e-3, 4e-3
     inertia, span = WIDTH * height**3 / 12.0, 2.0 * np.pi * radius / count - thickness

@@ -35,7 +35,7 @@ def test_a_plate_that_all_vanes_cup_turns_as_far_as_its_strips_bend() -> None:
     assert sideways(between, 0.0).along == pytest.approx(arm * slope, rel=1e-9)
 
 
-def test_a_vane_bends_along_its_width_as_one_that_is_turned_by_a_right_angle() -> None:
+def test_a_vane_bends_along_its_width_as_a_turned_one() -> None:
     between = block(1e6)
     bent = sideways(between, 1.0).along - sideways(between, 0.0).along
     stiff = vane.stiffness(YOUNGS, SHEAR, THICKNESS, WIDTH, HEIGHT, 0.4e-3)

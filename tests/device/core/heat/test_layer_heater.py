@@ -1,10 +1,21 @@
 """A module whose layer heats itself between combs: its resistance, its supply, and what cannot stand together."""
 
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
 import pytest
+from stiff_when_warm import STIFF_WHEN_WARM
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import ZERO_CELSIUS
+from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.physics.heat_flow import shape_factors
+from tvimdesign.device.core.heat.heater_fuse import HeaterFuse, heater_fuse
+from tvimdesign.device.table.phases import SOFTENING
+from tvimdesign.physics.heat_flow import heat, shape_factors
+from tvimdesign.physics.layers import layer
 from tvimdesign.study import given, read_study_text
 from tvimdesign.study.study import Study
 
@@ -17,7 +28,7 @@ def study(mode: str, module: str) -> Study:
 
 
 @pytest.mark.parametrize(("mode", "count"), [("shear", 4.0), ("compression", 12.0)])
-def test_layers_in_series_have_the_square_of_their_number_times_the_whole_layer_s(mode: str, count: float) -> None:
+def test_resistance_of_layers_in_series(mode: str, count: float) -> None:
     values = given(study(mode, f"{COMB}, electrode_gap: 12 mm"))
     found = table_for(mode).evaluate(values, [*WANTED, "heater_count"])
     assert found["heater_count"] == count
@@ -55,3 +66,112 @@ def test_rigid_modules_cannot_feed_the_layer() -> None:
     values = given(study("shear", f"{module} electrode_width: 1 mm"))
     with pytest.raises(InputError, match="heat_source: layer needs a heater that lies on the layer; qc_17 is rigid"):
         table_for("shear").evaluate(values, ["layer_resistance"])
+
+
+RECORD = Catalog().record("thermal_fuses", "ultimheat_5ma3")
+
+
+def chosen(hottest: float, current: float, **bears: float) -> HeaterFuse:
+    """For a heater in degC and A, with what each thing bears in degC."""
+    ratings = {what: one + ZERO_CELSIUS for what, one in bears.items()}
+    return heater_fuse(RECORD, hottest + ZERO_CELSIUS, current, ratings)
+
+
+@pytest.mark.parametrize(
+    ("hottest", "current", "bears", "designation", "opens", "holds", "above"),
+    [  # rows of the sheet, in degC: Tf and Th
+        (84.0, 2.0, {"heater": 120.0, "structure": 170.0}, "5MA3SPF109019340", 113.0, 84.0, ()),
+        (95.4, 2.0, {"heater": 120.0, "structure": 113.0}, "5MA3SPF109019340", 113.0, 84.0, ()),
+        (95.9, 2.5, {"heater": 120.0, "structure": 105.0}, "5MA3SPF109019340", 113.0, 84.0, ("structure",)),
+        (83.1, 12.0, {"heater": 160.0, "structure": 122.0}, "5MA3SPF121H19340", 122.0, 94.0, ()),
+        (107.0, 3.0, {"heater": 120.0, "structure": 110.0}, "5MA3SPF121019340", 122.0, 94.0, ("structure", "heater")),
+        (98.1, 1.0, {"heater": 112.9}, "5MA3SPF121019340", 122.0, 94.0, ("heater",)),  # 113 - 10 < 98.1 + 5
+    ],
+)
+def test_the_cut_out_opens_before_the_least_rating(
+    hottest: float, current: float, bears: dict[str, float], designation: str, opens: float, holds: float,
+    above: tuple[str, ...],
+) -> None:  # fmt: skip
+    found = chosen(hottest, current, **bears)
+    assert found.designation == designation
+    assert (found.opens_at - ZERO_CELSIUS, found.holds - ZERO_CELSIUS) == pytest.approx((opens, holds))
+    assert found.opens_at - found.opens_from == pytest.approx(10.0)
+    assert found.opens_from >= hottest + ZERO_CELSIUS + 5.0
+    assert found.above == above
+
+
+@pytest.mark.parametrize(
+    ("hottest", "structure", "designation", "above"),
+    [  # in degC; what opens at 104 may open from 94, by IEC 60691
+        (89.0, 105.0, "G4A01104C", ()),
+        (88.0, 103.0, "G4A01104C", ("structure",)),  # what opens at 98 may open from 88
+        (83.0, 103.0, "G4A01098C", ()),
+        (89.1, 105.0, "G4A01216C", ("structure",)),
+    ],
+)
+def test_a_second_maker_has_a_type_for_polycarbonate(
+    hottest: float, structure: float, designation: str, above: tuple[str, ...]
+) -> None:
+    record = Catalog().record("thermal_fuses", "microtemp_g4a")
+    found = heater_fuse(record, hottest + ZERO_CELSIUS, 2.5, {"structure": structure + ZERO_CELSIUS})
+    assert (found.designation, found.above) == (designation, above)
+    with pytest.raises(InputError, match=r"no type bears the heater's 10\.1 A, the strongest 10 A"):
+        heater_fuse(record, 330.0, 10.1, {"structure": 400.0})
+
+
+def test_what_no_type_holds_or_bears_is_named() -> None:
+    with pytest.raises(InputError, match="no type stays closed at the heater's 230 degC, the highest at 225 degC"):
+        chosen(230.0, 1.0, heater=250.0)
+    with pytest.raises(InputError, match=r"no type bears the heater's 20 A, the strongest 16 A"):
+        chosen(80.0, 20.0, heater=120.0)
+
+
+TABLE = table_for("shear")
+
+
+def test_a_dashpot_takes_up_the_work_of_its_period() -> None:
+    # T = b dphi/dt over a period of phi = A sin(2 pi f t): b A^2 2 pi^2 f^2, integrated here; a rigid support.
+    damping, amplitude, frequency = 1.85, 0.104, 1.0
+    turns = np.linspace(0.0, 1.0, 20001)
+    speed = 2.0 * np.pi * frequency * amplitude * np.cos(2.0 * np.pi * turns)
+    work = np.trapezoid(damping * speed**2, turns / frequency)
+    alone = (0.0, layer.loss_stiffness(damping, frequency))
+    assert layer.dissipation(alone, alone, amplitude, frequency) == pytest.approx(frequency * work, rel=1e-6)
+
+
+def test_a_soft_support_takes_motion_from_the_dashpot() -> None:
+    # A spring in series with a dashpot of the same stiffness at this frequency: half of the motion's square is left.
+    stiffness, amplitude = 10.0, 0.1
+    behind = layer.series_stiffness(0.0, stiffness, stiffness)
+    heat_alone = layer.dissipation((0.0, stiffness), (0.0, stiffness), amplitude, 2.0)
+    assert layer.dissipation((0.0, stiffness), behind, amplitude, 2.0) == pytest.approx(0.5 * heat_alone, rel=1e-12)
+
+
+def test_molten_slices_take_up_the_heat() -> None:
+    shares = layer.loss_shares(np.array([1e4, 1e8]), np.array([2e4, 4e6]))
+    assert np.sum(shares) == pytest.approx(1.0)
+    assert shares[1] < 1e-4
+
+
+def test_the_paper_s_module_heats_by_a_watt_at_one_hertz(inputs: dict[str, Any]) -> None:
+    # An independent reading of the published module, whose melt had 2.8 kPa s then, found 1.1 W.
+    frequencies = {"frequency@hot": 1.0, "frequency@cold": 1.0, "pcl_zero_shear_viscosity": 2.8e3}
+    given = {**inputs, **STIFF_WHEN_WARM, "temperature@hot": 373.15, "temperature@cold": 303.15, **frequencies}
+    hot, cold = TABLE.evaluate(given, ["viscous_heating@hot", "viscous_heating@cold"]).values()
+    assert hot == pytest.approx(1.1, rel=0.1)
+    assert cold < 0.01 * hot  # the torque that turns the hot joint by its stroke hardly turns the frozen one
+
+
+def test_motion_heats_the_layer_and_nothing_else(inputs: dict[str, Any]) -> None:
+    given = {**inputs, **STIFF_WHEN_WARM, "temperature@hot": 373.15, "frequency@hot": 2.0}
+    stack = TABLE.evaluate(given, ["stack"])["stack"]
+    instant = {**given, "phase": SOFTENING, "state": heat.initial_state(stack, 5, 373.15), "drive_current": 0.0}
+    still, moving = (
+        TABLE.evaluate({**instant, "motion": motion}, ["state_rates"])["state_rates"]
+        for motion in ("at_rest", "moving")
+    )
+    gained = moving - still
+    cell = stack.density * stack.area * stack.thickness / 5.0
+    watts = TABLE.evaluate(given, ["viscous_heating@hot"])["viscous_heating@hot"]
+    assert heat.ENTHALPY_SCALE * cell * np.sum(gained[2:7]) == pytest.approx(watts, rel=1e-3)
+    assert np.all(np.delete(gained, slice(2, 7)) == 0.0)

@@ -29,7 +29,7 @@ def stack(known: dict[str, Any]) -> heat.Stack:
     return found
 
 
-def test_pads_are_as_much_of_the_catalogue_s_module_as_they_have_of_its_area(stack: heat.Stack) -> None:
+def test_pads_scale_the_catalogue_s_module_by_area(stack: heat.Stack) -> None:
     # 25 mV/K, 3 ohm, 0.12 W/K, 6 g and 500 J/kg K on 1600 mm^2; either side is a twelfth of the pads.
     share = AREA / 1600e-6
     assert (stack.area, stack.thickness, stack.density) == pytest.approx((AREA, 1e-3, 1145.0), rel=1e-9)

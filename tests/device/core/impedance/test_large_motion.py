@@ -87,7 +87,7 @@ def test_at_a_small_stroke_it_is_the_joint_of_small_motions(mode: str, hertz: fl
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_damping_at_stroke_lies_between_the_least_and_that_of_small_motions(mode: str) -> None:
+def test_damping_at_stroke_is_between_least_and_small_motions(mode: str) -> None:
     found = module(mode)
     least, wagner, small = (
         found[name] for name in ("hot_damping_at_stroke_least", "hot_damping_at_stroke", "joint_damping@hot")

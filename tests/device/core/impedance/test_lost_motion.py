@@ -59,7 +59,7 @@ def test_a_core_in_a_plain_bore_leans_until_plate_or_retainer_stop_it() -> None:
     assert found["bearing_play"] == pytest.approx((play + lean * height) / (1e3 * found["link_length"]), rel=1e-9)
 
 
-def test_a_core_on_a_wave_spring_leans_until_the_spring_is_flat_or_a_lip_is_down() -> None:
+def test_a_core_on_a_wave_spring_leans_until_it_is_stopped() -> None:
     rows = "core_lean bearing_play link_bottom_level hub_top_level hub_radius pcl_outer_radius link_length"
     found = values_of(rows, axial_preload="wave_21x25")
     # 1.2 mm high frozen, 0.2 mm of wire; a layer of 1 mm grows by 70 um, by which the retainer is below the hub.

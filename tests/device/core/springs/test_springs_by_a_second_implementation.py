@@ -26,7 +26,7 @@ AT = (
 )
 
 
-def test_the_published_module_is_5_61_by_the_papers_ratio_and_4_53_to_4_09_as_drawn() -> None:
+def test_stiffness_of_the_published_module() -> None:
     # An independent reading of the drawn module (own geometry) found 4.53 N*m/rad at rest and 4.09 at full stroke.
     assert plain_module.stiffness({**PUBLISHED, "transmission": "unity"}, 0.0) == pytest.approx(5.61, rel=5e-3)
     assert plain_module.stiffness(PUBLISHED, 0.0) == pytest.approx(4.53, abs=0.005)
