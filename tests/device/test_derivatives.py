@@ -1,5 +1,7 @@
 """Exact derivatives against differences: every output by every input, response times by every design variable."""
 
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 from event_derivatives import differences, found_by_engine, shown_by_cvodes
@@ -9,6 +11,7 @@ from tvimdesign.device import Table, table_for
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle_engine import Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]
 # Not the depth of a hub that has none: it has no share of itself by which it could be changed.
@@ -16,7 +19,8 @@ VARIABLES = [row.name for row in table_for("shear").inputs if row.variable and r
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "softening_time", "response_time")
 
 
-def test_every_output_has_the_derivatives_of_differences(model: DeviceFunctions, numbers: dict[str, float]) -> None:
+def compare_with_differences(model: DeviceFunctions, numbers: Mapping[str, float]) -> None:
+    """Compare the derivatives of every output by every input with those of differences."""
     inputs, cycle = ca.MX.sym("inputs", len(model.names)), ca.MX.sym("cycle", len(model.switch_names))
     supplied = np.array([numbers[name] for name in model.switch_names])
     jacobian = ca.Function("jacobian", [inputs, cycle], [ca.jacobian(model.every_output(inputs, cycle), inputs)])
@@ -31,6 +35,16 @@ def test_every_output_has_the_derivatives_of_differences(model: DeviceFunctions,
     wrong = [(model.output_names[i], model.names[which[j]]) for i, j in np.argwhere(error > allowed)]
     assert not wrong
     assert np.all(np.isfinite(exact))
+
+
+def test_every_output_has_the_derivatives_of_differences(model: DeviceFunctions, numbers: dict[str, float]) -> None:
+    compare_with_differences(model, numbers)
+
+
+def test_outputs_of_compression_have_the_derivatives_of_differences(
+    squeezed_model: DeviceFunctions, squeezed_switch: Cycle
+) -> None:
+    compare_with_differences(squeezed_model, squeezed_switch.values)
 
 
 def test_derivatives_by_the_switch_are_those_of_differences(unity: DeviceFunctions, numbers: dict[str, float]) -> None:
@@ -73,3 +87,19 @@ def test_response_times_have_the_derivatives_that_simulations_show(
         assert exact == pytest.approx(shown, abs=1e-3 * scale), name
         if name not in {*table.ancestors(event), table.phase("softening").current_input}:
             assert exact == 0.0, name
+
+
+SQUEEZED = ("block_depth", "block_height", "vane_thickness", "pcl_outer_radius", "current")
+
+
+@pytest.mark.slow
+def test_response_times_of_compression_have_those_derivatives(squeezed_model: DeviceFunctions) -> None:
+    model, events = squeezed_model, ("far_face_time", "softening_time")
+    by_cvodes, engine = shown_by_cvodes(model, events, SQUEEZED), found_by_engine(model, SQUEEZED)
+    for event in events:
+        place = model.switch_names.index(event)
+        for name, difference, exact in zip(SQUEEZED, by_cvodes[event], engine.slopes[place], strict=True):
+            start = model.start[model.index[name]]
+            # 1e-3 of the derivative; 1e-4 of the time itself where the variable hardly matters, as depth to softening.
+            allowed = 1e-3 * max(abs(difference) * start, 0.1 * engine.values[place]) / start
+            assert exact == pytest.approx(difference, abs=allowed), (event, name)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import casadi as ca
 import numpy as np
 import pytest
 from cad_designs import VANE_TILE_ROWS, VANE_TILES
@@ -202,20 +201,6 @@ def test_a_vane_with_two_slots_bends_as_its_three_webs() -> None:
     values = values_of("vane_webs slot_width housing_vane_angle", VANE_TILE_ROWS)
     along = 24.4 * MM * np.cos(0.5 * values["housing_vane_angle"])
     assert values["vane_webs"] == pytest.approx(along - 2 * values["slot_width"], rel=1e-9)
-
-
-def test_symbols_give_what_floats_give() -> None:
-    rows = [
-        "tile_side_margin", "inner_web_margin", "outer_web_margin", "slot_opening", "heater_coverage",
-        "spreader_resistance", "heater_holding_torque", "housing_volume", "module_mass", "structure_stiffness",
-    ]  # fmt: skip
-    known = inputs_of(VANE_TILE_ROWS)
-    names = ["pcl_inner_radius", "pcl_outer_radius", "block_height", "tiles_per_block", "vane_count", "slot_share"]
-    symbols = ca.SX.sym("x", len(names))
-    found = TABLE.evaluate({**known, **{name: symbols[i] for i, name in enumerate(names)}}, rows)
-    function = ca.Function("f", [symbols], [ca.vertcat(*(found[row] for row in rows))])
-    expected = TABLE.evaluate(known, rows)
-    assert np.array(function([known[name] for name in names])).ravel() == pytest.approx([expected[row] for row in rows])
 
 
 def test_a_pad_is_as_it_was() -> None:

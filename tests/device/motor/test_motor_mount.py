@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import casadi as ca
 import numpy as np
 import pytest
 
-from tvimdesign.base.errors import InputError
-from tvimdesign.device import MODES, table_for
-from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
+from tvimdesign.device import table_for
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
@@ -231,26 +228,6 @@ def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives() -> None:
     assert found == pytest.approx(drawn, abs=1e-9)
 
 
-@pytest.mark.parametrize("mode", MODES)
-def test_there_is_no_motor_and_no_rule_of_one_unless_it_is_chosen(mode: str) -> None:
-    table = table_for(mode)
-    off = values_of(" ".join(sorted(RULES | ENCODER_RULES | {"drive_mass", "drive_inertia", "drive_height"})), mode)
-    assert set(off.values()) == {0.0}
-
-    def ruled(module: str) -> set[str]:
-        study = read_study_text(f"mode: {mode}\nmodule: {{{module}}}\n", "a test")
-        return {limit.output for limit in constraints_of(study, table)} & (RULES | ENCODER_RULES)
-
-    assert ruled("stroke: 0.1 rad") == set()
-    assert ruled("motor: frameless_70x10") == RULES
-    assert ruled("motor: frameless_70x10, encoder: on_axis_28") == RULES | ENCODER_RULES
-    for idle, words in (("motor_wall: 3 mm", "motor is none"), ("encoder: on_axis_28", "motor is none"),
-                        ("motor: frameless_70x10, encoder_magnet_spacing: 2 mm", "encoder is none")):  # fmt: skip
-        study = read_study_text(f"mode: {mode}\nmodule: {{{idle}}}\n", "a test")
-        with pytest.raises(InputError, match=f"no effect, as {words}"):
-            refuse_impossible(study)
-
-
 # On a sensor: the circle of 50 mm, whose bore of 31.5 mm lets the board of 28 mm in, and a base for screws of 10.5 mm.
 ON_SENSOR = DRIVEN | {
     "sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": "13 mm", "flange_screw_reach": "10.5 mm",
@@ -296,24 +273,3 @@ def test_each_rule_of_a_motor_on_a_sensor_can_be_violated() -> None:
     assert min(values_of(" ".join(kept), **ON_SENSOR).values()) > -1e-12
     for rule, module in flange.items():
         assert values_of(rule, **ON_SENSOR | module)[rule] < 0.0, rule
-
-
-@pytest.mark.parametrize("case", [DRIVEN, ON_SENSOR], ids=["alone", "on a sensor"])
-def test_numbers_and_symbols_give_the_same_motor_mount(case: dict[str, str]) -> None:
-    table, known = table_for("shear"), inputs_with(**case)
-    free = ("motor_wall", "motor_hub_wall", "motor_plate_thickness", "motor_base_thickness", "placement_radius")
-    symbols = ca.SX.sym("x", len(free))
-    rows = [
-        *sorted(RULES | ENCODER_RULES),
-        "flange_groove_gap",
-        "flange_wall_margin",
-        "drive_mass",
-        "drive_inertia",
-        "envelope_volume",
-        "module_mass",
-    ]
-    traced = table.evaluate(known | dict(zip(free, ca.vertsplit(symbols), strict=True)), rows)
-    function = ca.Function("f", [symbols], [ca.vertcat(*(traced[name] for name in rows))])
-    expected = table.evaluate(known, rows)
-    found = np.array(function([known[name] for name in free])).ravel()
-    assert found == pytest.approx([expected[name] for name in rows], rel=1e-12)

@@ -9,7 +9,6 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
@@ -90,9 +89,3 @@ def test_each_margin_of_the_keys_is_what_its_drawing_gives() -> None:
 def test_keys_that_do_not_fit_are_refused(rule: str, module: dict[str, Any]) -> None:
     broken = values_of(" ".join(RULES), **module)
     assert [name for name in RULES if broken[name] < 0.0] == [rule]
-
-
-def test_only_shear_studies_have_rules_of_keys() -> None:
-    for mode, held in (("shear", set(RULES)), ("compression", set())):
-        study = read_study_text(f"mode: {mode}\n", "a test")
-        assert {limit.output for limit in constraints_of(study, table_for(mode))} & set(RULES) == held

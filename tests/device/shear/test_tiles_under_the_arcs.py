@@ -6,7 +6,6 @@ from itertools import combinations
 from math import cos, hypot, sin
 from typing import Any
 
-import casadi as ca
 import numpy as np
 import pytest
 
@@ -164,17 +163,6 @@ def test_a_foil_heater_goes_through_the_same_equations() -> None:
 def test_a_rigid_module_is_not_cut() -> None:
     with pytest.raises(InputError, match="ma10_063_05_1 is rigid"):
         values_of("module_mass", heater_form="flexible")
-
-
-def test_symbols_give_what_floats_give() -> None:
-    rows = ["tile_radial_margin", "tile_side_margin", "heater_coverage", "spreader_resistance", "module_mass"]
-    known = inputs_of()
-    names = ["pcl_inner_radius", "pcl_outer_radius", "arc_span", "tiles_per_arc", "arc_count", "spreader_thickness"]
-    symbols = ca.SX.sym("x", len(names))
-    found = TABLE.evaluate({**known, **{name: symbols[i] for i, name in enumerate(names)}}, rows)
-    function = ca.Function("f", [symbols], [ca.vertcat(*(found[row] for row in rows))])
-    expected = TABLE.evaluate(known, rows)
-    assert np.array(function([known[name] for name in names])).ravel() == pytest.approx([expected[row] for row in rows])
 
 
 def test_a_sheet_is_as_it_was() -> None:

@@ -69,13 +69,6 @@ def test_slot_is_its_strips(half_width: float, length: float) -> None:
     assert shapes.slot(half_width, length) == pytest.approx(near.plus(strip, far), rel=1e-8)
 
 
-def test_sections_repeat_add_subtract_and_stack() -> None:
-    one, other = shapes.Section(5.0, 7.0), shapes.Section(1.0, 3.0)
-    assert one.times(4) - other == shapes.Section(19.0, 25.0)
-    assert one.plus(other, other) == shapes.Section(7.0, 13.0)
-    assert shapes.stacked((one, 2.0), (other, -3.0)) == shapes.Section(7.0, 5.0)
-
-
 def test_notch_takes_a_straight_opening_from_one_side_of_a_ring() -> None:
     half_width, inner, outer = 6e-3, 71e-3, 74e-3
     expected = integrate(lambda y: np.sqrt(outer**2 - y**2) - np.sqrt(inner**2 - y**2), -half_width, half_width)
@@ -176,12 +169,6 @@ def test_a_spoke_is_what_an_obround_adds_to_a_disc() -> None:
     found = shapes.spoke(b, rim, length)
     assert found.area == pytest.approx(strip.area + end.area - disc.area, rel=1e-9)
     assert found.polar == pytest.approx(strip.polar + end.polar - disc.polar, rel=1e-9)
-
-
-def test_nothing_adds_nothing() -> None:
-    disc = shapes.ring(0.0, 5e-3)
-    assert shapes.NOTHING.plus(disc) == disc
-    assert shapes.stacked((shapes.NOTHING, 3e-3)) == (0.0, 0.0)
 
 
 def test_small_corners_between_radial_sides_are_those_of_a_rectangle() -> None:

@@ -39,14 +39,6 @@ def flux_slab_series(fourier: float, depth: float) -> float:
     return float(fourier + (3.0 * depth**2 - 1.0) / 6.0 - 2.0 / np.pi**2 * np.sum(terms))
 
 
-def test_constant_flux_heats_front_and_back_of_a_slab_as_tabulated(bare_stack: Make, integrate: Run) -> None:
-    fourier = [0.05, 0.1, 0.5, 1.0]
-    front, back = flux_slab(bare_stack, integrate, 160, fourier)
-    assert front == pytest.approx([0.25231, 0.35683, 0.83188, 1.33332], rel=HALF_PERCENT)
-    assert back == pytest.approx([0.00027, 0.00789, 0.33479, 0.83333], rel=HALF_PERCENT, abs=5e-6)
-    assert back == pytest.approx([flux_slab_series(fo, 0.0) for fo in fourier], rel=HALF_PERCENT)
-
-
 def test_error_falls_with_the_square_of_the_cell(bare_stack: Make, integrate: Run) -> None:
     exact = np.array([flux_slab_series(0.2, 1.0), flux_slab_series(0.2, 0.0)])
     errors = []
@@ -89,39 +81,6 @@ def test_melting_front_advances_as_stefan_and_neumann_found(
     molten = [1e-3 * (1.0 - np.mean(p.fractions)) for p in history.profiles()]
     found = np.array(molten) / (2.0 * np.sqrt(diffusivity * times))
     assert found == pytest.approx([expected] * 3, rel=HALF_PERCENT)
-
-
-def test_two_bodies_that_touch_meet_by_their_effusivities(bare_stack: Make, integrate: Run) -> None:
-    # Aluminium at 100 degC on polycaprolactone at 22 degC: 97.5 degC (Carslaw and Jaeger, section 2.14).
-    melting = polymer.Melting(1850.0, 1850.0, 1.0, 5000.0, 5001.0, 1e-3)
-    stack = bare_stack(
-        melting=melting, thickness=2e-3, conductivity_solid=0.225, conductivity_melt=0.225, hot_contact=1e-12,
-        plate_contact=1e12, plate_thickness=60e-3, plate_conductivity=167.0, plate_heat_capacity=2700.0 * 896.0,
-        plate_cells=200,
-    )  # fmt: skip
-    begin = heat.initial_state(stack, 200, COLD)
-    begin[-200:] = 1.0
-    history = integrate(stack, begin, [0.2, 0.5, 1.0], tolerance=1e-7)
-    metal, plastic = np.sqrt(167.0 * 2700.0 * 896.0), np.sqrt(0.225 * 1145.0 * 1850.0)
-    exact = (100.0 * metal + 22.0 * plastic) / (metal + plastic)
-    assert exact == pytest.approx(97.5, rel=2e-3)
-    assert [p.far - 273.15 for p in history.profiles()] == pytest.approx([exact] * 3, rel=1e-3)
-
-
-def test_steady_heat_passes_all_resistances_in_series(bare_stack: Make, integrate: Run) -> None:
-    stack = bare_stack(
-        hot_capacity=1e12, hot_contact=2e3, plate_contact=5e2, plate_thickness=4e-3, plate_conductivity=0.24,
-        plate_surface=lumps.Surface(1e-3, 10.0), plate_cells=5,
-    )  # fmt: skip
-    begin = heat.initial_state(stack, 7, COLD)
-    begin[1] = 1.0
-    (steady,) = integrate(stack, begin, [4e3]).profiles()
-    resistance = (1.0 / 2e3 + 1e-3 / 0.2 + 1.0 / 5e2 + 4e-3 / 0.24 + 1.0 / 10.0) / 1e-3
-    flow = (373.15 - COLD) / resistance
-    for flows in (steady.through_layer, steady.through_plate):
-        assert flows == pytest.approx([flow] * len(flows), rel=1e-6)
-    assert steady.near == pytest.approx(373.15 - flow / 2e3 / 1e-3, rel=1e-9)
-    assert steady.far == pytest.approx(steady.near - flow * 1e-3 / 0.2 / 1e-3, rel=1e-9)
 
 
 def test_part_molten_layer_conducts_between_solid_and_melt(bare_stack: Make) -> None:

@@ -80,10 +80,6 @@ def test_edge_gives_where_the_second_normal_stress_passes_surface_tension() -> N
     assert strain == pytest.approx(0.3416, rel=1e-3)
 
 
-def test_stress_is_strain_times_complex_modulus() -> None:
-    assert melt.shear_stress(4.0, 3e3, 4e3) == pytest.approx(20e3, rel=1e-12)
-
-
 def test_symbols_give_the_numbers_with_finite_derivatives() -> None:
     strain, angular = ca.SX.sym("g"), ca.SX.sym("w")
     storage, loss = melt.wagner_moduli(strain, angular, MELT, LIMIT)

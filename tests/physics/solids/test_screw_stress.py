@@ -38,13 +38,6 @@ def test_stress_area_of_iso_898(diameter: float, pitch: float, area: float) -> N
     assert fasteners.stress_area(1e-3 * diameter, 1e-3 * pitch) == pytest.approx(1e-6 * area, rel=3e-3)
 
 
-def test_shear_alone_and_tension_alone() -> None:
-    d, p = 3e-3, 0.5e-3
-    area = float(fasteners.stress_area(d, p))
-    assert fasteners.combined_stress(100.0, 0.0, 0.0, d, p) == pytest.approx(100.0 / area)
-    assert fasteners.combined_stress(0.0, 100.0, 0.0, d, p) == pytest.approx(np.sqrt(3.0) * 100.0 / area)
-
-
 def test_a_peg_of_20_mm_in_single_shear_bears_what_the_textbook_says() -> None:
     # Area 314.16 mm^2, 100 MPa: 31.4 kN; on 15 mm of plate at 240 MPa: 72 kN.
     assert shear_force(100e6, 20e-3) == pytest.approx(31.416e3, rel=1e-4)

@@ -71,11 +71,6 @@ def test_ring_stiffness_is_the_series_of_its_thin_rings() -> None:
     assert found == pytest.approx(1.0 / compliance, rel=1e-9)
 
 
-def test_springs_in_series_share_the_torque() -> None:
-    assert structure.series(3.0, 6.0) == pytest.approx(2.0, rel=1e-12)
-    assert structure.series(2.0, 4.0, 4.0) == pytest.approx(1.0, rel=1e-12)
-
-
 def test_a_force_beyond_two_bearings_is_balanced_by_them() -> None:
     force, height, spread = 120.0, 0.05, 0.02
     far, near = np.linalg.solve([[1.0, 1.0], [0.0, spread]], [-force, -force * (height + spread)])

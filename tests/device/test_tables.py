@@ -1,0 +1,248 @@
+"""Every quantity of both tables is said in words and units, every input is used, and symbols give what floats give."""
+
+from typing import Any
+
+import numpy as np
+import pint
+import pytest
+from cad_designs import TILES, VANE_TILE_ROWS
+from every import of_every
+from hypothesis import given as drawn
+from hypothesis import settings
+from hypothesis import strategies as st
+from support import digits
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import to_si
+from tvimdesign.catalog import Catalog
+from tvimdesign.device import MODES, Choice, Input, Output, Supplied, Table, table_for
+from tvimdesign.device.table.quantity import Feature
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.trajectory import Cycle
+from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
+from tvimdesign.study import given, read_study_text
+
+POINTS = ("cold", "hot")
+TABLE = table_for("shear")
+each_mode = pytest.mark.parametrize("mode", MODES)
+
+
+def inputs_of(mode: str, module: dict[str, Any] | None = None) -> dict[str, Any]:
+    return given(read_study_text(f"mode: {mode}\n", "a test").model_copy(update={"module": module or {}}))
+
+
+@each_mode
+def test_numbers_are_described_and_have_a_unit_that_can_be_read(mode: str) -> None:
+    def check(row: Input | Output) -> None:
+        assert len(row.description) >= 8
+        assert row.group
+        assert np.isfinite(to_si(1.0, row.unit))
+
+    of_every([row for row in table_for(mode).quantities if not isinstance(row, Choice)], check)
+
+
+@each_mode
+def test_choices_are_described_and_their_defaults_exist(mode: str) -> None:
+    inputs = inputs_of(mode)
+
+    def check(row: Choice) -> None:
+        assert len(row.description) >= 8
+        if row.category and inputs[row.name] not in row.options:
+            assert Catalog().record(row.category, inputs[row.name].name) == inputs[row.name]
+        else:
+            assert (inputs[row.name] if row.record else row.default) in row.options
+
+    of_every(table_for(mode).choices, check)
+
+
+@each_mode
+def test_defaults_lie_within_their_limits_and_have_a_source(mode: str) -> None:
+    inputs = inputs_of(mode)
+
+    def check(row: Input) -> None:
+        assert row.lower < row.upper
+        values = [value for name, value in inputs.items() if name.partition("@")[0] == row.name]
+        assert values
+        assert all(row.lower <= value <= row.upper for value in values)
+        status, _, source = row.source.partition(": ")
+        assert status in {"paper", "handbook", "datasheet", "calibrated", "assumed", "chosen", "numerics", "record"}
+        assert len(source) > 3
+
+    of_every(table_for(mode).inputs, check)
+
+
+REGISTRY = pint.UnitRegistry()
+
+
+def dimension(unit: str) -> str:
+    kelvin = unit.replace("degC", "kelvin").replace("%", "dimensionless").replace("1/K", "1/kelvin")
+    return str(REGISTRY.Quantity(1.0, REGISTRY.parse_units("" if kelvin == "1" else kelvin)).dimensionality)
+
+
+@each_mode
+def test_properties_have_the_dimension_of_their_record(mode: str) -> None:
+    inputs = inputs_of(mode)
+
+    def check(row: Input) -> None:
+        assert row.record is not None
+        assert dimension(inputs[row.record[0]].entry(row.record[1]).unit) == dimension(row.unit)
+
+    rows = [row for row in table_for(mode).inputs if row.record and row.default is None and row.exists(inputs)]
+    of_every(rows, check)
+
+
+@each_mode
+def test_every_intermediate_result_is_used(mode: str) -> None:
+    table = table_for(mode)
+    used = {name for row in table.outputs for name in table.ancestors(row.name)} | {"state_rates"}  # of the simulator
+    assert {row.name for row in table.outputs if row.hidden} <= used
+
+
+def test_nothing_of_the_shear_module_is_left_in_compression() -> None:
+    names = table_for("compression").by_name.keys()
+    assert not {"pcl_thickness", "arc_span", "arc_count", "layer_strain", "arc_width"} & names
+
+
+def test_the_default_compression_module_satisfies_every_rule(
+    squeezed_model: DeviceFunctions, squeezed_switch: Cycle
+) -> None:
+    values = squeezed_model.values(squeezed_model.start, squeezed_switch.values)
+    for row in table_for("compression").outputs:
+        for rule in row.rules:
+            value = values[row.name]
+            assert value <= rule.value if rule.sense == "<=" else value >= rule.value, row.name
+
+
+def test_every_feature_is_a_choice_that_has_the_word_for_none() -> None:
+    requires = {feature for row in TABLE.quantities for feature in row.requires}
+    wanted = {"cover", "preload_adjuster", "sensor_flange", "motor", "encoder", "cold_side", "impedance_targets"}
+    assert {feature.choice for feature in requires} >= wanted
+    words = {row.name: row.options for row in TABLE.choices}
+    assert [feature for feature in requires if feature.without not in words[feature.choice]] == []
+    # What is zero in a module without a feature is no geometry that does not exist.
+    assert not any(rule.exists_above is not None for row in TABLE.outputs if row.requires for rule in row.rules)
+
+
+WITHOUT = {"glass": {"pcl_grade": "pla"}}  # PCL has no values of a glass to set the word alone
+
+
+@each_mode
+def test_an_input_of_a_lacking_feature_is_refused(mode: str) -> None:
+    table, study = table_for(mode), read_study_text(f"mode: {mode}\n", "a test")
+
+    def check(name: str) -> None:
+        row = table.quantity(name)
+        value = Catalog().names(row.category)[0] if isinstance(row, Choice) and row.category else row.default
+        lacking = row.requires[0]
+        by_default = table.quantity(lacking.choice).default == lacking.without
+        without = WITHOUT.get(lacking.without, {lacking.choice: lacking.without})
+        module = {name: value} if by_default else {**without, name: value}
+        with pytest.raises(InputError, match=f"{name}: no effect, as {lacking.choice} is {lacking.without}"):
+            refuse_impossible(study.model_copy(update={"module": module}))
+
+    of_every([row.name for row in (*table.choices, *table.inputs) if row.requires], check)
+
+
+def test_a_refused_input_says_how_to_have_its_feature() -> None:
+    study = read_study_text("mode: shear\nmodule:\n  cover_thickness: 2 mm\n", "a test")
+    with pytest.raises(InputError, match="add `cover: plate` under `module`"):
+        refuse_impossible(study)
+
+
+@each_mode
+def test_rules_hold_exactly_where_the_module_has_their_features(mode: str) -> None:
+    table, study = table_for(mode), read_study_text(f"mode: {mode}\n", "a test")
+    chosen = given(study)
+    features = {feature for row in table.outputs if row.rules for feature in row.requires}
+    assert len(features) > 8
+    for changed in ({}, *({feature.choice: word} for feature in features for word in (feature.without, "another"))):
+        limited = {limit.output for limit in constraints_of(study, table, chosen | changed)}
+        assert limited == {row.name for row in table.outputs if row.rules and row.exists(chosen | changed)}
+    # An option that the search chooses may be any.
+    free = study.model_copy(update={"vary": dict.fromkeys((feature.choice for feature in features), None)})
+    limited = {limit.output for limit in constraints_of(free, table, {})}
+    assert limited == {row.name for row in table.outputs if row.rules}
+
+
+def test_a_quantity_of_a_lacking_feature_is_its_default() -> None:
+    requires = (Feature("cover", "none"), Feature("motor", "none"))
+    row = Output(
+        name="gap", unit="mm", description="", group="", function=lambda m: 2.0 * m.width,
+        requires=requires, default=7.0,
+    )  # fmt: skip
+    assert row.needs == ("cover", "motor", "width")
+    assert row.call(["plate", "a record", 3.0]) == 6.0
+    assert row.call(["none", "a record", None]) == row.call(["plate", "none", None]) == 7.0
+    assert row.exists({"cover": "plate", "motor": None})
+    assert not row.exists({"cover": "plate", "motor": "none"})
+
+
+def test_a_phase_depends_on_its_current_and_earlier_ones() -> None:
+    # A yield counts a limit where something that spreads is behind it; the source spreads by 1 %.
+    assert "current" in TABLE.ancestors("current_margin")
+    assert "cooling_current" not in TABLE.ancestors("current_margin")
+    assert {"current", "cooling_current"} <= TABLE.ancestors("cooling_current_margin")
+
+
+# --- floats, arrays and symbols ------------------------------------------------------------------------------------
+
+FLANGE = {"sensor_flange": "iso_9409_40_4_m6", "core_radius": 9e-3, "foot_height": 12e-3, "flange_screw_reach": 10.5e-3}
+MOTOR = {"motor": "frameless_70x10", "encoder": "on_axis_28", "stroke": 0.104}
+ON_SENSOR = {**MOTOR, "sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": 13e-3, "flange_screw_reach": 10.5e-3}
+EXTRAS = {
+    "cover": "plate", "preload_adjuster": "rotary", "thread_insert": "heat_set", "radial_clearance": 1.7e-3,
+    "axial_preload": "wave_21x25", "liner_material": "peek", "cold_side": "sink", "transmission": "unity",
+}  # fmt: skip
+MODULES = {
+    "shear": ("shear", {}),
+    "shear, unity": ("shear", {"transmission": "unity"}),
+    "shear, flange": ("shear", FLANGE),
+    "shear, motor": ("shear", MOTOR),
+    "shear, motor on a sensor": ("shear", ON_SENSOR),
+    "shear, tiles": ("shear", TILES),
+    "shear, extras": ("shear", {**EXTRAS, "key_count": 0.0, "melt_lip": "rings"}),
+    "compression": ("compression", {}),
+    "compression, tiles": ("compression", VANE_TILE_ROWS),
+    "compression, extras": ("compression", {**EXTRAS, "vane_thickness": 9e-3}),
+}
+
+
+def algebraic(table: Table) -> list[str]:
+    """Full names of the outputs a study can ask for that no simulation supplies."""
+    return [name for name in table.names(POINTS) if not isinstance(table.quantity(name), Supplied)]
+
+
+@pytest.mark.parametrize("case", MODULES)
+def test_floats_and_symbols_give_the_same_outputs(case: str) -> None:
+    mode, module = MODULES[case]
+    table = table_for(mode)
+    model = DeviceFunctions(table, inputs_of(mode, module), POINTS, 4)
+    supplied = dict(zip(model.switch_names, np.linspace(60.0, 300.0, len(model.switch_names)), strict=True))
+    numbers = {name: float(model.start[i]) for name, i in model.index.items()}
+    floats = table.evaluate({**model.words, **numbers, **supplied}, algebraic(table))
+    symbols = model.values(model.start, supplied)
+    for name, value in floats.items():
+        assert float(value) == pytest.approx(symbols[name], rel=digits(name, 1e-11), abs=1e-300), name
+
+
+@pytest.fixture(scope="module")
+def small_model() -> DeviceFunctions:
+    return DeviceFunctions(TABLE, inputs_of("shear"), POINTS, 4)
+
+
+@settings(max_examples=5, deadline=None)
+@drawn(seed=st.integers(0, 2**31))
+def test_arrays_and_symbols_give_the_same_outputs(seed: int, small_model: DeviceFunctions) -> None:
+    random, model = np.random.default_rng(seed), small_model
+    factors = random.uniform(0.97, 1.03, (len(model.names), 3))
+    factors[model.index["rotor_cells"]] = 1.0
+    columns = model.start[:, None] * factors
+    known = {**model.words, **{name: columns[i] for name, i in model.index.items()}}
+    supplied = {name: random.uniform(50.0, 300.0, 3) for name in model.switch_names}
+    wanted = algebraic(TABLE)
+    arrays = TABLE.evaluate({**known, **supplied}, wanted)
+    for j in range(3):
+        symbols = model.values(columns[:, j], {name: float(value[j]) for name, value in supplied.items()})
+        for name in wanted:
+            value = np.broadcast_to(np.asarray(arrays[name], dtype=float), (3,))[j]
+            assert value == pytest.approx(symbols[name], rel=digits(name, 1e-11), abs=1e-300), name
