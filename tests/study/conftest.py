@@ -11,7 +11,7 @@ import pytest
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.device import Choice, Event, Input, Output, Table
 from tvimdesign.device import Path as PathRow
-from tvimdesign.device.table.phases import PHASES
+from tvimdesign.device.table.quantity import PHASES
 from tvimdesign.study import Study, StudyError, read_study_text
 
 

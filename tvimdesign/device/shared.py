@@ -17,7 +17,7 @@ from tvimdesign.device.components import (
     tang,
 )
 from tvimdesign.device.core import clearances, layout, mass_properties, materials, motor_choice, shrinkage
-from tvimdesign.device.core.heat import heater_form, layer_heater, softening, stiffening, thermal_stack, viscous_heating
+from tvimdesign.device.core.heat import heater_form, softening, stiffening, thermal_stack
 from tvimdesign.device.core.impedance import (
     creep_under_hold,
     joint_impedance,
@@ -26,13 +26,13 @@ from tvimdesign.device.core.impedance import (
     structure_stiffness,
     warm_structure,
 )
-from tvimdesign.device.core.springs import spring_as_drawn, spring_holds, spring_safety, torsion_springs
+from tvimdesign.device.core.springs import spring_as_drawn, spring_holds, torsion_springs
 from tvimdesign.device.motor import motor_clearances, motor_layout, motor_mass_properties
 
 ROOMS = (
-    materials, layout, torsion_springs, spring_as_drawn, spring_holds, spring_safety, joint_impedance, lost_motion,
-    structure_stiffness, warm_structure, large_motion, creep_under_hold, thermal_stack, viscous_heating, softening,
-    stiffening, mass_properties, clearances, shrinkage, process, heater_form, layer_heater, screws, tang, dowels,
-    cutout, liner, bearing, axial_preload, preload_adjuster, cover, sensor_flange, mounting, motor_choice,
-    motor_layout, motor_mass_properties, motor_clearances,
+    materials, layout, torsion_springs, spring_as_drawn, spring_holds, joint_impedance, lost_motion,
+    structure_stiffness, warm_structure, large_motion, creep_under_hold, thermal_stack, softening, stiffening,
+    mass_properties, clearances, shrinkage, process, heater_form, screws, tang, dowels, cutout, liner, bearing,
+    axial_preload, preload_adjuster, cover, sensor_flange, mounting, motor_choice, motor_layout,
+    motor_mass_properties, motor_clearances,
 )  # fmt: skip

@@ -9,7 +9,7 @@ import numpy as np
 
 from comparisons.numbers import array, si
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.springs import spring, transmission, wave_spring
+from tvimdesign.physics.springs import spring, transmission
 
 Found = Mapping[str, Any]
 TURN = 2.0 * np.pi
@@ -90,11 +90,11 @@ def endurance(inputs: Found) -> Found:
 def wave(inputs: Found) -> Found:
     """Rate [N/m] and stress [Pa] of a wave spring, and the deflection factor."""
     size = [si(inputs[name]) for name in ("inner_diameter", "outer_diameter", "thickness")]
-    found = wave_spring.rate(si(inputs["youngs_modulus"]), *size, inputs["waves"])
+    found = spring.wave_spring_rate(si(inputs["youngs_modulus"]), *size, inputs["waves"])
     return {
         "rate": found,
-        "stress": wave_spring.stress(si(inputs["force"]), *size, inputs["waves"]),
-        "factor": wave_spring.WAVE_FACTOR,
+        "stress": spring.wave_spring_stress(si(inputs["force"]), *size, inputs["waves"]),
+        "factor": spring.WAVE_FACTOR,
     }
 
 

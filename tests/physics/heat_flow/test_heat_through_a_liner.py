@@ -8,7 +8,7 @@ import pytest
 from scipy.linalg import solve_banded
 
 from tvimdesign.physics.heat_flow import heat, lumps
-from tvimdesign.physics.heat_flow.liner import Liner
+from tvimdesign.physics.heat_flow.stack import Liner
 
 COLD = 295.15
 AREA = 1e-3

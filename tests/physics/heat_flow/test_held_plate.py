@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import fsolve
 
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
-from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Lump, Surface
+from tvimdesign.physics.heat_flow.stack import Liner
 
 AIR, POLYMER = 295.15, 373.15
 CELLS = 60

@@ -39,7 +39,7 @@ def test_molten_it_is_soft_and_frozen_as_stiff_as_its_structure(name: str) -> No
 
 
 def test_a_block_is_refused_in_slices_that_are_not_alike() -> None:
-    # `film.soft_share` counts slices: thin ones in the melt would make more of it than there is.
+    # `block.soft_share` counts slices: thin ones in the melt would make more of it than there is.
     joint = joint_of(NAMES[1])
     parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
     with pytest.raises(ValueError, match="alike"):

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tvimdesign.device.table.phases import STIFFENING
+from tvimdesign.device.table.quantity import STIFFENING
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at, frozen_on_cooling

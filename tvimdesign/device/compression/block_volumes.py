@@ -1,6 +1,4 @@
-"""Volumes of what only the compression module has: blocks, vanes on rotor and housing, and slots.
-
-The gap a freezing block opens beside its vane, and the angle over which none touches because of it.
+"""Volumes of blocks, vanes and slots, which only the compression module has, and the gap of a freezing block.
 
 A block has free sides, so it shrinks alike in each direction. It stays on its pad and leaves the
 rotor's vane; what the springs press into the gap while it is soft is not taken off, so the gap is an upper bound. The

@@ -15,7 +15,7 @@ from tvimdesign.device.compression import (
     vane_tiles,
 )
 from tvimdesign.device.shared import ROOMS as SHARED
-from tvimdesign.device.table.phases import PHASES
+from tvimdesign.device.table.quantity import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 

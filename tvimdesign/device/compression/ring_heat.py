@@ -93,7 +93,7 @@ def around_pads(m: Module) -> tuple[Body, ...]:
 
 
 def _divided(whole: Body) -> list[Body]:
-    """Return a strip that is heated at its edge, in three bodies from there on (`strip.STRIP`)."""
+    """Return a strip that is heated at its edge, in three bodies from there on (`lumps.STRIP`)."""
     surface = whole.surface
     return [Body(share * whole.capacity, surface._replace(area=share * surface.area)) for share in STRIP]
 

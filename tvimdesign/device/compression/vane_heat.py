@@ -1,11 +1,7 @@
 """Heat of rotor plate, vanes and rigid Peltier modules around the blocks of the compression module.
 
-What the vanes of rotor and housing pass to floor and rotor plate: through their roots, and through the clearance at
-their other end.
-
-A vane meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
-
-What rigid Peltier modules and their spreaders pass to the blocks and lose beside them; how all modules are wired.
+Vanes give heat to floor and rotor plate through their roots, and through the clearance at their other end. A vane
+meets them in a strip, from which heat turns to the side as it comes in, as in a ledge (`ledge_ways`).
 """
 
 from __future__ import annotations

@@ -7,8 +7,6 @@ vane has a slot behind each tile, with flat ends across the vane's middle, as wi
 tiles of a vane share it. A `window_ledge` below a tile's upper edge the slot ends, so a tile bears on both its sides
 and above. Below the tiles the slot reaches under their middle, for the leads.
 
-What presses on Peltier modules in the housing's vanes, how far they give, and what they bear.
-
 A block presses on its pad, or on a spreader and the tiles behind it, and these on the vane beside the slot. A module
 is strong where it is pressed and weak where it is sheared: it carries the joint's torque in this mode as it is meant
 to be mounted.

@@ -1,7 +1,5 @@
 """Shrinkage of the PCL on freezing, flow of molten PCL under its own weight, and axial play of the rotor.
 
-How molten PCL flows of its own weight: its viscosity, and how far its free ends creep in a hot hour.
-
 The ends of an arc and the sides of a block are free; what stands between two faces flows out there, the axis level.
 """
 

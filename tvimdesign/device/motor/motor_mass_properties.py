@@ -1,11 +1,8 @@
 """Volume, mass and inertia of the motor's parts, its hub and its housing, and of all that the motor turns.
 
-What a motor below the feet has to turn: the housing's moment of inertia, and that of all that goes with it.
-
-It stands apart from the volumes because nothing else asks for it: without a motor the housing stands still. Holes of
-tangs count at the springs' axes, the rounding of pockets and windows at their mean radius: right to a thousandth or
-two (the checks on the solids hold it to 0.5 %).
-"""
+All is zero without a motor. A motor below the feet turns the housing and what goes with it. Holes of tangs count at the
+springs' axes, the rounding of pockets and windows at their mean radius: right to a thousandth or two (the checks on the
+solids hold it to 0.5 %)."""
 
 from __future__ import annotations
 

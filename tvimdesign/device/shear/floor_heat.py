@@ -14,10 +14,10 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import lumps, shape_factors, slab_faces
+from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
-from tvimdesign.physics.heat_flow.slab_faces import ACROSS
+from tvimdesign.physics.heat_flow.shape_factors import ACROSS
 
 quantities = QuantityGroup("Switch")
 
@@ -84,7 +84,7 @@ def floor_links(m: Module) -> tuple[Link, ...]:
     for i, area in enumerate(down):
         height = m.pad_depth if i else 0.5 * m.pad_depth
         onto, surface = (0.5 * height + m.floor_web / 3.0) / area, m.around_pads[LOWER[i]].surface
-        links += slab_faces.through_faces(
+        links += shape_factors.through_faces(
             ("around", UPPER[i]),
             ("around", LOWER[i]),
             surface,
@@ -118,14 +118,14 @@ def stack_links(m: Module) -> tuple[Link, ...]:
     """Links from the pads' edges into the walls of their pockets, and from their cold sides through the ledges.
 
     A pad's upper half meets the floor's corner, its lower half what is below. Tiles stand in air: of them the
-    spreader's edge meets a wall, and its back beside them a room of air, which ends at the wall as well (`tile_room`).
+    spreader's edge meets a wall, and its back beside them a room of air, which ends at the wall as well (`pad_heat`).
     """
     first, ledge = WAYS[0] * m.beside_area / m.edge_length, (m.heated_area - m.cold_area) / m.edge_length
     bare = (m.pcl_area - m.heated_area) / m.edge_length
     slender, face = ledge / m.floor_web, m.around_pads[LEDGES].surface
     onto, to_root, under = (
         way / (m.structure_conductivity * m.edge_length)
-        for way in (*shape_factors.ledge_ways(slender), slab_faces.ledge_across(slender))
+        for way in (*shape_factors.ledge_ways(slender), shape_factors.ledge_across(slender))
     )
     beyond = (bare + first) / (m.structure_conductivity * m.floor_web * m.edge_length)
     upper, lower, ledges = ("around", CORNER), ("around", UPPER[0]), ("around", LEDGES)
@@ -139,7 +139,7 @@ def stack_links(m: Module) -> tuple[Link, ...]:
         ]
     else:
         rims = [Link(SPREADER, upper, m.pad_wall), *m.tile_links]
-    rested = slab_faces.through_faces(cold, ledges, face, m.ambient_temperature, onto + m.cold_to_ledges, under)
+    rested = shape_factors.through_faces(cold, ledges, face, m.ambient_temperature, onto + m.cold_to_ledges, under)
     return (*rims, *rested, _link(LEDGES, LOWER[0], 1.0 / (to_root + beyond)))
 
 

@@ -4,9 +4,8 @@ A lip touches the layer but for the running clearance below it; what else heats 
 ends have no lip; they are taken as having one, as an arc is a strip with as much edge. A liner and its film are as much
 more layer there, before the plate; the walls of its recess go on from the lip (`liner_rim`).
 
-What a liner gives sideways: through the film around it to the walls of its recess in the rotor plate.
-
-Layer and liner end at one cold wall (`layer_end.end_wall`): the walls of the recess, and below them a lip, if there is
+A liner gives heat sideways through the film around it to the walls of its recess in the rotor plate. Layer and liner
+end at one cold wall (`end_wall`): the walls of the recess, and below them a lip, if there is
 one. The liner's cells give by their own excess over the plate's edge what such a wall takes beside them of an even
 fall. The plate is that wall's for a share of its depth (`shape_factors.constriction`).
 """
@@ -24,8 +23,7 @@ from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, shape_factors
 from tvimdesign.physics.heat_flow.lumps import Link
-from tvimdesign.physics.heat_flow.still_air import below_lip
-from tvimdesign.physics.heat_flow.walled_end import WalledEnd, sheet_end, sheeted_end, walled_end
+from tvimdesign.physics.heat_flow.walled_end import WalledEnd, below_lip, sheet_end, sheeted_end, walled_end
 
 quantities = QuantityGroup("Switch")
 
@@ -138,7 +136,7 @@ def side_links(m: Module) -> tuple[Link, ...]:
 
     `gap_end` tells the sums; layer and air lie in series, and the floor takes what comes to its corner. What of
     it comes from within the layer (`gap_end_depth`) the layer gives, the rest the hot side. Below a lip the hot
-    side gives it (`still_air.below_lip`), and the lip gets the rest (`lip_heat`).
+    side gives it (`walled_end.below_lip`), and the lip gets the rest (`lip_heat`).
     """
     conductivity, slot = m.air_beside
     near, far = shape_factors.gap_end(slot) if m.melt_lip == NO_LIP else below_lip(slot)[::-1]

@@ -14,7 +14,7 @@ from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import shape_factors, slab_faces, still_air
+from tvimdesign.physics.heat_flow import shape_factors, walled_end
 from tvimdesign.physics.heat_flow.lip import Arm, Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Place
 
@@ -64,14 +64,15 @@ def lip_ways(m: Module) -> tuple[Scalar, ...]:
 
 def _lip_faces(m: Module) -> tuple[Scalar, ...]:
     """Return how much warmer lips' lower faces are than the plate above them, over each body of the strip, over how
-    much warmer their sides are than the plate's edge [1] (`slab_faces.beyond_constriction`); nothing without lips."""
+    much warmer their sides are than the plate's edge [1] (`shape_factors.beyond_constriction`); nothing without
+    lips."""
     if m.melt_lip == NO_LIP:
         return (0.0,) * len(STRIP)
     depth = m.lip_height + m.rotor_thickness
     share, begin, rises = m.lip_height / depth, 0.0, []
     for covered in m.lip_over:
         rises.append(
-            slab_faces.beyond_constriction(share, begin / depth, covered / depth) / shape_factors.constriction(share)
+            shape_factors.beyond_constriction(share, begin / depth, covered / depth) / shape_factors.constriction(share)
         )
         begin = begin + covered
     return tuple(rises)
@@ -112,7 +113,7 @@ def lip(m: Module) -> Lip | None:
     (root, mean), (conductivity, slot) = m.lip_root, m.air_beside
     arms = [
         Arm(m.structure_conductivity / onto * m.edge_length, root),
-        Arm(still_air.below_lip(slot)[0] * conductivity * m.edge_length, ((HOT, 1.0),)),
+        Arm(walled_end.below_lip(slot)[0] * conductivity * m.edge_length, ((HOT, 1.0),)),
     ]
     for i, (through, warmer, floor) in enumerate(zip(m.below_lips, _lip_faces(m), BELOW, strict=True)):
         edge = tuple((place, weight * warmer) for place, weight in mean)

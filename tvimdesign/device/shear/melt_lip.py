@@ -4,14 +4,12 @@ They turn in their own track, so nothing rubs on them. The melt's surface is hel
 and what leaves must go through the narrow gap below it. The plate is printed with that face up, so the lips need no
 support.
 
-What creeps out of the molten layer in a hot hour, and how soon a rotor that hangs on it draws it thicker.
-
-The worst way up is taken: the axis level, so that gravity acts along the layer, across an arc's radial width; and for
-the rotor's weight, upside down. To and fro of the joint moves no melt on average, as slow flow can be reversed [1],
-and turns it outwards by w^2 r, a thousandth of gravity at 1 Hz; both are left out, and so are normal stresses of fast
-shear. The half-width of a meniscus holds the melt only where an edge holds the meniscus: at lips, not between flat
-faces. [1] Happel and Brenner, Low Reynolds Number Hydrodynamics, sec. 1-2.
-"""
+Melt creeps out in a hot hour, and a rotor that hangs on it draws it thicker. The worst way up is taken: the axis level,
+so that gravity acts along the layer, across an arc's radial width; and for the rotor's weight, upside down. To and fro
+of the joint moves no melt on average, as slow flow can be reversed [1], and turns it outwards by w^2 r, a thousandth of
+gravity at 1 Hz; both are left out, and so are normal stresses of fast shear. The half-width of a meniscus holds the
+melt only where an edge holds the meniscus: at lips, not between flat faces. [1] Happel and Brenner, Low Reynolds Number
+Hydrodynamics, sec. 1-2."""
 
 from __future__ import annotations
 

@@ -1,13 +1,9 @@
 """Peltier modules and a spreader on them in shear: strings, spreading resistance, compliance, air and cold sides.
 
-Air beside rigid modules, below their spreader: a room that tiles, ledge and the pocket's wall close.
-
-Ways along the pads' cold sides to what takes their heat: ledges touch a share of them, a sink the rest.
-
-The legs conduct k_x along and k_y up: a slab of the mean k = (k_x k_y)^(1/2), its depth stretched by (k_x/k_y)^(1/2).
-The side itself is a sheet on it. Half of a pad's width is the slab's height (`constriction`). Air in the open
-windows takes too little heat to count.
-"""
+Beside rigid modules, below their spreader, is a room of air that tiles, ledge and the pocket's wall close. Ledges touch
+a share of the pads' cold sides, a sink the rest. The legs conduct k_x along and k_y up: a slab of the mean k = (k_x
+k_y)^(1/2), its depth stretched by (k_x/k_y)^(1/2). The side itself is a sheet on it. Half of a pad's width is the
+slab's height (`constriction`). Air in the open windows takes too little heat to count."""
 
 from __future__ import annotations
 
@@ -23,7 +19,7 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
 from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
-from tvimdesign.physics.heat_flow.still_air import room
+from tvimdesign.physics.heat_flow.walled_end import room
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Switch")

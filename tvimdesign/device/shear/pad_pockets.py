@@ -2,7 +2,7 @@
 
 A pocket has the outline of an arc, wider by `slip_clearance` on every side, so that what has that outline goes in.
 
-Where the rotor plate stands in the shear module: on the PCL layer, which lies on the floor.
+The rotor plate stands on the PCL layer, which lies on the floor.
 """
 
 from __future__ import annotations

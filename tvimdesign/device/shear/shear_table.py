@@ -21,7 +21,7 @@ from tvimdesign.device.shear import (
     thermistor_seat,
     tiles,
 )
-from tvimdesign.device.table.phases import PHASES
+from tvimdesign.device.table.quantity import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 

@@ -11,7 +11,10 @@ instant of a phase (heating until the joint is soft is one, cooling until it is 
 are the times at which something that rises passes zero; `Path` quantities reduce an instant's value over a phase;
 `Steady` quantities are what it takes to stay where a phase ends. The solver, or a simulation, supplies those three;
 everything else is arithmetic. `FirstOscillation` quantities are seen in a simulated release of the link, after a design
-is found."""
+is found.
+
+`PHASES` is the device's working cycle: soft by heating, stiff again by cooling.
+"""
 
 from __future__ import annotations
 
@@ -269,3 +272,24 @@ class Phase:
     """The phase whose current it has, where it is that phase under another assumption."""
     history: bool
     """True if the polymer's solid fraction has a history of its own, by the kinetics of freezing."""
+
+
+SOFTENING = Phase(
+    name="softening", description="heating from ambient until the joint is soft",
+    after=None, ends="response_time", current_input="current", sign=1.0, history=False,
+)  # fmt: skip
+STIFFENING = Phase(
+    name="stiffening", description="cooling from there until the joint is stiff again",
+    after="softening", ends="return_time", current_input="cooling_current", sign=-1.0, history=True,
+)  # fmt: skip
+EQUILIBRIUM_STIFFENING = Phase(
+    name="equilibrium_stiffening",
+    description="the same, as if the layer froze where it melts",
+    after="softening",
+    ends="equilibrium_stiffening_time",
+    current_input="cooling_current",
+    sign=-1.0,
+    like="stiffening",
+    history=False,
+)
+PHASES = (SOFTENING, STIFFENING, EQUILIBRIUM_STIFFENING)

@@ -24,9 +24,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow import conduction, liner, lumps, peltier
+from tvimdesign.physics.heat_flow import conduction, lumps, peltier
 from tvimdesign.physics.heat_flow.lip import warm_lip
-from tvimdesign.physics.heat_flow.stack import Profile, Stack
+from tvimdesign.physics.heat_flow.stack import LINER_CELLS, Profile, Stack, liner_flows, liner_heating
 from tvimdesign.physics.polymers import crystallization, polymer
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 
@@ -57,7 +57,7 @@ class _Parts(NamedTuple):
 def _lengths(stack: Stack) -> tuple[int, ...]:
     """Return the counts of entries after the polymer's: plate, beside it, sink, around the pads, their legs, liner."""
     bodies = (len(stack.beside), int(stack.sink is not None), len(stack.around))
-    legs, sheet = int(stack.legs_capacity is not None), liner.CELLS * int(stack.liner is not None)
+    legs, sheet = int(stack.legs_capacity is not None), LINER_CELLS * int(stack.liner is not None)
     return stack.plate_cells, *bodies, legs, sheet
 
 
@@ -118,7 +118,7 @@ def profile(state: Any, stack: Stack) -> Profile:
         across = onward = (cells[-1] - plate[0]) / (to_face + plate_half)
         through = sheet
     else:
-        through = liner.flows(stack.liner, (cells[-1], plate[0]), (to_face, plate_half), sheet)
+        through = liner_flows(stack.liner, (cells[-1], plate[0]), (to_face, plate_half), sheet)
         across, onward = through[0], through[-1]
     within = -np.diff(plate) / (2.0 * plate_half)
     # Radiation at the temperature of the outermost cell: in a thin plate that is nearly the surface's.
@@ -219,7 +219,7 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     sideways = _sideways(now, stack)
     plate = (linked["plate"][0] - np.diff(now.through_plate) - sideways) / _plate_cell_capacity(stack)
     beside, around = _bodies(now, stack, np.sum(sideways), linked)
-    sheet = now.liner if stack.liner is None else liner.heating(stack.liner, now.through_liner, linked["liner"][0])
+    sheet = now.liner if stack.liner is None else liner_heating(stack.liner, now.through_liner, linked["liner"][0])
     bodies = np.append(np.append(np.append(np.append(plate, beside), sink), around), np.append(legs, sheet))
     bodies = bodies / TEMPERATURE_SCALE
     heated = np.append(sides / TEMPERATURE_SCALE, layer / _cell_mass(stack, len(now.cells)) / ENTHALPY_SCALE)

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.heat_flow.liner import Liner
 from tvimdesign.physics.heat_flow.lumps import Lump, Surface, surface_coefficient
+from tvimdesign.physics.heat_flow.stack import Liner
 
 SLICES = (0.125, 0.375, 0.625, 0.875)
 """Where the plate's temperatures are taken, as shares of its depth: the middles of four slices."""

@@ -1,8 +1,10 @@
-"""The helical torsion spring: rate, stress, strength, and its size under load.
+"""Helical torsion spring: rate, stress, strength, and size under load; rate and stress of a wave spring.
 
 Sources: [S] Budynas and Nisbett, Shigley's Mechanical Engineering Design, 10th ed., section 10-12 (torsion springs);
 [E] EN 13906-3; [T] Timoshenko, Strength of Materials, part II, 3rd ed. (bars bent beyond the elastic limit). Angles in
 radians, except where a name says turns.
+
+A single-turn wave spring is a ring of flat wire, waved along its circumference and pressed between two faces.
 """
 
 from __future__ import annotations
@@ -119,3 +121,28 @@ def diameter_tolerance(wire_diameter: Any, coil_diameter: Any, grade_factor: flo
 def free_angle_tolerance(body_coils: Any, index: Any, grade_factor: float) -> Any:
     """Return the free-angle tolerance A_phi = 2.4 n^0.76 sqrt(C) Q degrees, returned in radians (DIN 2194)."""
     return np.pi / 180.0 * 2.4 * body_coils**0.76 * np.sqrt(index) * grade_factor
+
+
+WAVE_FACTOR = np.pi**3 / 8.0
+"""Deflection factor K [1] for two to four waves, which makers round to 3.88: half that of N beams in a ring, each of
+the length of a wave, freely supported and loaded in the middle (pi^3/4)."""
+
+
+def wave_spring_rate(
+    youngs_modulus: Any, inner_diameter: Any, outer_diameter: Any, thickness: Any, waves: Any, factor: Any = WAVE_FACTOR
+) -> Any:
+    """Return the rate of the spring [N/m], E b t^3 N^4/(K D_m^3) D_o/D_i; modulus [Pa], lengths [m], two to four waves.
+
+    Source: Rotor Clip, formulas for spiral wound wave springs, single turn with gap.
+    """
+    mean, wall = 0.5 * (inner_diameter + outer_diameter), 0.5 * (outer_diameter - inner_diameter)
+    return youngs_modulus * wall * thickness**3 * waves**4 / (factor * mean**3) * outer_diameter / inner_diameter
+
+
+def wave_spring_stress(force: Any, inner_diameter: Any, outer_diameter: Any, thickness: Any, waves: Any) -> Any:
+    """Return the bending stress [Pa] under a force [N], 3 pi F D_m/(4 b t^2 N^2); lengths [m].
+
+    Source: as `wave_spring_rate`.
+    """
+    mean, wall = 0.5 * (inner_diameter + outer_diameter), 0.5 * (outer_diameter - inner_diameter)
+    return 3.0 * np.pi * force * mean / (4.0 * wall * thickness**2 * waves**2)

@@ -9,7 +9,7 @@ from typing import Any
 from tvimdesign.device import Event, Path, Phase, Steady, Table
 from tvimdesign.device.table.quantity import DRIVE, PHASE, STATE
 from tvimdesign.physics.heat_flow import heat
-from tvimdesign.physics.heat_flow.slab_faces import AMBIENT
+from tvimdesign.physics.heat_flow.shape_factors import AMBIENT
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.symbols import symbols
 

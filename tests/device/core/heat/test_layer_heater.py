@@ -12,8 +12,8 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.device.core.heat.heater_fuse import HeaterFuse, heater_fuse
-from tvimdesign.device.table.phases import SOFTENING
+from tvimdesign.device.components.cutout import HeaterFuse, heater_fuse
+from tvimdesign.device.table.quantity import SOFTENING
 from tvimdesign.physics.heat_flow import heat, shape_factors
 from tvimdesign.physics.layers import layer
 from tvimdesign.study import given, read_study_text

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.phases import EQUILIBRIUM_STIFFENING, STIFFENING
-from tvimdesign.device.table.quantity import Rule, Scalar
+from tvimdesign.device.table.quantity import EQUILIBRIUM_STIFFENING, STIFFENING, Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import heat
 

@@ -8,8 +8,11 @@ plate), and how the plate loses heat in the end
 (`plate_losses`); what of the layer's area the pads have (`heated_area`), in how many `heater_strings`, how heat comes
 from them to the layer (`pad_contact`, of which `to_spreader` lies before a spreader), and what is heated on the way
 (`spreader_capacity`); and by `layer_temperatures`, `column_shares` and `moment_now` what a partly molten layer is to
-the joint. `layer_heater.py` has the layer that its own current heats.
-"""
+the joint. `heater_form.py` has the layer that its own current heats.
+
+The joint's own motion makes heat in the PCL. It is a sine at the frequency of an operating point, by the torque that
+turns the hot joint by its stroke: a joint that is still stiff turns less, and heats next to nothing. The damping is
+that of small strain, which is the most the melt does (`hot_damping_at_stroke` is less)."""
 
 from __future__ import annotations
 
@@ -246,3 +249,28 @@ def stiffness_now(m: Module) -> Scalar:
 def damping_now(m: Module) -> Scalar:
     """Damping of the joint at the frequency of where the phase leads."""
     return m.branch_now[1] / (2.0 * np.pi * m.frequency_now)
+
+
+quantities.option(
+    "motion",
+    ("at_rest", "moving"),
+    "Whether the joint is left alone while it softens, is held soft and stiffens, or turned, which heats the PCL",
+)
+
+
+@quantities.output("W", per_point=True)
+def viscous_heating(m: Module) -> Scalar:
+    """Heat in the PCL where the joint is turned by the torque that turns the hot joint by its stroke."""
+    pcl = (m.pcl_stiffness, layer.loss_stiffness(m.pcl_damping, m.frequency))
+    turned = m.stroke * m.joint_impedance_at_hot / m.joint_impedance
+    return layer.dissipation(pcl, m.branch_stiffness, turned, m.frequency)
+
+
+@quantities.helper(instant=True)
+def motion_heat(m: Module) -> Scalar:
+    """Heat [W] the joint's motion makes in each slice of the PCL, most in those that are molten."""
+    if m.motion == "at_rest":
+        return 0.0
+    turned = m.stroke * m.joint_impedance_at_hot / m.impedance_now
+    heat = layer.dissipation(m.layer_stiffness_now, m.branch_now, turned, m.frequency_now)
+    return heat * layer.loss_shares(*m.slice_moduli)

@@ -3,10 +3,8 @@
 Both are as cold as the air here; the adhesive of a bonded tang counts as stiff as the structure. The coil bears the
 torque of `held_spring_rate`, which every force and stress in the module comes from.
 
-What the springs' preload loses as the plastic that holds it creeps, over months and hot hours.
-
-What gives at once is in `held_spring_rate`. The pin is as warm as the plate beside the PCL, the floor as the air.
-"""
+The preload falls as the plastic that holds it creeps, over months and hot hours. The pin is as warm as the plate beside
+the PCL, the floor as the air."""
 
 from __future__ import annotations
 
