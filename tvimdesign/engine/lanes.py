@@ -23,7 +23,7 @@ def lanes_of(tape: Tape, more: int = 0) -> Array:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def run(code: Code, w: Array) -> None:  # noqa: PLR0912, PLR0915 - a case for each operation
+def run(code: Code, w: Array) -> None:  # noqa: PLR0915 - a case for each operation
     """Fill the registers of the results from those of the arguments and constants."""
     first, second, to, groups = code.first, code.second, code.to, code.groups
     for g in range(groups.shape[0] - 1):
