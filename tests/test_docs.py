@@ -49,7 +49,7 @@ def test_the_readme_shows_every_study_with_its_picture() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("study", STUDIES, ids=lambda path: str(path.stem))
-def test_sizes_and_times_of_the_studies_are_what_they_come_to(study: Path) -> None:
+def test_the_table_of_studies_has_the_results(study: Path) -> None:
     read = read_study(study)
     values = answer(read).design.values
     size, mass, soft = (values[name] for name in ("envelope_diameter", "module_mass", "softening_time"))
@@ -96,7 +96,7 @@ def test_the_tables_in_the_readme_are_the_results(study: str, head: str, column:
     assert {row[0]: row[column] for row in rows} == {row[0]: expected[row[0]] for row in rows}
 
 
-def test_the_study_in_the_readme_has_an_optimum_that_every_start_leads_to() -> None:
+def test_every_start_of_the_readme_s_study_converges() -> None:
     study = read_study_text(_blocks("yaml")[0], "README.md")
     found = answer(study)
     assert found.design.status == "optimal"
@@ -128,7 +128,7 @@ def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path, le
         assert done.returncode == 0, done.stderr
 
 
-def test_the_record_in_the_docs_is_one_that_can_be_used(tmp_path: Path) -> None:
+def test_the_record_in_the_docs_can_be_used(tmp_path: Path) -> None:
     page = (ROOT / "docs/catalogue.md").read_text()
     record = re.findall(r"^```yaml title=\"my_records/peltiers/my_pad.yaml\"\n(.*?)^```", page, re.M | re.S)[0]
     (tmp_path / "peltiers").mkdir()

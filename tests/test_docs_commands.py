@@ -65,20 +65,20 @@ def _records(page: str, place: Path) -> None:
 
 @pytest.mark.gate
 @pytest.mark.parametrize("page", QUICK)
-def test_the_commands_of_a_page_work(page: str, tvimdesign: Command, tmp_path: Path) -> None:
+def test_commands_of_a_page(page: str, tvimdesign: Command, tmp_path: Path) -> None:
     _place(tmp_path)
     _records(page, tmp_path)
     _do(page, tvimdesign, tmp_path, ["--no-plots"] if page != "how-to/scripts.md" else [], LONG)
 
 
 @pytest.mark.slow
-def test_the_measurements_of_the_page_are_fitted_and_their_records_taken(tvimdesign: Command, tmp_path: Path) -> None:
+def test_measurements_of_the_page_become_records(tvimdesign: Command, tmp_path: Path) -> None:
     _do("how-to/measure.md", tvimdesign, tmp_path, [], LONG | {"run"})
     written = {path.stem for path in (tmp_path / "my_records").rglob("*.yaml")}
     assert written == {"my_wire", "my_pad", "my_melt", "my_module"}
 
 
-def test_the_tutorial_s_study_is_one_that_check_takes(tvimdesign: Command, tmp_path: Path) -> None:
+def test_check_accepts_the_tutorial_s_study(tvimdesign: Command, tmp_path: Path) -> None:
     _do("tutorial.md", tvimdesign, tmp_path, [], LONG | {"run"})
 
 
@@ -98,7 +98,7 @@ def _check_the_tutorial_s_table(results: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES)
-def test_all_that_a_page_says_is_done_as_written(page: str, process: Command, tmp_path: Path) -> None:
+def test_all_commands_of_a_page(page: str, process: Command, tmp_path: Path) -> None:
     _place(tmp_path)
     _records(page, tmp_path)
     _do(page, process, tmp_path, [], set())

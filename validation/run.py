@@ -60,7 +60,7 @@ def _line(each: Outcome) -> str:
     compared, row = each.worst
     label = f"{compared.quantity.name} {row.label}".strip()
     return (
-        f"{each.verdict:<17}{each.case.name:<36}{row.of_band:+7.2f} of limit: {label}, "
+        f"{each.verdict:<17}{each.case.name:<36}{row.of_limit:+7.2f} of limit: {label}, "
         f"{row.found:.5g} for {row.expected:.5g} {compared.quantity.unit} ({each.seconds:.1f} s)"
     )
 

@@ -86,7 +86,7 @@ def joint_fit() -> tuple[Array, Array]:
     return np.exp(found.x), np.linalg.inv(found.jac.T @ found.jac)
 
 
-def test_half_time_and_nucleation_constant_are_the_joint_fit_and_vary_on_their_own() -> None:
+def test_half_time_and_nucleation_constant_are_the_joint_fit() -> None:
     # At the record's reference of 35 degC an error of one says nothing of the other: each may be moved alone.
     (half_time, constant), covariance = joint_fit()
     assert PCL.reference_half_time == pytest.approx(half_time, rel=0.03)
@@ -94,7 +94,7 @@ def test_half_time_and_nucleation_constant_are_the_joint_fit_and_vary_on_their_o
     assert abs(covariance[0, 1]) < 0.15 * np.sqrt(covariance[0, 0] * covariance[1, 1])
 
 
-def test_interval_of_the_nucleation_constant_reaches_from_one_source_to_the_other() -> None:
+def test_interval_of_the_nucleation_constant_spans_the_sources() -> None:
     entry = RECORD.entry("nucleation_constant")
     assert entry.status in ("assumed", "calibrated")
     assert entry.low is not None
@@ -159,7 +159,7 @@ def test_second_implementation_finds_the_same_exotherm() -> None:
     assert width == pytest.approx(data["width"], abs=0.1)
 
 
-def test_at_10_kelvin_a_minute_the_exotherm_is_near_30_degrees_and_some_5_kelvin_wide() -> None:
+def test_exotherm_at_10_kelvin_a_minute() -> None:
     # Between the sheet's 27.4 degC at an unknown rate and 31.8 degC of the steep half-times; 3.5 to 7 K wide.
     peak, width = exotherm(10.0, PCL)
     assert 27.4 < peak < DATA["second_implementation"]["peak"]

@@ -1,4 +1,4 @@
-"""The cases of validation/cases: read, judged, told; some of them compared here, all of them in the slow test."""
+"""Cases of validation/cases: read and judged; some compared here, all in the slow test."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ALL = read_cases()
 
 
 def copied(name: str, folder: Path, *changes: tuple[str, str]) -> Path:
-    """A case in a folder of its own, with texts changed that it has."""
+    """Copy a case to a folder of its own, with replaced texts."""
     shutil.copytree(CASES / name, folder / name)
     path = folder / name / "case.yaml"
     text = path.read_text()
@@ -34,7 +34,7 @@ def copied(name: str, folder: Path, *changes: tuple[str, str]) -> Path:
     return path
 
 
-def test_sixty_cases_are_compared_and_open_ones_say_what_is_missing() -> None:
+def test_sixty_cases_are_compared() -> None:
     assert sum(not case.open for case in ALL) >= 60
     assert all(case.source and case.title for case in ALL)
     assert all("issing" in case.open or "nothing is left" in case.open for case in ALL if case.open)
@@ -51,7 +51,7 @@ def test_the_page_has_every_case_its_verdict_and_its_figure() -> None:
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_a_case_is_inside_its_band(name: str) -> None:
+def test_a_case_is_inside_its_limit(name: str) -> None:
     found = outcome(read_case(CASES / name / "case.yaml"))
     assert found.verdict == INSIDE
     assert b"<svg" in figure(found)
@@ -78,7 +78,7 @@ def test_a_wrong_number_fails_the_run(
     assert f"{OUTSIDE:<17}{name}" in capsys.readouterr().out
 
 
-def test_what_a_page_tells_to_be_outside_may_be_so(tmp_path: Path) -> None:
+def test_a_known_page_accepts_what_it_lists_as_outside(tmp_path: Path) -> None:
     name = "part_fits_iso_286"
     copied(name, tmp_path / "cases", ("values: [10, 15,", "values: [10, 16,"))
     known = tmp_path / "known.md"
@@ -96,7 +96,7 @@ def test_a_product_that_is_off_fails_the_run(monkeypatch: pytest.MonkeyPatch, tm
     assert run.main(["--folder", str(tmp_path), "spring_rate_smi_example"]) == 1
 
 
-def test_a_case_that_cannot_be_compared_fails_the_run_and_leaves_the_page(
+def test_a_failed_comparison_fails_the_run_and_leaves_the_page(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     copied("part_fits_iso_286", tmp_path / "cases", ("[H7, 3]", "[Q7, 3]"))
@@ -120,7 +120,7 @@ def test_a_known_difference_that_is_gone_or_has_grown_is_outside(tmp_path: Path)
     ("old", "new", "said"),
     [
         ("kind: heater", "kind: cooler", "'cooler' is none of"),
-        ("    relative: 0.1\n", "", "a band is needed"),
+        ("    relative: 0.1\n", "", "a limit is needed"),
         ("    value: 32\n", "", "give value, values or low and high"),
         ("    value: 32\n", "    value: .nan\n", "not a finite number"),
         ("    known_within: 0.25\n", "", "needs `known`, its reason"),
@@ -145,7 +145,7 @@ def test_references_do_not_import_the_product() -> None:
 
 
 @pytest.mark.slow
-def test_every_case_is_inside_its_band_or_a_known_difference(tmp_path: Path) -> None:
+def test_every_case_is_inside_or_a_known_difference(tmp_path: Path) -> None:
     assert run.main(["--docs", str(tmp_path)]) == 0
     made, kept = ((folder / "validation.md").read_text() for folder in (tmp_path, ROOT / "docs"))
     assert sections(made) == sections(kept)

@@ -1,1 +1,1 @@
-"""What the product says of a case: functions from a case's inputs to named values."""
+"""The product's values of a case: functions from a case's inputs to named values."""

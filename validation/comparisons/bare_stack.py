@@ -34,7 +34,7 @@ class History:
 
 
 def bare_stack(**changes: Any) -> heat.Stack:
-    """A layer of 1 mm on 1000 mm^2 that neither melts nor loses heat nor is heated, with what is said otherwise."""
+    """Return a layer of 1 mm on 1000 mm^2 without melting, losses and heating, with the given changes."""
     stack = heat.Stack(
         area=1e-3, thickness=1e-3, density=1145.0, conductivity_solid=0.2, conductivity_melt=0.2,
         melting=NO_MELTING, peltier=peltier.PeltierModule(0.0, 1.0, 0.0), cold_capacity=1e9, hot_capacity=1e-7,
@@ -49,10 +49,10 @@ def integrate(
     stack: heat.Stack, begin: Array, times: Sequence[float], tolerance: float = 1e-9, current: float = 0.0
 ) -> History:
     """Integrate a stack to each of the given times from a state; neighbours alone couple, so the Jacobian is banded."""
-    found = solve_ivp(
+    results = solve_ivp(
         lambda _, y: heat.rates(y, stack, current), (0.0, times[-1]), begin, method="LSODA", t_eval=times,
         lband=1, uband=1, rtol=tolerance, atol=tolerance * 1e-3,
     )  # fmt: skip
-    if not found.success:
-        raise ValueError(f"the stack could not be integrated: {found.message}")
-    return History(stack, np.asarray(times), found.y)
+    if not results.success:
+        raise ValueError(f"the stack could not be integrated: {results.message}")
+    return History(stack, np.asarray(times), results.y)

@@ -15,7 +15,7 @@ from fe_structure.models import DESIGN, designed, model_values
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.springs import drawn_spring, spring
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 VALIDATION = Path(__file__).resolve().parents[1]
 
 
@@ -24,41 +24,41 @@ def _stored(name: str) -> Any:
     return yaml.safe_load((VALIDATION / name).read_text(encoding="utf-8"))
 
 
-def springs(_: Found) -> Found:
+def springs(_: Values) -> Values:
     """Rate [N*m/rad] and stress per F a [MPa/(N*m)] at fibre, coil and bend of the drawn springs."""
-    told = _stored("fe_spring/results.yaml")
-    found: dict[str, list[float]] = {"rate": [], "fibre": [], "bend": [], "coil": []}
-    for case in told["springs"].values():
+    stored = _stored("fe_spring/results.yaml")
+    results: dict[str, list[float]] = {"rate": [], "fibre": [], "bend": [], "coil": []}
+    for case in stored["springs"].values():
         wire, coil, pitch, arm = (1e-3 * case[name] for name in ("wire_diameter", "coil_diameter", "pitch", "arm"))
         shape = drawn_spring.DrawnSpring(
             wire, coil, 2.0 * np.pi * case["turns"], pitch, arm, (case["bend_ratio"] + 0.5) * wire
         )
-        coils = drawn_spring.active_coils(shape, told["poissons_ratio"])
+        coils = drawn_spring.active_coils(shape, stored["poissons_ratio"])
         straight = spring.bending_stress(1.0, wire, 1.0) * 1e-6
         factor = spring.inner_fibre_factor(coil / wire)
-        found["rate"].append(spring.rate(case["modulus"] * 1e9, wire, coil, coils))
-        found["fibre"].append(straight * factor * (1.0 + 0.5 * coil / arm))
+        results["rate"].append(spring.rate(case["modulus"] * 1e9, wire, coil, coils))
+        results["fibre"].append(straight * factor * (1.0 + 0.5 * coil / arm))
         if case["bend_ratio"] >= 1.0:
-            found["bend"].append(straight * drawn_spring.bend_stress_factor(shape))
+            results["bend"].append(straight * drawn_spring.bend_stress_factor(shape))
         if "coil" in case:
-            found["coil"].append(straight * drawn_spring.coil_stress_factor(shape, factor))
-    return found
+            results["coil"].append(straight * drawn_spring.coil_stress_factor(shape, factor))
+    return results
 
 
-def links(_: Found) -> Found:
+def links(_: Values) -> Values:
     """Stiffness [N*m/rad] of links clamped on their cores."""
-    found = []
+    results = []
     for case in _stored("fe_link/results.yaml").values():
         mm, youngs = case["mm"], case["youngs_modulus"] * 1e9
         shear = structure.shear_modulus(youngs, case["poissons_ratio"])
         size = (2.0 * mm["link_half_width"], mm["link_thickness"], mm["link_length"], mm["core_radius"])
-        found.append(structure.lever_stiffness(youngs, shear, *(1e-3 * length for length in size)))
-    return {"stiffness": found}
+        results.append(structure.lever_stiffness(youngs, shear, *(1e-3 * length for length in size)))
+    return {"stiffness": results}
 
 
 @cache
 def _joints() -> Mapping[str, Mapping[str, float]]:
-    """What today's model says of every design in the table, by study and quantity."""
+    """Evaluate today's model for every design in the table, by study and quantity."""
     with (VALIDATION / "fe_structure/results.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     designs: dict[str, dict[str, float | str]] = {row["study"]: {} for row in rows}
@@ -71,14 +71,14 @@ def _joints() -> Mapping[str, Mapping[str, float]]:
     }
 
 
-def joints(inputs: Found) -> Found:
-    """One quantity of every shipped study that FE looked at, in the order of the table."""
+def joints(inputs: Values) -> Values:
+    """Return a quantity of every study solved by FE, in the order of the table."""
     name = inputs["quantity"]
     return {name: [values[name] for _, values in sorted(_joints().items()) if name in values]}
 
 
-def tables(inputs: Found) -> Found:
-    """A column of a stored table, where its rows are those asked for."""
+def tables(inputs: Values) -> Values:
+    """Return a column of a stored table for the requested rows."""
     with (VALIDATION / inputs["table"]).open(newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if all(row[key] == value for key, value in inputs["where"].items())]
     return {"value": [float(row[inputs["found"]]) for row in rows]}

@@ -12,7 +12,7 @@ from comparisons.numbers import Array
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.polymers import crystallization, polymer
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 CELSIUS = 273.15
 _KINETICS = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
              "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
@@ -20,11 +20,11 @@ _MELTING = ("specific_heat_solid", "specific_heat_melt", "latent_heat", "melting
 _LAG = 0.5  # s, of melting behind heating; nothing melts in these cases
 
 
-def _kinetics(inputs: Found, polymer_name: str = "") -> crystallization.Kinetics:
+def _kinetics(inputs: Values, polymer_name: str = "") -> crystallization.Kinetics:
     """Of a record, with what the case gives instead."""
     record = Catalog().record("polymers", polymer_name or inputs["polymer"])
-    found = crystallization.Kinetics(*(record.value(name) for name in _KINETICS), _LAG)
-    return found._replace(**inputs.get("instead", {}))
+    kinetics = crystallization.Kinetics(*(record.value(name) for name in _KINETICS), _LAG)
+    return kinetics._replace(**inputs.get("instead", {}))
 
 
 def _half_time(celsius: float, kinetics: crystallization.Kinetics) -> float:
@@ -36,21 +36,21 @@ def _half_time(celsius: float, kinetics: crystallization.Kinetics) -> float:
     return float(np.interp(0.5, crystallization.solid_fraction(psi, kinetics), times))
 
 
-def half_times(inputs: Found) -> Found:
+def half_times(inputs: Values) -> Values:
     """Isothermal half-times [s] over the temperature [degC], and over that at the first."""
-    found = [_half_time(celsius, _kinetics(inputs)) for celsius in inputs["celsius"]]
-    return {"half_time": found, "over_the_first": np.array(found) / found[0]}
+    results = [_half_time(celsius, _kinetics(inputs)) for celsius in inputs["celsius"]]
+    return {"half_time": results, "over_the_first": np.array(results) / results[0]}
 
 
-def isothermal_curve(inputs: Found) -> Found:
+def isothermal_curve(inputs: Values) -> Values:
     """Solid fraction over the time [s], the product's rate integrated by scipy."""
     kinetics = _kinetics(inputs)
     window = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
-    found = solve_ivp(
+    results = solve_ivp(
         lambda _, psi: crystallization.rate(CELSIUS + inputs["celsius"], psi, kinetics, window),
         (0.0, inputs["time"][-1]), [0.0], t_eval=inputs["time"], rtol=1e-10, atol=1e-12,
     )  # fmt: skip
-    return {"fraction": crystallization.solid_fraction(found.y[0], kinetics)}
+    return {"fraction": crystallization.solid_fraction(results.y[0], kinetics)}
 
 
 def _cooled(rate: float, kinetics: crystallization.Kinetics) -> tuple[Array, Array]:
@@ -61,14 +61,14 @@ def _cooled(rate: float, kinetics: crystallization.Kinetics) -> tuple[Array, Arr
     return celsius, crystallization.solid_fraction(psi, kinetics)
 
 
-def cooled_fraction(inputs: Found) -> Found:
+def cooled_fraction(inputs: Values) -> Values:
     """Solid fraction over the temperature [degC], cooled at a constant rate; and at the end of all cooling."""
     celsius, fraction = _cooled(inputs["rate"], _kinetics(inputs))
     at = inputs.get("celsius", [-10.0])
     return {"fraction": np.interp(-np.array(at, float), -celsius, fraction), "last": fraction[-1]}
 
 
-def exotherm(inputs: Found) -> Found:
+def exotherm(inputs: Values) -> Values:
     """Peak [degC] of the exotherm of each polymer at the case's rate, and its width at half its height [K]."""
     peaks, widths = [], []
     for name in inputs["polymers"]:
@@ -80,14 +80,14 @@ def exotherm(inputs: Found) -> Found:
     return {"peak": peaks, "width": widths}
 
 
-def half_time_of_cooling(inputs: Found) -> Found:
+def half_time_of_cooling(inputs: Values) -> Values:
     """Minutes from an onset to half of it frozen, cooled at a constant rate."""
     celsius, fraction = _cooled(inputs["rate"], _kinetics(inputs))
     onset, half = np.interp([inputs["onset"], 0.5], fraction, celsius)
     return {"minutes": (onset - half) / inputs["rate"]}
 
 
-def heat_to_melt(inputs: Found) -> Found:
+def heat_to_melt(inputs: Values) -> Values:
     """Heat [J/kg] that takes a polymer from a temperature to another [degC]."""
     record = Catalog().record("polymers", inputs["polymer"])
     melting = polymer.Melting(*(record.value(name) for name in _MELTING), 500.0)

@@ -12,17 +12,17 @@ from comparisons.numbers import Array, si
 from tvimdesign.physics.heat_flow import heat, held_plate, lumps, peltier, shape_factors
 from tvimdesign.physics.polymers import polymer
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 LAYER, CONDUCTIVITY, CAPACITY = 1e-3, 0.2, 1145.0 * 1900.0
 FOURIER_TIME = LAYER**2 * CAPACITY / CONDUCTIVITY  # s in which the Fourier number of the bare layer grows by one
 FLUX = 2000.0  # W/m^2: at 2 A half of I^2 R goes to the hot side of the bare stack
 
 
-def _fourier(inputs: Found) -> list[float]:
+def _fourier(inputs: Values) -> list[float]:
     return [number * FOURIER_TIME for number in inputs["fourier"]]
 
 
-def slab_under_flux(inputs: Found) -> Found:
+def slab_under_flux(inputs: Values) -> Values:
     """Rise k theta/(q L) of front and back over the Fourier number."""
     stack = bare_stack()
     seen = integrate(stack, heat.initial_state(stack, inputs["cells"], COLD), _fourier(inputs), current=2.0).profiles()
@@ -30,7 +30,7 @@ def slab_under_flux(inputs: Found) -> Found:
     return {"front": [(p.near - COLD) / scale for p in seen], "back": [(p.far - COLD) / scale for p in seen]}
 
 
-def stepped_slab(inputs: Found) -> Found:
+def stepped_slab(inputs: Values) -> Values:
     """Share of the step that is left at the insulated face; the mid-plane of a slab twice as thick."""
     stack = bare_stack(hot_capacity=FIXED)
     begin = heat.initial_state(stack, inputs["cells"], COLD)
@@ -38,7 +38,7 @@ def stepped_slab(inputs: Found) -> Found:
     return {"left": [1.0 - (p.far - COLD) / 50.0 for p in integrate(stack, begin, _fourier(inputs)).profiles()]}
 
 
-def slab_in_a_stream(inputs: Found) -> Found:
+def slab_in_a_stream(inputs: Values) -> Values:
     """Share of the difference that is left at the insulated face and at the one behind a film of a Biot number."""
     stack = bare_stack(hot_capacity=FIXED, hot_contact=inputs["biot"] * CONDUCTIVITY / LAYER)
     begin = heat.initial_state(stack, inputs["cells"], COLD)
@@ -50,7 +50,7 @@ def slab_in_a_stream(inputs: Found) -> Found:
     }
 
 
-def deep_layer_under_flux(inputs: Found) -> Found:
+def deep_layer_under_flux(inputs: Values) -> Values:
     """Rise of the surface of a layer that is deep for the heat [K] over time."""
     stack = bare_stack(thickness=8e-3)
     begin = heat.initial_state(stack, inputs["cells"], COLD)
@@ -58,18 +58,18 @@ def deep_layer_under_flux(inputs: Found) -> Found:
     return {"surface": [p.near - COLD for p in seen]}
 
 
-def order_of_the_cells(inputs: Found) -> Found:
+def order_of_the_cells(inputs: Values) -> Values:
     """Power by which the error of front and back under flux falls with the size of the cells."""
     exact = inputs["exact"]
     errors = []
     for cells in inputs["cells"]:
-        found = slab_under_flux({"cells": cells, "fourier": [inputs["fourier"]]})
-        errors.append([abs(found["front"][0] - exact[0]), abs(found["back"][0] - exact[1])])
+        results = slab_under_flux({"cells": cells, "fourier": [inputs["fourier"]]})
+        errors.append([abs(results["front"][0] - exact[0]), abs(results["back"][0] - exact[1])])
     orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
     return {"front": orders[:, 0], "back": orders[:, 1]}
 
 
-def touching_bodies(inputs: Found) -> Found:
+def touching_bodies(inputs: Values) -> Values:
     """Temperature [degC] at which a layer and a plate of another temperature meet, over time."""
     metal = inputs["plate"]
     stack = bare_stack(
@@ -82,7 +82,7 @@ def touching_bodies(inputs: Found) -> Found:
     return {"face": [p.far - 273.15 for p in integrate(stack, begin, inputs["time"], tolerance=1e-7).profiles()]}
 
 
-def wall_at_rest(inputs: Found) -> Found:
+def wall_at_rest(inputs: Values) -> Values:
     """Drops of temperature [K] from the heater to the air, half a plate's cell at its ends, under a steady flux."""
     stack = bare_stack(
         hot_contact=inputs["hot_contact"], plate_contact=inputs["plate_contact"], plate_conductivity=0.8,
@@ -92,7 +92,7 @@ def wall_at_rest(inputs: Found) -> Found:
     return {"drop": -np.diff([p.hot, p.near, p.far, p.plate_face, *p.plate, COLD])}
 
 
-def energy_of_a_switch(inputs: Found) -> Found:
+def energy_of_a_switch(inputs: Values) -> Values:
     """Heat stored by the layer and heat that came into it, over the second, of a layer that melts and loses heat."""
     melting = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
     stack = bare_stack(
@@ -108,7 +108,7 @@ def energy_of_a_switch(inputs: Found) -> Found:
     return {"balance": (stored[1] - stored[0] + np.trapezoid(lost, times)) / (2.0 * away)}
 
 
-def parallel_plates(inputs: Found) -> Found:
+def parallel_plates(inputs: Values) -> Values:
     """Heat [W] between grey plates by radiation alone, and a surface's loss by convection and radiation."""
     area, hot, cold = inputs["area"], inputs["hot"], inputs["cold"]
     gap = lumps.air_gap(area, 1.0, 0.0, inputs["emissivity"], ("hot", 0), ("plate", 0))
@@ -116,7 +116,7 @@ def parallel_plates(inputs: Found) -> Found:
     return {"radiation": lumps.link_heat(gap, hot, cold), "loss": lumps.surface_heat(surface, hot, cold)}
 
 
-def spread_plate(inputs: Found) -> Found:
+def spread_plate(inputs: Values) -> Values:
     """Resistance [m^2 K/W] that a plate beside its modules adds, over the width beside them [m]."""
     fed, thickness, k = inputs["fed"], inputs["thickness"], inputs["conductivity"]
     return {
@@ -127,19 +127,19 @@ def spread_plate(inputs: Found) -> Found:
     }
 
 
-def plate_behind_polymer(inputs: Found) -> Found:
+def plate_behind_polymer(inputs: Values) -> Values:
     """Steady temperatures [K] in a plate behind a polymer that is kept warm, with a body beside it."""
     side = lumps.Lump(inputs["sideways"], 1.0, lumps.Surface(inputs["side_area"], inputs["side_film"]))
     behind = held_plate.BehindPolymer(
         area=inputs["area"], plate_thickness=inputs["thickness"], plate_conductivity=inputs["conductivity"],
         plate_surface=lumps.Surface(inputs["area"], inputs["film"]), ambient=COLD, beside=(side,),
     )  # fmt: skip
-    found = held_plate.held_plate(behind, inputs["polymer"])
-    return {"plate": found.plate, "beside": found.beside}
+    results = held_plate.held_plate(behind, inputs["polymer"])
+    return {"plate": results.plate, "beside": results.beside}
 
 
 def _layer_state(stack: heat.Stack, cells: int, far: float, face: float) -> Array:
-    """A layer at one temperature [K] whose heated face has another one from the start."""
+    """Return a layer at one temperature [K] whose heated face has another from the start."""
     begin = heat.initial_state(stack, cells, far)
     begin[1] = (face - 273.15) / heat.TEMPERATURE_SCALE
     return begin
@@ -148,14 +148,14 @@ def _layer_state(stack: heat.Stack, cells: int, far: float, face: float) -> Arra
 _MELTING_POINT, _SPECIFIC_HEAT = 330.0, 2000.0
 
 
-def phase_front(inputs: Found) -> Found:
+def phase_front(inputs: Values) -> Values:
     """Depth of a melting or freezing front over 2 sqrt(a t) of the phase that grows, over cases of phases and faces.
 
     Rows of conductivity of solid and melt, far and face temperature [K]; the mean while it goes through a millimetre.
     """
     latent, cells = si(inputs["latent_heat"]), inputs["cells"]
     melting = polymer.Melting(_SPECIFIC_HEAT, _SPECIFIC_HEAT, latent, _MELTING_POINT, _MELTING_POINT + 0.02, 5.0)
-    found = []
+    results = []
     for (solid, melt, far, face), speed in zip(inputs["cases"], inputs["about"], strict=True):
         melts = face > _MELTING_POINT
         deep = 1e-3 if abs(far - _MELTING_POINT) < 0.1 else 4e-3
@@ -168,11 +168,11 @@ def phase_front(inputs: Found) -> Found:
         seen = integrate(stack, begin, list(times), tolerance=1e-7).profiles()
         frozen = np.array([float(np.mean(p.fractions)) for p in seen])
         grown = deep * (1.0 - frozen if melts else frozen)
-        found.append(float(np.mean(grown / np.sqrt(scale * times))))
-    return {"front": found}
+        results.append(float(np.mean(grown / np.sqrt(scale * times))))
+    return {"front": results}
 
 
-def layer_that_heats_itself(inputs: Found) -> Found:
+def layer_that_heats_itself(inputs: Values) -> Values:
     """Rise [K] of the insulated face of a layer its own current heats, the other face kept, over the Fourier number."""
     stack = bare_stack(hot_capacity=FIXED, layer_resistance=inputs["resistance"])
     begin = heat.initial_state(stack, inputs["cells"], COLD)
@@ -181,7 +181,7 @@ def layer_that_heats_itself(inputs: Found) -> Found:
     return {"insulated": [p.far - COLD for p in history.profiles()], "power": power}
 
 
-def layer_over_a_comb(inputs: Found) -> Found:
+def layer_over_a_comb(inputs: Values) -> Values:
     """Resistance [ohm] of a layer between the fingers of a comb, over rows of gap and width in depths."""
     depth, area, r = 1e-3, 1e-3, inputs["resistivity"]
     return {

@@ -13,10 +13,10 @@ from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import creep, melt, shrinkage
 from tvimdesign.physics.solids import structure
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
-def sheared_ring(inputs: Found) -> Found:
+def sheared_ring(inputs: Values) -> Values:
     """Stiffness [N*m/rad] of a sheared annular layer, and its torque [N*m] at a traction."""
     outer, inner, thickness = (si(inputs[name]) for name in ("outer_radius", "inner_radius", "thickness"))
     polar = 0.5 * np.pi * (outer**4 - inner**4)
@@ -28,7 +28,7 @@ def sheared_ring(inputs: Found) -> Found:
     }
 
 
-def layers_in_series(inputs: Found) -> Found:
+def layers_in_series(inputs: Values) -> Values:
     """Modulus of slices in series, and stiffness of a lossy layer behind a lossy support."""
     moduli = np.array(inputs["slices"], float)
     storage, loss = layer.series_modulus(moduli[:, 0], moduli[:, 1])
@@ -36,18 +36,18 @@ def layers_in_series(inputs: Found) -> Found:
     return {"slices": [storage, loss], "joint": list(joint)}
 
 
-def apparent_moduli(inputs: Found) -> Found:
+def apparent_moduli(inputs: Values) -> Values:
     """Compression modulus of bonded blocks over Young's modulus, rows of width, height and depth."""
-    poisson, found = inputs["poissons_ratio"], []
+    poisson, results = inputs["poissons_ratio"], []
     shear, bulk = structure.shear_modulus(1.0, poisson), block.bulk_modulus(1.0, poisson)
     for width, height, depth in inputs["blocks"]:
         shape = block.shape_factor(width, height, depth)
         stiff = 3.0 * shear * block.shape_stiffening(shape)
-        found.append(1.0 / (1.0 / stiff + 1.0 / block.volumetric_modulus(bulk, shape)))
-    return {"modulus": found}
+        results.append(1.0 / (1.0 / stiff + 1.0 / block.volumetric_modulus(bulk, shape)))
+    return {"modulus": results}
 
 
-def rubber_blocks(inputs: Found) -> Found:
+def rubber_blocks(inputs: Values) -> Values:
     """Compression modulus [Pa] of blocks of rubber over their shape factor."""
     youngs, bulk = si(inputs["youngs_modulus"]), si(inputs["bulk_modulus"])
     return {
@@ -58,7 +58,7 @@ def rubber_blocks(inputs: Found) -> Found:
     }
 
 
-def lap_edges(inputs: Found) -> Found:
+def lap_edges(inputs: Values) -> Values:
     """Traction at the edge of a lap over its mean, and what a layer bears over a window, over the reach."""
     stiffness, width = inputs["layer"], inputs["width"]
     first, second = inputs["sheets"]
@@ -72,7 +72,7 @@ def lap_edges(inputs: Found) -> Found:
     }
 
 
-def melt_in_gaps(inputs: Found) -> Found:
+def melt_in_gaps(inputs: Values) -> Values:
     """Mean speed in a gap [m/s], time to squeeze a strip [s], height a wetting liquid rises between plates [m]."""
     gap, viscosity = si(inputs["gap"]), inputs["viscosity"]
     length, width, thin, thick = (si(inputs[name]) for name in ("length", "width", "thin", "thick"))
@@ -84,17 +84,17 @@ def melt_in_gaps(inputs: Found) -> Found:
     }
 
 
-def held_link(inputs: Found) -> Found:
+def held_link(inputs: Values) -> Values:
     """Angle [rad] of a link under a lasting torque over time, and the angle at which its polymer is free of stress."""
     modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
-    found = [
+    results = [
         hold.held(inputs["torque"], float(time), inputs["springs"], inputs["structure"], modes)
         for time in inputs["time"]
     ]
-    return {"angle": [one.angle for one in found], "set_angle": [one.set_angle for one in found]}
+    return {"angle": [each.angle for each in results], "set_angle": [each.set_angle for each in results]}
 
 
-def plates_on_a_layer(inputs: Found) -> Found:
+def plates_on_a_layer(inputs: Values) -> Values:
     """Traction [Pa] where a layer that shrinks begins, over the span to the hub [m]."""
     return {
         "traction": [
@@ -106,7 +106,7 @@ def plates_on_a_layer(inputs: Found) -> Found:
     }
 
 
-def gives_of_pegs(inputs: Found) -> Found:
+def gives_of_pegs(inputs: Values) -> Values:
     """Way per force of pegs [m/N] and turn per moment of holes [rad/(N*m)] in one plastic."""
     modulus, poisson = inputs["modulus"], inputs["poissons_ratio"]
     shear = structure.shear_modulus(modulus, poisson)

@@ -13,12 +13,12 @@ from tvimdesign.physics.motions import motion
 from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.course import Plant
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 _RIGID = 1e9  # N*m/rad: a structure that does not give
 _NOTHING = [(1.0, 1e-9)]
 
 
-def _joint(inputs: Found, structure: float = _RIGID) -> motion.Joint:
+def _joint(inputs: Values, structure: float = _RIGID) -> motion.Joint:
     return motion.Joint(inputs["inertia"], inputs["springs"], inputs.get("structure", structure))
 
 
@@ -29,7 +29,7 @@ def _at(moved: Any, times: Any) -> Array:
     return np.asarray(between(np.array(times, float)))
 
 
-def natural_motion(inputs: Found) -> Found:
+def natural_motion(inputs: Values) -> Values:
     """Natural frequency [Hz], critical damping, and the frequency that a release on springs alone shows."""
     joint = _joint(inputs)
     ringing = link.swings(joint, _NOTHING, 0.1, np.zeros(1)).ringing()
@@ -40,7 +40,7 @@ def natural_motion(inputs: Found) -> Found:
     }
 
 
-def released_on_a_dashpot(inputs: Found) -> Found:
+def released_on_a_dashpot(inputs: Values) -> Values:
     """Angle [rad] over time of a link let go beside a dashpot, a Maxwell mode of a very short time."""
     short = inputs["shortest"]
     modes = [(short, inputs["damping"] / short)]
@@ -49,7 +49,7 @@ def released_on_a_dashpot(inputs: Found) -> Found:
     return {"angle": _at(moved, inputs["time"])}
 
 
-def released_on_maxwell(inputs: Found) -> Found:
+def released_on_maxwell(inputs: Values) -> Values:
     """Angle [rad] over time of a link let go beside Maxwell modes behind a structure."""
     modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
     start = np.full(len(modes), inputs["start"])
@@ -57,10 +57,10 @@ def released_on_maxwell(inputs: Found) -> Found:
     return {"angle": _at(moved, inputs["time"])}
 
 
-def rubbed(inputs: Found) -> Found:
+def rubbed(inputs: Values) -> Values:
     """Amplitudes [rad] at which a link let go against dry friction turns, and where it comes to rest."""
-    found = link.released(Plant(_joint(inputs), _NOTHING), inputs["start"], np.full(1, 0.0), inputs["friction"])
-    moved = found.motion
+    released = link.released(Plant(_joint(inputs), _NOTHING), inputs["start"], np.full(1, 0.0), inputs["friction"])
+    moved = released.motion
     stops = np.flatnonzero(moved.speed == 0.0)
     turned = moved.angle[stops][np.abs(np.diff(moved.angle[stops], prepend=np.nan)) > 1e-9]
-    return {"amplitude": np.abs(turned[: inputs["count"]]), "rest": abs(found.rest or 0.0)}
+    return {"amplitude": np.abs(turned[: inputs["count"]]), "rest": abs(released.rest or 0.0)}

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def si(value: Any) -> float:
-    """A quantity such as "0.072 in" in SI; a bare number is taken as it stands."""
+    """Convert a quantity such as "0.072 in" to SI; return a bare number unchanged."""
     if isinstance(value, str):
         number, unit = read_quantity(value)
         return to_si(number, unit)
@@ -22,5 +22,5 @@ def si(value: Any) -> float:
 
 
 def array(values: Sequence[Any]) -> Array:
-    """A list of quantities as an array in SI."""
+    """Convert a list of quantities to an array in SI."""
     return np.array([si(value) for value in values])

@@ -11,27 +11,27 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.physics.motions import contacts
 from tvimdesign.physics.solids import fasteners, structure
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
-def limits_of_fits(inputs: Found) -> Found:
+def limits_of_fits(inputs: Values) -> Values:
     """Lower and upper limit deviations [um] of tolerance classes, rows of class and size [mm]."""
     limits = [limit_deviations(fit, size) for fit, size in inputs["fits"]]
-    return {"lower": [1e3 * one.lower for one in limits], "upper": [1e3 * one.upper for one in limits]}
+    return {"lower": [1e3 * each.lower for each in limits], "upper": [1e3 * each.upper for each in limits]}
 
 
-def tolerance_grades(inputs: Found) -> Found:
+def tolerance_grades(inputs: Values) -> Values:
     """Standard tolerances [um] of one grade over sizes [mm]."""
     return {"tolerance": [1e3 * standard_tolerance(inputs["grade"], size) for size in inputs["size"]]}
 
 
-def screw_holes(inputs: Found) -> Found:
+def screw_holes(inputs: Values) -> Values:
     """Clearance hole and tapping drill [m] of screws of the catalogue."""
     records = [Catalog().record("screws", name) for name in inputs["screws"]]
     return {name: [record.value(name) for record in records] for name in ("clearance_hole", "tap_drill")}
 
 
-def tightening(inputs: Found) -> Found:
+def tightening(inputs: Values) -> Values:
     """Torque for a force [m] of screws by a nut factor."""
     return {
         "torque_per_force": [
@@ -40,23 +40,23 @@ def tightening(inputs: Found) -> Found:
     }
 
 
-def pin_shear(inputs: Found) -> Found:
+def pin_shear(inputs: Values) -> Values:
     """Force [N] that shears pins of the catalogue off in one section."""
-    found = []
+    results = []
     for name in inputs["pins"]:
         record = Catalog().record("dowel_pins", name)
-        found.append(fasteners.peg_shear_force(record.value("shear_strength"), record.value("diameter")))
-    return {"shear_force": found}
+        results.append(fasteners.peg_shear_force(record.value("shear_strength"), record.value("diameter")))
+    return {"shear_force": results}
 
 
-def clamped_disc(inputs: Found) -> Found:
+def clamped_disc(inputs: Values) -> Values:
     """Friction torque [N*m] of clamped rings over the inner radius."""
     outer = si(inputs["outer_radius"])
     share, force = inputs["friction"], si(inputs["force"])
     return {"torque": [contacts.disc_torque(share, force, si(inner), outer) for inner in inputs["inner_radius"]]}
 
 
-def bearing(inputs: Found) -> Found:
+def bearing(inputs: Values) -> Values:
     """Friction torque [N*m] of a ball bearing, and load on the nearer of two of an overhung force."""
     return {
         "torque": contacts.journal_torque(inputs["friction"], si(inputs["force"]), si(inputs["bore"])),
@@ -64,7 +64,7 @@ def bearing(inputs: Found) -> Found:
     }
 
 
-def damping_of_friction(inputs: Found) -> Found:
+def damping_of_friction(inputs: Values) -> Values:
     """Viscous damping [N*m*s/rad] that loses as much as friction, constant and in proportion to the load."""
     omega, amplitude = inputs["angular_frequency"], inputs["amplitude"]
     stiffness = inputs["stiffness"]

@@ -12,7 +12,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.heat_flow import peltier
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
 def _record(name: str) -> Record:
@@ -23,7 +23,7 @@ def _module(record: Record) -> peltier.PeltierModule:
     return peltier.PeltierModule(*(record.value(name) for name in ("seebeck", "resistance", "conductance")))
 
 
-def at_the_ratings(inputs: Found) -> Found:
+def at_the_ratings(inputs: Values) -> Values:
     """Voltage [V] at I_max and dT_max, and heat drawn there over K dT, of records with ratings."""
     voltages, heats = [], []
     for name in inputs["modules"]:
@@ -35,12 +35,12 @@ def at_the_ratings(inputs: Found) -> Found:
     return {"voltage": voltages, "heat": heats}
 
 
-def resistances(inputs: Found) -> Found:
+def resistances(inputs: Values) -> Values:
     """Resistance [ohm] of records, which their ratings give."""
     return {"resistance": [_module(_record(name)).resistance for name in inputs["modules"]]}
 
 
-def largest_heat(inputs: Found) -> Found:
+def largest_heat(inputs: Values) -> Values:
     """Heat [W] drawn without a difference at I_max, and the most any current draws."""
     rated, most = [], []
     for name in inputs["modules"]:
@@ -51,8 +51,8 @@ def largest_heat(inputs: Found) -> Found:
     return {"at_rated_current": rated, "most": most}
 
 
-def warmer_hot_side(inputs: Found) -> Found:
-    """What dT_max [K] and the largest heat gain with a warmer hot side, of records."""
+def warmer_hot_side(inputs: Values) -> Values:
+    """Return the gains of dT_max [K] and of the largest heat with a warmer hot side, of records."""
     gained, share = [], []
     for name in inputs["modules"]:
         record = _record(name)
@@ -74,7 +74,7 @@ def _coldest(module: peltier.PeltierModule, hot: float) -> float:
     return float(minimize_scalar(cold, bounds=(1e-3, 100.0), method="bounded", options={"xatol": 1e-9}).fun)
 
 
-def point_of_a_curve(inputs: Found) -> Found:
+def point_of_a_curve(inputs: Values) -> Values:
     """Heat [W] at a current and difference of a module known by its ratings alone, as a maker reads off a graph.
 
     The ratings become a module by the record's own formulas: S = V/T_h, R = V T_c/(I T_h), K = V I T_c/(2 T_h dT).
@@ -88,10 +88,10 @@ def point_of_a_curve(inputs: Found) -> Found:
     return {"heat": peltier.cold_side_heat(module, inputs["share_of_current"] * amperes, hot, at)}
 
 
-def best_performance(inputs: Found) -> Found:
+def best_performance(inputs: Values) -> Values:
     """Largest coefficient of performance over the difference [K], by search over the current."""
     module = peltier.PeltierModule(inputs["seebeck"], inputs["resistance"], inputs["conductance"])
-    hot, found = inputs["hot"], []
+    hot, results = inputs["hot"], []
     for difference in inputs["difference"]:
         cold = hot - difference
 
@@ -100,14 +100,14 @@ def best_performance(inputs: Found) -> Found:
             return float(-peltier.cold_side_heat(module, current, hot, cold) / power)
 
         best = minimize_scalar(performance, bounds=(0.02, 6.0), method="bounded", options={"xatol": 1e-10})
-        found.append(-best.fun)
-    return {"performance": found}
+        results.append(-best.fun)
+    return {"performance": results}
 
 
-def wired_modules(inputs: Found) -> Found:
+def wired_modules(inputs: Values) -> Values:
     """Heat [W] and voltage of modules in strings against one of them times their number."""
-    one = peltier.PeltierModule(inputs["seebeck"], inputs["resistance"], inputs["conductance"])
-    together = peltier.wired(one, inputs["count"], inputs["strings"])
+    each = peltier.PeltierModule(inputs["seebeck"], inputs["resistance"], inputs["conductance"])
+    together = peltier.wired(each, inputs["count"], inputs["strings"])
     current, hot, cold = inputs["current"], inputs["hot"], inputs["cold"]
     return {
         "heat": peltier.hot_side_heat(together, current, hot, cold),
@@ -116,7 +116,7 @@ def wired_modules(inputs: Found) -> Found:
     }
 
 
-def currents_at_a_voltage(inputs: Found) -> Found:
+def currents_at_a_voltage(inputs: Values) -> Values:
     """Current [A] at a constant voltage over the faces' temperatures, of modules of which only such curves are known.
 
     Each curve gives the Seebeck coefficient and the resistance that suit V = S (T_h - T_c) + I R best; the currents
@@ -125,11 +125,11 @@ def currents_at_a_voltage(inputs: Found) -> Found:
     currents, seebecks = [], []
     for curve in inputs["curves"]:
         hot, cold, measured = (np.array(curve[name]) for name in ("hot", "cold", "current"))
-        one = peltier.PeltierModule(1.0, 0.0, 0.0), peltier.PeltierModule(0.0, 1.0, 0.0)
-        table = np.column_stack([peltier.voltage(module, measured, hot, cold) for module in one])
+        each = peltier.PeltierModule(1.0, 0.0, 0.0), peltier.PeltierModule(0.0, 1.0, 0.0)
+        table = np.column_stack([peltier.voltage(module, measured, hot, cold) for module in each])
         seebeck, resistance = np.linalg.lstsq(table, np.full(len(hot), curve["voltage"]), rcond=None)[0]
         open_voltage = peltier.voltage(peltier.PeltierModule(seebeck, resistance, 0.0), 0.0, hot, cold)
-        currents += [float(one) for one in (curve["voltage"] - open_voltage) / resistance]
+        currents += [float(each) for each in (curve["voltage"] - open_voltage) / resistance]
         seebecks.append(float(seebeck))
     first = {module: seebecks[inputs["modules"].index(module)] for module in inputs["modules"]}
     over = [seebeck / first[module] for seebeck, module in zip(seebecks, inputs["modules"], strict=True)]

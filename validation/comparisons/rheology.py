@@ -18,13 +18,13 @@ from tvimdesign.physics.polymers import glass, melt, polymer, viscoelasticity
 from tvimdesign.physics.solids import structure
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 CELSIUS = polymer.ZERO_CELSIUS
 
 
 @cache
 def _fitted(path: Path, modes: int) -> Measured:
-    """A sweep in its maker's format, read without an option and fitted as the command `fit` does."""
+    """Read a sweep in its maker's format without an option and fit it as the command `fit` does."""
     return measure_files([path], "frequency_sweep", {"largest_modes": str(modes)})
 
 
@@ -32,22 +32,24 @@ def _spectrum(measured: Measured) -> list[tuple[float, float]]:
     return [(row[0], row[1]) for row in measured.measurement.record_tables["melt_spectrum"].rows]
 
 
-def viscosities(inputs: Found) -> Found:
+def viscosities(inputs: Values) -> Values:
     """Zero-shear viscosity [Pa*s] of fits to the files `first` and `others`; its power of the molar mass."""
     files = [*inputs["first"], *inputs["others"]]
-    found = [viscoelasticity.zero_shear_viscosity(_spectrum(_fitted(CASES / name, inputs["modes"]))) for name in files]
+    results = [
+        viscoelasticity.zero_shear_viscosity(_spectrum(_fitted(CASES / name, inputs["modes"]))) for name in files
+    ]
     count = len(inputs["first"])
-    power = float(np.polyfit(np.log(inputs["molar_mass"]), np.log(found), 1)[0])
-    return {"first": found[:count], "others": found[count:], "power_of_molar_mass": power}
+    power = float(np.polyfit(np.log(inputs["molar_mass"]), np.log(results), 1)[0])
+    return {"first": results[:count], "others": results[count:], "power_of_molar_mass": power}
 
 
-def relaxation_from_a_sweep(inputs: Found) -> Found:
+def relaxation_from_a_sweep(inputs: Values) -> Values:
     """Relaxation modulus [Pa] over time from a spectrum that was fitted to G' and G'' alone."""
     modes = _spectrum(_fitted(CASES / inputs["file"], inputs["modes"]))
     return {"modulus": viscoelasticity.relaxation_modulus(np.array(inputs["time"], float), modes)}
 
 
-def relaxation_of_modes(inputs: Found) -> Found:
+def relaxation_of_modes(inputs: Values) -> Values:
     """Relaxation modulus over time of given shares at given times, with what is left for ever."""
     shares, times = np.array(inputs["shares"], float), np.array(inputs["times"], float)
     whole = float(inputs["instant_modulus"])
@@ -55,7 +57,7 @@ def relaxation_of_modes(inputs: Found) -> Found:
     return {"modulus": viscoelasticity.relaxation_modulus(np.array(inputs["time"], float), modes)}
 
 
-def tests_of_a_spectrum(inputs: Found) -> Found:
+def tests_of_a_spectrum(inputs: Values) -> Values:
     """Relaxation, creep and start-up over time, G' and G'' over the angular frequency, of given modes."""
     modes, time = [tuple(map(float, mode)) for mode in inputs["modes"]], np.array(inputs["time"], float)
     omega = np.array(inputs.get("frequency", [1.0]), float)
@@ -69,23 +71,23 @@ def tests_of_a_spectrum(inputs: Found) -> Found:
     }
 
 
-def large_oscillation(inputs: Found) -> Found:
+def large_oscillation(inputs: Values) -> Values:
     """First-harmonic moduli [Pa] by Wagner's equation over the strain's amplitude."""
     modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
     limit, omega = inputs["linear_limit"], inputs["frequency"]
     moduli = [melt.wagner_moduli(strain, omega, modes, limit) for strain in inputs["strain"]]
-    return {"storage": [one[0] for one in moduli], "loss": [one[1] for one in moduli]}
+    return {"storage": [each[0] for each in moduli], "loss": [each[1] for each in moduli]}
 
 
-def back_from_laplace(inputs: Found) -> Found:
+def back_from_laplace(inputs: Values) -> Values:
     """exp(-t), 1 - exp(-t/5) and t back from their transforms, over time."""
 
     def transforms(rate: Any) -> tuple[Any, ...]:
         return 1.0 / (rate + 1.0), 1.0 / rate - 1.0 / (rate + 0.2), 1.0 / rate**2
 
-    found = [laplace.inverse(transforms, float(time)) for time in inputs["time"]]
+    results = [laplace.inverse(transforms, float(time)) for time in inputs["time"]]
     names = ("fading", "creeping", "flowing")
-    return {name: [float(one[i]) for one in found] for i, name in enumerate(names)}
+    return {name: [float(each[i]) for each in results] for i, name in enumerate(names)}
 
 
 def _glass(name: str) -> glass.Glass:
@@ -98,13 +100,13 @@ def _glass(name: str) -> glass.Glass:
     return glass.Glass(modulus, value("reference_temperature"), transition, solid_modes(record))
 
 
-def modulus_across_the_transition(inputs: Found) -> Found:
+def modulus_across_the_transition(inputs: Values) -> Values:
     """Time [s] in which a glass relaxes to a share of its modulus at its transition, and its rubber's modulus [Pa]."""
     record = Catalog().record("polymers", inputs["polymer"])
-    one, times = _glass(inputs["polymer"]), np.logspace(-3, 4, 701)
+    each, times = _glass(inputs["polymer"]), np.logspace(-3, 4, 701)
 
     def youngs(celsius: float, time: Array) -> Array:
-        relaxed = viscoelasticity.relaxation_modulus(time, one.at(CELSIUS + celsius))
+        relaxed = viscoelasticity.relaxation_modulus(time, each.at(CELSIUS + celsius))
         return 2.0 * (1.0 + record.value("poissons_ratio")) * relaxed
 
     left = youngs(inputs["at"], times) / youngs(inputs["before"], times)
@@ -112,15 +114,15 @@ def modulus_across_the_transition(inputs: Found) -> Found:
     return {"time": reached, "rubber": float(youngs(inputs["beyond"], np.array([reached]))[0])}
 
 
-def transition_of_a_sweep(inputs: Found) -> Found:
+def transition_of_a_sweep(inputs: Values) -> Values:
     """Temperature [degC] at which the loss modulus of a glass peaks at each frequency [Hz]."""
-    celsius, one = np.linspace(40.0, 110.0, 1401), _glass(inputs["polymer"])
-    spectrum = one.at(CELSIUS + celsius)
+    celsius, each = np.linspace(40.0, 110.0, 1401), _glass(inputs["polymer"])
+    spectrum = each.at(CELSIUS + celsius)
     peaks = [np.argmax(polymer.maxwell_moduli(2.0 * np.pi * f, spectrum)[1]) for f in inputs["frequency"]]
     return {"peak": celsius[peaks]}
 
 
-def relaxation_of_a_glass(inputs: Found) -> Found:
+def relaxation_of_a_glass(inputs: Values) -> Values:
     """Share of the relaxing modulus of a glass that is left at its transition, over time."""
     modes = [mode for mode in _glass(inputs["polymer"]).modes if mode[0] < 1e10]
     whole = sum(share for _, share in modes)

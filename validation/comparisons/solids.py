@@ -12,13 +12,13 @@ from tvimdesign.physics.bodies import shapes
 from tvimdesign.physics.polymers import creep, shrinkage
 from tvimdesign.physics.solids import structure, vane, warm
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 _SOFTENING = ("modulus_slope", "softening_temperature", "softening_width", "softened_share", "loss_factor",
               "softening_loss_factor")  # fmt: skip
 
 
-def torsion(inputs: Found) -> Found:
-    """A round shaft [N*m/rad], its torque at yield [N*m], a flat ring turned in its plane; holes along the shaft."""
+def torsion(inputs: Values) -> Values:
+    """Return a round bored shaft [N*m/rad], its torque at yield [N*m], and a flat ring turned in its plane."""
     shear = structure.shear_modulus(inputs["youngs_modulus"], inputs["poissons_ratio"])
     radius, length = inputs["radius"], inputs["length"]
     ring = inputs["ring"]
@@ -30,7 +30,7 @@ def torsion(inputs: Found) -> Found:
     }
 
 
-def foot(inputs: Found) -> Found:
+def foot(inputs: Values) -> Values:
     """Sideways stiffness [N/m] of a bored foot built in at both ends, over its height [m]."""
     youngs = inputs["youngs_modulus"]
     shear = structure.shear_modulus(youngs, inputs["poissons_ratio"])
@@ -42,7 +42,7 @@ def foot(inputs: Found) -> Found:
     }
 
 
-def pressed_cantilever(inputs: Found) -> Found:
+def pressed_cantilever(inputs: Values) -> Values:
     """Force on the face over its mean deflection [N/m] of a vane on a rigid root, over the length free of the block."""
     youngs = inputs["youngs_modulus"]
     shear = structure.shear_modulus(youngs, inputs["poissons_ratio"])
@@ -54,7 +54,7 @@ def pressed_cantilever(inputs: Found) -> Found:
     }
 
 
-def elastic_constants(inputs: Found) -> Found:
+def elastic_constants(inputs: Values) -> Values:
     """Confined modulus and flexural rigidity from Young's modulus and Poisson's ratio."""
     youngs, poisson = inputs["youngs_modulus"], inputs["poissons_ratio"]
     return {
@@ -64,15 +64,15 @@ def elastic_constants(inputs: Found) -> Found:
     }
 
 
-def warm_moduli(inputs: Found) -> Found:
+def warm_moduli(inputs: Values) -> Values:
     """Modulus [MPa] of materials at temperatures [degC], rows of material, temperature and modulus at 23 degC."""
-    found = []
+    results = []
     for material, celsius, at_23 in inputs["rows"]:
-        found.append(at_23 * float(warm.modulus_share(celsius + 273.15, _law(material))))
-    return {"modulus": found}
+        results.append(at_23 * float(warm.modulus_share(celsius + 273.15, _law(material))))
+    return {"modulus": results}
 
 
-def modulus_over_that_at(inputs: Found) -> Found:
+def modulus_over_that_at(inputs: Values) -> Values:
     """Modulus of a material over that at a reference temperature [degC], over the temperature."""
     law = _law(inputs["material"])
     share = warm.modulus_share(np.array(inputs["celsius"], float) + 273.15, law)
@@ -84,7 +84,7 @@ def _law(material: str) -> warm.Softening:
     return warm.Softening(*(record.value(name) for name in _SOFTENING))
 
 
-def creep_moduli(inputs: Found) -> Found:
+def creep_moduli(inputs: Values) -> Values:
     """Creep modulus [MPa] of a material over hours at 23 degC, and how much an hour at a temperature ages it."""
     record = Catalog().record("structure_materials", inputs["material"])
     law = creep.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
@@ -92,15 +92,15 @@ def creep_moduli(inputs: Found) -> Found:
     return {"modulus": inputs["tensile_modulus"] / (1.0 + creep.growth(3600.0 * hours, law))}
 
 
-def ages(inputs: Found) -> Found:
+def ages(inputs: Values) -> Values:
     """Hours at 23 degC that age as one at a temperature [degC], of an activation energy [J/mol]."""
     law = creep.Creep(0.1, 0.1, inputs["energy"])
     return {"hours": [creep.aged(1.0, celsius + 273.15, law) for celsius in inputs["celsius"]]}
 
 
-def flat_shapes(inputs: Found) -> Found:
+def flat_shapes(inputs: Values) -> Values:
     """Area [m^2] and polar moment [m^4] of sectors, discs, rectangles, slots, notches and strips about an axis."""
-    found = {
+    results = {
         "sector": shapes.sector(*inputs["sector"]),
         "disc": shapes.disc_at(*inputs["disc"]),
         "rectangle": shapes.rectangle_at(*inputs["rectangle"]),
@@ -108,8 +108,8 @@ def flat_shapes(inputs: Found) -> Found:
         "notch": shapes.notch(*inputs["notch"]),
     }
     return {
-        "area": [section.area for section in found.values()],
-        "polar": [section.polar for section in found.values()],
+        "area": [section.area for section in results.values()],
+        "polar": [section.polar for section in results.values()],
         "lens": shapes.lens(*inputs["lens"]),
         "strip": shapes.radial_strip(*inputs["strip"]),
     }

@@ -11,11 +11,11 @@ from comparisons.numbers import array, si
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.springs import spring, transmission
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 TURN = 2.0 * np.pi
 
 
-def rate_per_turn(inputs: Found) -> Found:
+def rate_per_turn(inputs: Values) -> Values:
     """Torque for a turn [N*m] of one spring by a rate model, and its active coils."""
     coil, legs = si(inputs["coil_diameter"]), si(inputs.get("leg_length", 0.0))
     coils = spring.active_coils(inputs["coils"], coil, legs)
@@ -23,52 +23,52 @@ def rate_per_turn(inputs: Found) -> Found:
     return {"rate_per_turn": rate * TURN, "rate": rate, "active_coils": coils}
 
 
-def handbook_example(inputs: Found) -> Found:
-    """All figures of a worked example: active coils, rate, curvature, wound coil, torque that the strength allows."""
+def handbook_example(inputs: Values) -> Values:
+    """Return all figures of a worked example: active coils, rate, curvature, wound coil, torque at strength."""
     wire, coil, body = si(inputs["wire_diameter"]), si(inputs["coil_diameter"]), inputs["coils"]
     modulus, turned = si(inputs["youngs_modulus"]), si(inputs["wound"])
-    found = dict(rate_per_turn(inputs))
+    results = dict(rate_per_turn(inputs))
     factor = spring.inner_fibre_factor(spring.spring_index(wire, coil))
     body_rate = spring.rate(modulus, wire, coil, body, inputs["model"])
-    found["inner_fibre_factor"] = factor
-    found["wound_coil_diameter"] = spring.loaded_coil_diameter(coil, body, turned)
-    found["stress"] = spring.bending_stress(turned * body_rate, wire, factor)
-    return found
+    results["inner_fibre_factor"] = factor
+    results["wound_coil_diameter"] = spring.loaded_coil_diameter(coil, body, turned)
+    results["stress"] = spring.bending_stress(turned * body_rate, wire, factor)
+    return results
 
 
-def catalogue_torque(inputs: Found) -> Found:
+def catalogue_torque(inputs: Values) -> Values:
     """Torque [N*m] at a deflection of springs of a maker's table, rows of wire, outer diameter, coils; SMI's rate.
 
     The modulus is the wire's by its diameter, of the record `wire`.
     """
     steps = Catalog().record("spring_materials", inputs["wire"]).table("youngs_modulus_steps")
-    found = []
+    results = []
     for diameter, outer, coils in inputs["springs"]:
         wire = si(f"{diameter} {inputs['length_unit']}")
         coil = si(f"{outer} {inputs['length_unit']}") - wire
         modulus = next(
             row["youngs_modulus"] for row in steps if row["wire_diameter_from"] <= wire < row["wire_diameter_to"]
         )
-        found.append(spring.rate(modulus, wire, coil, coils, "smi") * si(inputs["deflection"]))
-    return {"torque": found}
+        results.append(spring.rate(modulus, wire, coil, coils, "smi") * si(inputs["deflection"]))
+    return {"torque": results}
 
 
-def stress_factors(inputs: Found) -> Found:
+def stress_factors(inputs: Values) -> Values:
     """Stress factors at the inner fibre over the spring index."""
     index = array(inputs["index"])
     return {"smi": spring.inner_fibre_factor(index), "en": spring.inner_fibre_factor_en(index)}
 
 
-def wire_strength(inputs: Found) -> Found:
+def wire_strength(inputs: Values) -> Values:
     """Tensile strength [Pa] of wires of the catalogue, rows of record and diameter."""
-    found = []
+    results = []
     for record, diameter in inputs["wires"]:
         rows = Catalog().record("spring_materials", record).table("strength")
-        found.append(spring.tensile_strength(si(diameter), [(row["coefficient"], row["exponent"]) for row in rows]))
-    return {"tensile_strength": found}
+        results.append(spring.tensile_strength(si(diameter), [(row["coefficient"], row["exponent"]) for row in rows]))
+    return {"tensile_strength": results}
 
 
-def din_tolerances(inputs: Found) -> Found:
+def din_tolerances(inputs: Values) -> Values:
     """Tolerances of coil diameter [m] and free angle [rad] by DIN 2194 over the grades' factors."""
     wire, coil = si(inputs["wire_diameter"]), si(inputs["coil_diameter"])
     return {
@@ -79,7 +79,7 @@ def din_tolerances(inputs: Found) -> Found:
     }
 
 
-def endurance(inputs: Found) -> Found:
+def endurance(inputs: Values) -> Values:
     """Endurance limit [Pa] and safety of a spring between two stresses, by Gerber."""
     tensile, ratio = si(inputs["tensile_strength"]), inputs["strength_ratio"]
     limit = spring.endurance_strength(tensile, ratio)
@@ -87,18 +87,18 @@ def endurance(inputs: Found) -> Found:
     return {"endurance_limit": limit, "safety": safety}
 
 
-def wave(inputs: Found) -> Found:
+def wave(inputs: Values) -> Values:
     """Rate [N/m] and stress [Pa] of a wave spring, and the deflection factor."""
     size = [si(inputs[name]) for name in ("inner_diameter", "outer_diameter", "thickness")]
-    found = spring.wave_spring_rate(si(inputs["youngs_modulus"]), *size, inputs["waves"])
+    rate = spring.wave_spring_rate(si(inputs["youngs_modulus"]), *size, inputs["waves"])
     return {
-        "rate": found,
+        "rate": rate,
         "stress": spring.wave_spring_stress(si(inputs["force"]), *size, inputs["waves"]),
         "factor": spring.WAVE_FACTOR,
     }
 
 
-def output_stiffness(inputs: Found) -> Found:
+def output_stiffness(inputs: Values) -> Values:
     """Stiffness about the rotor [N*m/rad] of springs on pins over the angle from rest; by the drawn geometry."""
     rate = spring.rate(*(si(inputs[name]) for name in ("youngs_modulus", "wire_diameter", "coil_diameter")),
                        inputs["coils"])  # fmt: skip
@@ -113,8 +113,8 @@ def output_stiffness(inputs: Found) -> Found:
     return {"by_the_papers_ratio": unity, "as_drawn": drawn}
 
 
-def leg_on_its_pin(inputs: Found) -> Found:
-    """How far a leg has turned [rad] over the rotor's angle, and by how much for each radian of it."""
+def leg_on_its_pin(inputs: Values) -> Values:
+    """Return a leg's angle [rad] over the rotor's angle, and its derivatives."""
     pin, place, offset = (si(inputs[name]) for name in ("pin_radius", "placement_radius", "offset"))
     angle = array(inputs["angle"])
     return {

@@ -12,7 +12,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import given, read_study
 
-Found = Mapping[str, Any]
+Values = Mapping[str, Any]
 STUDIES = Path(__file__).resolve().parents[2] / "studies"
 
 
@@ -24,22 +24,22 @@ def _times(study: str) -> Mapping[str, float]:
     return Simulator(model).run(model.start.copy()).values
 
 
-def starts(inputs: Found) -> Found:
+def starts(inputs: Values) -> Values:
     """Times [s] of rows of study and time, as the studies start."""
     return {"time": [_times(study)[time] for study, time in inputs["times"]]}
 
 
-def published_times(inputs: Found) -> Found:
+def published_times(inputs: Values) -> Values:
     """Times [s] of the published module with what the case changes, to the temperature that its paper states."""
     model = published_model()
     values = model.start.copy()
     for name, value in inputs["changes"].items():
         values[model.index[name]] = value
-    found = Simulator(model).run(values).values
-    return {time: found[time] for time in ("near_face_time", "mean_time", "far_face_time")}
+    results = Simulator(model).run(values).values
+    return {time: results[time] for time in ("near_face_time", "mean_time", "far_face_time")}
 
 
-def published_sizes(_: Found) -> Found:
+def published_sizes(_: Values) -> Values:
     """Contact area [mm^2] and inertia-free figures of the published module."""
     values = published_values()
     return {"area": values["pcl_area"] * 1e6}

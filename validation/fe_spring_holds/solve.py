@@ -23,10 +23,10 @@ def main(folders: list[str]) -> None:
     """Solve pin and hole of each folder's parts."""
     for folder in map(Path, folders):
         inputs = json.loads((folder / "inputs.json").read_text())
-        found = {"pin": pin(folder, inputs)}
+        results = {"pin": pin(folder, inputs)}
         if not inputs["values"]["preload_adjustment"]:  # with adjusters a post holds the tang
-            found["hole"] = hole(folder, inputs)
-        print(yaml.safe_dump({folder.name: found}), flush=True)
+            results["hole"] = hole(folder, inputs)
+        print(yaml.safe_dump({folder.name: results}), flush=True)
 
 
 def pin(folder: Path, inputs: dict) -> dict[str, float]:
@@ -75,7 +75,7 @@ def _is_hole(face, radius: float) -> bool:
 
 
 def _cut(shape, at: tuple[float, float], half: float):
-    """What lies in a square block around a place."""
+    """Cut a square block around a place out of a shape."""
     return shape * Box(Pnt(at[0] - half, at[1] - half, -100), Pnt(at[0] + half, at[1] + half, 100))
 
 
@@ -106,9 +106,9 @@ def _work(mesh, values: dict, form_of_load) -> float:
         )
         load = ng.LinearForm(form_of_load(v)).Assemble()
         form.Assemble()
-        found = ng.GridFunction(space)
-        found.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
-        return ng.InnerProduct(load.vec, found.vec)
+        results = ng.GridFunction(space)
+        results.vec.data = form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * load.vec
+        return ng.InnerProduct(load.vec, results.vec)
 
 
 if __name__ == "__main__":

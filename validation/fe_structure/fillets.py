@@ -38,7 +38,7 @@ MESHES = 0.6, 0.5, 0.4, 0.3, 0.25
 
 
 class Foot(NamedTuple):
-    """What one solution tells."""
+    """Evaluate one solution."""
 
     bar: float
     """Compliance above the plate's face, in lengths of the bar."""
@@ -80,13 +80,13 @@ def solved(radius: float, plate: float, fillet: float) -> Foot:
     space = H1(mesh, order=4, dirichlet="turned|rim")
     twist, test = space.TnT()
     form = BilinearForm(2 * pi * x**3 * grad(twist) * grad(test) * dx).Assemble()
-    found = GridFunction(space)
-    found.Set(1.0, definedon=mesh.Boundaries("turned"))
-    found.vec.data -= form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * (form.mat * found.vec).Evaluate()
-    density, inside = 2 * pi * x**3 * grad(found) * grad(found), IfPos(radius + 1e-6 - x, 1, 0)
+    results = GridFunction(space)
+    results.Set(1.0, definedon=mesh.Boundaries("turned"))
+    results.vec.data -= form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * (form.mat * results.vec).Evaluate()
+    density, inside = 2 * pi * x**3 * grad(results) * grad(results), IfPos(radius + 1e-6 - x, 1, 0)
     bar, ring = (Integrate(share * density, mesh, order=12) for share in (inside, 1 - inside))
     torque, polar = bar + ring, 0.5 * pi * radius**4
-    shear = x * sqrt(grad(found) * grad(found)) * polar / (torque * radius)
+    shear = x * sqrt(grad(results) * grad(results)) * polar / (torque * radius)
     along = [shear(mesh(*place)) for place in zip(*foot_surface.places(radius, fillet), strict=True)]
     return Foot(bar * polar / torque**2, ring * polar / torque**2, float(foot_surface.highest_mean(along)))
 
@@ -99,7 +99,7 @@ def main() -> None:
         for fillet in FILLETS:
             now = solved(radius, plate, fillet)
             lengths = (sharp.bar - now.bar) / fillet, (now.plate - sharp.plate) / fillet
-            rows.append((radius, plate, fillet, *(f"{one:.3f}" for one in (*lengths, now.stress / sharp.stress))))
+            rows.append((radius, plate, fillet, *(f"{each:.3f}" for each in (*lengths, now.stress / sharp.stress))))
     with TABLE.open("w", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows(
             [("radius", "plate", "fillet", "bar_shorter", "plate_longer", "foot"), *rows]

@@ -42,8 +42,8 @@ def _place(face: Any) -> tuple[float, ...]:
     return round(face.center.x, 3), round(face.center.y, 3), round(face.center.z, 3), round(face.mass, 3)
 
 
-def found(folder: Path) -> dict[str, float]:
-    """The force on one vane, and its angle [deg]."""
+def results(folder: Path) -> dict[str, float]:
+    """Return the force on one vane, and its angle [deg]."""
     inputs = json.loads((folder / "inputs.json").read_text())
     mm, values = inputs["mm"], inputs["values"]
     whole = Glue(joint_solids.parts(folder, mm, COARSER, PRESSED / COARSER))
@@ -63,11 +63,11 @@ def found(folder: Path) -> dict[str, float]:
         out, across = (np.array([np.cos(azimuth + turn), np.sin(azimuth + turn)]) for turn in (0.0, 0.5 * np.pi))
         beside = x - radius * out[0], y - radius * out[1]
         ways = {"along": (*out, 0), "across": (*across, 0), "moment": (-beside[1], beside[0], 0)}
-        one, parts = GridFunction(held.space), {}
+        each, parts = GridFunction(held.space), {}
         for name, way in ways.items():
-            one.vec[:] = 0.0
-            one.Set(CF(way), definedon=mesh.Boundaries("between"))
-            work = InnerProduct(tensor, elastic.strain_of(one))
+            each.vec[:] = 0.0
+            each.Set(CF(way), definedon=mesh.Boundaries("between"))
+            work = InnerProduct(tensor, elastic.strain_of(each))
             parts[name] = abs(Integrate(work, mesh, definedon=mesh.Materials("pcl")))
     even_force = torque / mm["vane_count"] / radius
     parts = {name: float(value / even_force) for name, value in parts.items()}
@@ -75,4 +75,4 @@ def found(folder: Path) -> dict[str, float]:
 
 
 if __name__ == "__main__":
-    print({name: round(value, 3) for name, value in found(Path(sys.argv[1])).items()})
+    print({name: round(value, 3) for name, value in results(Path(sys.argv[1])).items()})

@@ -22,28 +22,28 @@ import joint
 TABLE = Path(__file__).with_name("liners.csv")
 ROWS = ((0.4, 0.0), (1.0, 0.0), (3.0, 0.0), (26.48, 0.0), (1.0, 0.2))
 """Modulus over that of the module's liner, the last but one that of the plate; gap beside the liner [mm]."""
-FOUND = ("edge_inner", "edge_outer", "edge_end", "edge_highest")
+RESULTS = ("edge_inner", "edge_outer", "edge_end", "edge_highest")
 
 
 def solved(parts: Path, stiffer: float, gap: float) -> tuple[str, ...]:
-    """A row of the table."""
+    """Return a row of the table."""
     with tempfile.TemporaryDirectory() as folder:
         own = Path(shutil.copytree(parts, Path(folder) / "parts"))
         inputs = json.loads((own / "inputs.json").read_text())
         inputs["values"]["liner_youngs_modulus"] *= stiffer
         inputs["mm"]["liner_gap"] = gap
         (own / "inputs.json").write_text(json.dumps(inputs))
-        found = joint.solve(own)
+        results = joint.solve(own)
     values = inputs["values"]
     shear = values["liner_youngs_modulus"] * 0.5e-9 / (1.0 + values["liner_poissons_ratio"])
-    return (f"{shear:.4g}", f"{gap:g}", *(f"{found[name]:.4g}" for name in FOUND))
+    return (f"{shear:.4g}", f"{gap:g}", *(f"{results[name]:.4g}" for name in RESULTS))
 
 
 def main() -> None:
     """Solve all rows and write the table."""
     rows = [solved(Path(sys.argv[1]), *row) for row in ROWS]
     with TABLE.open("w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([("shear_modulus", "gap", *FOUND), *rows])
+        csv.writer(file, lineterminator="\n").writerows([("shear_modulus", "gap", *RESULTS), *rows])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What the model says of the designs that FE is held against: the same quantities, by the same names."""
+"""Model values of the designs solved by FE: the same quantities, by the same names."""
 
 from __future__ import annotations
 
@@ -71,12 +71,12 @@ def design_rows(study: str, values: dict[str, float], choices: dict[str, str]) -
 
 
 def designed(cell: str, unit: str) -> float | str:
-    """What a cell of the design tells."""
+    """Read a cell of the design."""
     return cell if unit == "record" else float(cell)
 
 
-def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], found: Any) -> dict[str, Any]:
-    """A case of shipped.yaml: lengths of the drawn parts, moduli of what they are made of, and what FE found."""
+def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], results: Any) -> dict[str, Any]:
+    """Return a case of shipped.yaml: lengths of the drawn parts, moduli of their materials, and results of FE."""
     mm, values = inputs["mm"], inputs["values"]
     case = {
         "mode": inputs["mode"],
@@ -85,7 +85,7 @@ def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], 
         "pad_shear_modulus": values["peltier_shear_modulus"] * 1e-9,
         "feet": round(mm["spring_count"]),
         "mm": {name: float(f"{mm[name]:.5g}") for name in LENGTHS if mm.get(name)},
-        "found": found,
+        "found": results,
     }
     if values.get("peltier_bulk_modulus"):
         case["pad_bulk_modulus"] = values["peltier_bulk_modulus"] * 1e-9
@@ -99,7 +99,7 @@ def case_of(study: str, inputs: dict[str, Any], varied: dict[str, float | str], 
 
 
 def fe_values(joint: dict[str, float], spring: dict[str, float]) -> dict[str, float]:
-    """What FE finds, by the names of the model."""
+    """Return the results of FE by the names of the model."""
     return {**comparison.joint_rows(joint), "spring_rate": spring["rate"]}
 
 
@@ -107,5 +107,5 @@ def model_values(study: str, varied: dict[str, float | str]) -> dict[str, tuple[
     """Unit and value by the model, of a study with the values (SI) and records of what it varies."""
     read = read_study(ROOT / f"studies/{study}.yaml")
     rows = comparison.model_values(ResolvedModule(read, {**given(read), **varied}))
-    kept = {name: value for name, value in rows.items() if name not in NOT_KEPT}
-    return {name: ("MPa/(N*m)" if name in STRESSES else "N*m/rad", float(value)) for name, value in kept.items()}
+    selected = {name: value for name, value in rows.items() if name not in NOT_KEPT}
+    return {name: ("MPa/(N*m)" if name in STRESSES else "N*m/rad", float(value)) for name, value in selected.items()}

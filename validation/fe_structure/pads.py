@@ -42,13 +42,13 @@ def over_three_g(width: float, height: float, thick: float, slot: tuple[float, f
     lame = 2 * poisson / (1 - 2 * poisson)
     worked = 2 * InnerProduct(Sym(Grad(u)), Sym(Grad(v))) + lame * Trace(Grad(u)) * Trace(Grad(v))
     form = BilinearForm(worked * dx, symmetric=True).Assemble()
-    found = GridFunction(space)
-    found.Set(CF((0, -1, 0)), definedon=mesh.Boundaries("front"))
-    change = found.vec.CreateVector()
-    change.data = form.mat * found.vec
-    found.vec.data -= form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * change
-    change.data = form.mat * found.vec
-    return float(2 * InnerProduct(change, found.vec) / (3 * width * height / thick))
+    results = GridFunction(space)
+    results.Set(CF((0, -1, 0)), definedon=mesh.Boundaries("front"))
+    change = results.vec.CreateVector()
+    change.data = form.mat * results.vec
+    results.vec.data -= form.mat.Inverse(space.FreeDofs(), "sparsecholesky") * change
+    change.data = form.mat * results.vec
+    return float(2 * InnerProduct(change, results.vec) / (3 * width * height / thick))
 
 
 def main() -> None:
@@ -57,9 +57,9 @@ def main() -> None:
         rows = list(csv.DictReader(file))
     for row in rows:
         width, height, thick, across, up, poisson = (float(row[name]) for name in list(row)[:-1])
-        found = over_three_g(width, height, thick, (across, up), poisson)
-        print(f"{row['width']} x {row['height']}: {row['over_three_g']} -> {found:.3f}", flush=True)
-        row["over_three_g"] = f"{found:.3f}"
+        results = over_three_g(width, height, thick, (across, up), poisson)
+        print(f"{row['width']} x {row['height']}: {row['over_three_g']} -> {results:.3f}", flush=True)
+        row["over_three_g"] = f"{results:.3f}"
     with TABLE.open("w", newline="") as file:
         writer = csv.DictWriter(file, rows[0], lineterminator="\n")
         writer.writeheader()

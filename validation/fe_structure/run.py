@@ -53,9 +53,11 @@ def done(command: list[object], into: Path) -> None:
     print(*command, file=sys.stderr, flush=True)
     paths = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
     alone = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": paths}
-    asked = [str(part) for part in command]
-    found = subprocess.run(asked, check=True, stdout=subprocess.PIPE, text=True, timeout=LONGEST, env=alone).stdout
-    into.write_text(found)
+    requested = [str(part) for part in command]
+    results = subprocess.run(
+        requested, check=True, stdout=subprocess.PIPE, text=True, timeout=LONGEST, env=alone
+    ).stdout
+    into.write_text(results)
 
 
 def solved(study: str, work: Path, fe_python: Path) -> tuple[dict[str, float], dict[str, Any]]:
@@ -92,26 +94,26 @@ def design_of(study: str, work: Path) -> list[Row]:
     return design_rows(study, design["values"], design["choices"])
 
 
-def found_by(solver: str, parts: Path, found: Path, fe_python: Path) -> dict[str, float]:
-    """What a solver finds of some parts; the mesher says on standard output where its mesh has holes."""
-    printed = found.with_suffix(".txt")
-    done([fe_python, SOLVERS / f"{solver}.py", parts, found], printed)
+def found_by(solver: str, parts: Path, results: Path, fe_python: Path) -> dict[str, float]:
+    """Solve some parts; the mesher reports holes of its mesh on standard output."""
+    printed = results.with_suffix(".txt")
+    done([fe_python, SOLVERS / f"{solver}.py", parts, results], printed)
     if "NOT ALL FACES" in printed.read_text():
         raise ValueError(f"{printed}: faces without a mesh")
-    rows: dict[str, float] = json.loads(found.read_text())
+    rows: dict[str, float] = json.loads(results.read_text())
     return rows
 
 
 def rows_of(study: str, work: Path, fe_python: Path) -> tuple[list[Row], dict[str, Any]]:
-    """The design of a study, and its model's values beside those of FE; its case of shipped.yaml."""
+    """Return a study's design with values of model and FE, and its case of shipped.yaml."""
     fe, case = solved(study, work, fe_python)
     design = design_of(study, work)
-    found = [
+    results = [
         Row(study, name, unit, value, fe[name])
         for name, (unit, value) in model_values(study, varied_of(study, work)).items()
         if name in fe
     ]
-    return [*design, *found], case
+    return [*design, *results], case
 
 
 def main() -> None:
@@ -122,18 +124,18 @@ def main() -> None:
     parser.add_argument("--work", type=Path, default=Path("fe_work"))
     parser.add_argument("--check", action="store_true", help="hold what is found against the table, and write nothing")
     parser.add_argument("--model", action="store_true", help="tell anew what the model says, and solve nothing")
-    asked = parser.parse_args()
-    if asked.model:
+    requested = parser.parse_args()
+    if requested.model:
         tell_model()
         print(*worst_first(), sep="\n")
         return
     failed = []
     shipped = {path.stem for path in (ROOT / "studies").glob("*.yaml")} - LEFT_OUT
-    for study in asked.studies or sorted(shipped):
+    for study in requested.studies or sorted(shipped):
         try:
-            rows, case = rows_of(study, asked.work.resolve(), asked.fe_python)
-            failed += [f"{study}: {line}" for line in differing(study, rows)] if asked.check else []
-            if not asked.check:
+            rows, case = rows_of(study, requested.work.resolve(), requested.fe_python)
+            failed += [f"{study}: {line}" for line in differing(study, rows)] if requested.check else []
+            if not requested.check:
                 put(study, rows, case)
         except (subprocess.SubprocessError, OSError, ValueError) as trouble:
             failed.append(f"{study}: {trouble}")
@@ -146,14 +148,14 @@ def tell_model() -> None:
     with alone():
         with RESULTS.open(newline="") as file:
             rows = list(csv.DictReader(file))
-        told = {}
+        stored = {}
         for study in {row["study"] for row in rows}:
             own = [row for row in rows if row["study"] == study and row["unit"] in DESIGN]
             varied = {row["quantity"]: designed(row["model"], row["unit"]) for row in own}
-            told |= {(study, name): value for name, (_, value) in model_values(study, varied).items()}
+            stored |= {(study, name): value for name, (_, value) in model_values(study, varied).items()}
         fresh = [
             Row(
-                row["study"], row["quantity"], row["unit"], told[row["study"], row["quantity"]], float(row["fe"])
+                row["study"], row["quantity"], row["unit"], stored[row["study"], row["quantity"]], float(row["fe"])
             ).cells()
             if row["fe"]
             else [row[name] for name in HEADER]
@@ -166,13 +168,13 @@ def worst_first() -> list[str]:
     """Rows of the table in README.md: what model over FE is, the quantity that is farthest off first."""
     with RESULTS.open(newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["ratio"]]
-    found = []
+    results = []
     for name in {row["quantity"] for row in rows}:
         ratios = sorted((float(row["ratio"]), row["study"]) for row in rows if row["quantity"] == name)
         off, study = max((abs(ratio - 1.0), study) for ratio, study in ratios)
         words = f"| {name} | {ratios[0][0]:.3f} to {ratios[-1][0]:.3f} | `{study}` | {len(ratios)} |"
-        found.append((off, words))
-    return [words for _, words in sorted(found, reverse=True)]
+        results.append((off, words))
+    return [words for _, words in sorted(results, reverse=True)]
 
 
 def write(rows: list[list[str]]) -> None:
@@ -182,14 +184,14 @@ def write(rows: list[list[str]]) -> None:
 
 
 def differing(study: str, fresh: list[Row]) -> list[str]:
-    """What FE finds of today's parts further than `SAME` from what stands in the table."""
+    """Return results of FE on today's parts that differ from the table by more than `SAME`."""
     with RESULTS.open(newline="") as file:
-        kept = {row["quantity"]: row["fe"] for row in csv.DictReader(file) if row["study"] == study and row["fe"]}
-    found = {row.quantity: row.fe for row in fresh if row.fe is not None}
+        selected = {row["quantity"]: row["fe"] for row in csv.DictReader(file) if row["study"] == study and row["fe"]}
+    results = {row.quantity: row.fe for row in fresh if row.fe is not None}
     return [
-        f"{name} is {found.get(name)}, in the table {value}"
-        for name, value in kept.items()
-        if name not in found or abs(found[name] / float(value) - 1.0) > SAME
+        f"{name} is {results.get(name)}, in the table {value}"
+        for name, value in selected.items()
+        if name not in results or abs(results[name] / float(value) - 1.0) > SAME
     ]
 
 
@@ -199,8 +201,8 @@ def put(study: str, fresh: list[Row], case: dict[str, Any]) -> None:
         cases = yaml.safe_load(CASES.read_text()) if CASES.exists() else {}
         CASES.write_text(yaml.safe_dump({**cases, study: case}, width=160, default_flow_style=None))
         with RESULTS.open(newline="") as file:
-            kept = [row for row in list(csv.reader(file))[1:] if row[0] != study]
-        write([*kept, *(row.cells() for row in fresh)])
+            selected = [row for row in list(csv.reader(file))[1:] if row[0] != study]
+        write([*selected, *(row.cells() for row in fresh)])
 
 
 @contextlib.contextmanager

@@ -44,12 +44,12 @@ def held_length(window: float, ledge: float, poisson: float) -> float:
     sheared += (grad(u)[1] + grad(w)[0]) * (grad(v)[1] + grad(z)[0])
     pressed = p * (grad(v)[0] + grad(z)[1]) + q * (grad(u)[0] + grad(w)[1]) + (1 - 2 * poisson) / (2 * poisson) * p * q
     form = BilinearForm((sheared - pressed) * dx).Assemble()
-    found = GridFunction(space)
-    found.components[0].Set(1, definedon=mesh.Boundaries("moved"))
-    force = found.vec.CreateVector()
-    force.data = -form.mat * found.vec
-    found.vec.data += form.mat.Inverse(space.FreeDofs(), "umfpack") * force
-    u, w, p = found.components
+    results = GridFunction(space)
+    results.components[0].Set(1, definedon=mesh.Boundaries("moved"))
+    force = results.vec.CreateVector()
+    force.data = -form.mat * results.vec
+    results.vec.data += form.mat.Inverse(space.FreeDofs(), "umfpack") * force
+    u, w, p = results.components
     shear = grad(u)[1] + grad(w)[0]
     energy = 2 * grad(u)[0] ** 2 + 2 * grad(w)[1] ** 2 + shear**2 - p * (grad(u)[0] + grad(w)[1])
     return float(Integrate(energy, mesh)) - ledge

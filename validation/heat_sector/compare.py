@@ -44,26 +44,26 @@ STEPS = 250
 
 
 def inputs_of(model: DeviceFunctions) -> dict[str, Any]:
-    """Every input of a module, in SI."""
+    """Return every input of a module, in SI."""
     numbers: dict[str, Any] = {name: float(model.start[index]) for name, index in model.index.items()}
     return {**numbers, **model.words, "rotor_cells": int(numbers["rotor_cells"])}
 
 
 def model_of(path: Path, **changes: float) -> DeviceFunctions:
-    """The module a study starts from, with some inputs changed (SI)."""
+    """Return the module at a study's start, with some inputs changed (SI)."""
     study = read_study(path)
     return DeviceFunctions(study.table, {**given(study), **changes}, tuple(study.operating_points), study.solver.cells)
 
 
 def optimum_of(folder: Path, **changes: float) -> DeviceFunctions:
-    """The module a run found, with some inputs changed (SI)."""
+    """Return the module of a run, with some inputs changed (SI)."""
     module = resolve_design(read_design(folder / "design.json"))
     values = {**module.values, **changes}
     return DeviceFunctions(module.table, values, module.points, module.study.solver.cells)
 
 
 def plane_of(model: DeviceFunctions, fine: float = 1.0) -> Plane:
-    """The module's drawing in the plane."""
+    """Draw the module in the plane."""
     values = inputs_of(model)
     if "arc_span" in values:
         return shear.plane(shear.case_of(model.table, values), fine)
@@ -71,7 +71,7 @@ def plane_of(model: DeviceFunctions, fine: float = 1.0) -> Plane:
 
 
 class Switch(NamedTuple):
-    """What a plane does while it is heated, at each of its times."""
+    """A plane while it is heated, at each of its times."""
 
     times: Array
     stiffness: Array
@@ -82,7 +82,7 @@ class Switch(NamedTuple):
     """Of its face away from the pads."""
 
     def of(self, name: str) -> Array:
-        """The temperature a time is judged by [degC]."""
+        """Return the temperature by which a time is judged [degC]."""
         return self.far if name == "far_face_time" else self.mean
 
 
@@ -104,7 +104,7 @@ class Compared(NamedTuple):
 
 
 class Judge:
-    """What the temperatures of a plane are to the joint."""
+    """Evaluate the joint at the temperatures of a plane."""
 
     def __init__(self, model: DeviceFunctions, found: Plane) -> None:
         """Take what the joint is beside its heat off the table."""
@@ -152,7 +152,7 @@ class Judge:
         return float(self.shares @ (ends + way * (ends - inner)))
 
     def heated(self, seconds: float, steps: int = STEPS) -> Switch:
-        """What the plane does while it is heated for so long."""
+        """Heat the plane for a time."""
         times, states = self.found.heat(seconds, steps)
         own = self.found.cells("layer")
         return Switch(
@@ -163,7 +163,7 @@ class Judge:
         )
 
     def time(self, name: str, switch: Switch) -> float:
-        """A time of the switch: when the joint is soft, the mean of the polymer or that of its far face is warm [s]."""
+        """Return a time of the switch [s]: joint soft, mean of the polymer or its far face warm."""
         if name == "softening_time":
             return passed(switch.times, -np.log(switch.stiffness), -np.log(self.joint.soft))
         return passed(switch.times, switch.of(name), self.known["target_temperature"] - 273.15)
@@ -176,13 +176,13 @@ def product_times(model: DeviceFunctions) -> dict[str, float]:
 
 
 def never(judge: Judge, steps: int) -> Compared:
-    """A joint the product does not soften within the simulation's horizon: no difference where the plane does not."""
+    """Compare a joint that the product never softens: no difference if the plane does not either."""
     plane = judge.time("softening_time", judge.heated(judge.known["horizon"], steps))
     return Compared(np.inf, plane, np.nan, np.inf)
 
 
 def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> dict[str, Compared]:
-    """Each time by the product and by the plane."""
+    """Return each time by the product and by the plane."""
     ours = product_times(model)
     judge = Judge(model, plane_of(model, fine))
     if not ours:
@@ -207,12 +207,12 @@ def compared(model: DeviceFunctions, fine: float = 1.0, steps: int = STEPS) -> d
 
 
 def studies() -> list[Path]:
-    """The shipped studies."""
+    """Return the shipped studies."""
     return sorted(STUDIES.glob("*.yaml"))
 
 
 def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunctions]]:
-    """A study's start and, where it varies something, its optimum, which is run unless it is in the work folder."""
+    """Yield a study's start and, if it varies something, its optimum, run unless it is in the work folder."""
     yield "start", model_of(path)
     if work is None or not read_study(path).vary:
         return
@@ -235,7 +235,7 @@ def designs(path: Path, work: Path | None) -> Iterator[tuple[str, DeviceFunction
 
 
 def rows_of(study: str, design: str, model: DeviceFunctions) -> Iterator[list[str]]:
-    """A module's rows of the table."""
+    """Return a module's rows of the table."""
     for name, one in compared(model).items():
         yield [
             study, design, name, f"{one.product:.2f}", f"{one.plane:.2f}", f"{one.difference:+.2f}",

@@ -24,7 +24,7 @@ PAD_CONDUCTIVITY = 6.0
 
 
 def plane(table: Table, values: Mapping[str, Any], fine: float = 1.0) -> Plane:
-    """The ring of a module, from its inputs in SI; `fine` divides each cell into so many along either side."""
+    """Draw the ring of a module from its inputs in SI; `fine` divides each cell along either side."""
     v = {**values, **table.evaluate(values, WANTED)}
     gap, height, pad = v["running_clearance"], v["block_height"], v["peltier_thickness"]
     vane, block = 0.5 * v["vane_thickness"], 0.5 * v["vane_thickness"] + v["block_depth"]

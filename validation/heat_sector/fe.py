@@ -129,7 +129,7 @@ class Heated:
         return coefficient * (t - ambient) + emissivity * SIGMA * ((t + KELVIN) ** 4 - (ambient + KELVIN) ** 4)
 
     def _grown(self, of: Any, now: Any, start: Any, first: Any) -> Any:
-        """How fast a stage's content grows."""
+        """Return the rate of a stage's content."""
         return (of(now) - of(start) - self.weight * (of(first) - of(start))) / self.length
 
     def _within(self, t: Any, v: Any) -> None:
@@ -162,7 +162,7 @@ class Heated:
         raise RuntimeError("a stage did not settle")
 
     def advance(self, seconds: float) -> None:
-        """One step of two stages."""
+        """Take one step of two stages."""
         self.length.Set(IMPLICIT * seconds)
         self.start.vec.data = self.now.vec
         self.first.vec.data = self.now.vec

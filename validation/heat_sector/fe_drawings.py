@@ -26,7 +26,7 @@ GROWTH = 0.45
 
 @dataclass(frozen=True)
 class Material:
-    """What conducts along the drawing and up, and keeps heat."""
+    """A material: conductivities along the drawing and up, and heat capacity."""
 
     along: float
     up: float
@@ -37,7 +37,7 @@ class Material:
 
 @dataclass(frozen=True)
 class Body:
-    """What has one temperature, and its surface."""
+    """A body of one temperature, and its surface."""
 
     capacity: float
     surface: float = 0.0
@@ -58,7 +58,7 @@ class Exchange:
 
 @dataclass
 class Drawing:
-    """What `fe.py` heats. A line between two materials is `x:left>right` or `y:lower>upper`."""
+    """The drawing that `fe.py` heats. A line between two materials is `x:left>right` or `y:lower>upper`."""
 
     x: np.ndarray
     y: np.ndarray
@@ -91,7 +91,7 @@ def graded(ends: Sequence[tuple[float, float]], fine: float) -> np.ndarray:
 
 
 def strip(c: Mapping[str, float], fine: float) -> Drawing:
-    """The shear module from the middle of an arc through its edge; the layer's face at the pads is y = 0."""
+    """Draw the shear module from the middle of an arc through its edge; the layer's face at the pads is y = 0."""
     w, top, pad = c["half_width"], c["layer_depth"], c["pad_depth"]
     film, slot, inside = FILM * pad, c["air_conductivity"] / c["pad_edge_contact"], c["window_share"] * w
     spread, tile, tip = c["spreader_depth"], c["tile_share"] * w, top - c["lip_height"]
@@ -180,7 +180,7 @@ def _strip_s_exchanges(c: Mapping[str, float], inside: float) -> list[Exchange]:
 
 
 def ring(c: Mapping[str, float], fine: float) -> Drawing:
-    """The compression module along its ring, from the middle of a rotor vane to that of a housing vane; floor below.
+    """Draw the compression module along its ring, from the middle of a rotor vane to that of a housing vane.
 
     x = 0 is the middle of the rotor's vane, y = 0 the floor's face.
     """
@@ -248,7 +248,7 @@ def _ring_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
 
 
 def _ring_s_exchanges(c: Mapping[str, float]) -> tuple[list[Exchange], list[Body]]:
-    """What the ring gives to the air and to core, rim of the plate, housing, middle of the plate and sink."""
+    """Return the ring's links to air, core, rim and middle of the plate, housing and sink."""
     wide = 2.0 * c["vane_count"] * c["block_width"]
     length = pi * c["pcl_mean_radius"] / c["vane_count"]
     k, heat = c["structure_conductivity"], c["structure_density"] * c["structure_specific_heat"]

@@ -27,7 +27,7 @@ MOST = 40
 
 
 def designs(study: str, count: int) -> Iterator[tuple[str, DeviceFunctions]]:
-    """The first designs drawn that soften, by their place among those that keep the rules."""
+    """Return the first random designs that soften, by their place among those that satisfy the rules."""
     path = STUDIES / f"{study}.yaml"
     read, found = read_study(path), 0
     for place, design in enumerate(Draws(read, SEED).keeping_rules(MOST, Tally())):

@@ -41,7 +41,7 @@ class Held(NamedTuple):
     pads: str = "usual"
 
     def model(self, work: Path) -> DeviceFunctions:
-        """The module."""
+        """Return the module."""
         changes = {}
         if self.pads != "usual":
             changes = dict(zip(("pad_conductivity", "pad_edge_contact"), PADS[self.pads], strict=True))
@@ -64,7 +64,7 @@ CASES = {
 
 
 def polymer_of(values: Mapping[str, Any], melting: Any) -> dict[str, float]:
-    """What melts, for `fe.py`."""
+    """Return the polymer for `fe.py`."""
     names = ("specific_heat_solid", "specific_heat_melt", "latent_heat")
     return {
         "density": values["pcl_density"], "start": melting.start - 273.15, "end": melting.end - 273.15,
@@ -93,7 +93,7 @@ def ring_of(model: DeviceFunctions, values: Mapping[str, Any]) -> dict[str, floa
 
 
 def case_of(model: DeviceFunctions, places: tuple[Any, Any]) -> dict[str, Any]:
-    """A module as `fe.py` reads it: its numbers, and places whose temperatures it tells."""
+    """Return a module as `fe.py` reads it: its numbers, and places whose temperatures it reports."""
     values = inputs_of(model)
     melting = model.table.evaluate(values, ["pcl_melting"])["pcl_melting"]
     sheared = "arc_span" in values
@@ -118,7 +118,7 @@ def by_elements(case: dict[str, Any], held: Held, python: Path, folder: Path, fi
 
 
 def switch_of(judge: Judge, times: Any, states: Any) -> Switch:
-    """What temperatures at the plane's cells are to the joint."""
+    """Evaluate the joint at temperatures of the plane's cells."""
     own = judge.found.cells("layer")
     volume = judge.found.volume[own]
     return Switch(
@@ -130,7 +130,7 @@ def switch_of(judge: Judge, times: Any, states: Any) -> Switch:
 
 
 def compared(held: Held, model: DeviceFunctions, elements: Any) -> Iterator[tuple[str, float, float, float]]:
-    """Each time that both reach by plane and elements, and how much warmer the plane is at the elements' time."""
+    """Return each time that both plane and elements reach, and how much warmer the plane is at the elements' time."""
     judge = Judge(model, plane_of(model))
     plane = judge.heated(held.seconds, PLANE_STEPS)
     theirs = switch_of(judge, *elements)

@@ -28,7 +28,7 @@ KELVIN = 273.15
 
 @dataclass(frozen=True)
 class Polymer:
-    """What melts."""
+    """A material that melts."""
 
     density: float
     conductivity_solid: float
@@ -225,7 +225,7 @@ class Plane:
         return heat, slope
 
     def _faces(self, name: str) -> Array:
-        """What each cell of a part of the pads has of their area [m2]: its volume over the part's thickness."""
+        """Return each cell's share of the pads' area [m2]: its volume over the part's thickness."""
         own = self._own[name]
         lines, at = (self.y, self.j[own]) if self.pump_along else (self.x, self.i[own])
         return self.volume[own] / float(np.max(lines[at + 1]) - np.min(lines[at]))

@@ -24,7 +24,7 @@ from tvimdesign.device import Table
 
 @dataclass(frozen=True)
 class Case:
-    """What a strip is made of and what it meets; SI and degC."""
+    """A strip's materials and boundaries; SI and degC."""
 
     half_width: float
     beside: float
@@ -99,7 +99,7 @@ class Case:
 
 
 def case_of(table: Table, values: Mapping[str, Any]) -> Case:
-    """The strip of a shear module, from its inputs in SI."""
+    """Return the strip of a shear module from its inputs in SI."""
     v = values
     wanted = ("pcl_area", "edge_length", "rotor_radius", "pcl_melting", "cold_area", "core_and_link", "around_pads",
               "housing_ring", "peltier_mass", "pcl_depth", "sink", "heated_area", "heater_strings",
@@ -158,7 +158,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
 
 
 def plane(case: Case, fine: float = 1.0) -> Plane:
-    """The strip of a case; `fine` divides each cell into so many along either side, twice as many with a liner."""
+    """Draw the strip of a case; `fine` divides each cell along either side, twice as often with a liner."""
     c, w, fine = case, case.half_width, fine * (2.0 if case.liner_depth else 1.0)
     film, slot = PAD_FILM * c.pad_depth, c.air_conductivity / c.pad_edge_contact
     x, y = _grid(c, slot, fine)
@@ -234,7 +234,7 @@ def _grid(c: Case, slot: float, fine: float) -> tuple[Array, Array]:
 
 
 def _materials(c: Case) -> dict[str, Material]:
-    """What the parts of the strip are made of."""
+    """Return the materials of the strip's parts."""
     solid = Material(c.structure_conductivity, c.structure_conductivity, c.structure_heat_capacity)
     pad = Material(c.pad_conductivity, 100.0, c.pad_heat_capacity / c.pad_depth)
     through = c.conductance * (1.0 - 2.0 * PAD_FILM) * c.pad_depth

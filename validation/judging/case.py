@@ -45,26 +45,26 @@ class CaseError(Exception):
 
 @dataclass(frozen=True)
 class Quantity:
-    """What is expected of one value or curve of a case."""
+    """Expected values of a quantity or curve of a case."""
 
     name: str
     unit: str
     values: tuple[float, ...]
     """Empty where the case's reference gives them."""
     relative: float
-    """Half the band, as a share of the expected value."""
+    """Limit, as a share of the expected value."""
     absolute: float
-    """Half the band, in `unit`; the wider of the two holds."""
+    """Limit, in `unit`; the wider of the two holds."""
     at: str
     """The input that the values go over; empty for one value or labelled ones."""
     labels: tuple[str, ...]
     known: str
-    """Why it is outside its band, where it is known to be."""
+    """Reason of a known difference."""
     known_within: float
     """How far it may be off then, as a share."""
 
-    def half_band(self, expected: float) -> float:
-        """Half the width of the band around an expected value."""
+    def limit(self, expected: float) -> float:
+        """Return the limit around an expected value."""
         return max(self.absolute, self.relative * abs(expected))
 
 
@@ -88,36 +88,36 @@ class Case:
 
 
 def read_cases(folder: Path = CASES) -> list[Case]:
-    """All cases of a folder, by name. Raises CaseError."""
+    """Read all cases of a folder, by name; raise CaseError."""
     return [read_case(path) for path in sorted(folder.glob("*/case.yaml"))]
 
 
 def read_case(path: Path) -> Case:
-    """One case. Raises CaseError for what is missing, unknown or not finite."""
-    told = yaml.safe_load(path.read_text(encoding="utf-8"))
-    if not isinstance(told, dict):
+    """Read one case; raise CaseError for what is missing, unknown or not finite."""
+    given = yaml.safe_load(path.read_text(encoding="utf-8"))
+    if not isinstance(given, dict):
         raise CaseError(f"{path}: a case is a mapping of {', '.join(sorted(_CASE))}")
-    _only(told, _CASE, str(path))
+    _only(given, _CASE, str(path))
     for name in ("title", "kind", "source"):
-        if not told.get(name):
+        if not given.get(name):
             raise CaseError(f"{path}: {name}: missing")
-    if not DATED.search(" ".join(str(told["source"]).split())):
-        raise CaseError(f"{path}: source: give its DOI, edition or year, or the day a page was read: {told['source']}")
-    if told["kind"] not in KINDS:
-        raise CaseError(f"{path}: kind: {told['kind']!r} is none of {', '.join(KINDS)}")
-    if bool(told.get("open")) == bool(told.get("compare")):
+    if not DATED.search(" ".join(str(given["source"]).split())):
+        raise CaseError(f"{path}: source: give its DOI, edition or year, or the day a page was read: {given['source']}")
+    if given["kind"] not in KINDS:
+        raise CaseError(f"{path}: kind: {given['kind']!r} is none of {', '.join(KINDS)}")
+    if bool(given.get("open")) == bool(given.get("compare")):
         raise CaseError(f"{path}: either `compare` names a function, or `open` says what is missing")
-    inputs = told.get("inputs", {})
+    inputs = given.get("inputs", {})
     expected = [
-        _quantity(f"{path}: expected.{name}", name, entry, inputs, bool(told.get("reference")))
-        for name, entry in told.get("expected", {}).items()
+        _quantity(f"{path}: expected.{name}", name, entry, inputs, bool(given.get("reference")))
+        for name, entry in given.get("expected", {}).items()
     ]
-    if told.get("compare") and not expected:
+    if given.get("compare") and not expected:
         raise CaseError(f"{path}: expected: missing")
-    words = {name: " ".join(str(told.get(name, "")).split()) for name in ("title", "source", "open", "note")}
+    words = {name: " ".join(str(given.get(name, "")).split()) for name in ("title", "source", "open", "note")}
     return Case(
-        name=path.parent.name, folder=path.parent, kind=told["kind"], compare=told.get("compare", ""),
-        reference=told.get("reference", ""), inputs=inputs, expected=tuple(expected), **words,
+        name=path.parent.name, folder=path.parent, kind=given["kind"], compare=given.get("compare", ""),
+        reference=given.get("reference", ""), inputs=inputs, expected=tuple(expected), **words,
     )  # fmt: skip
 
 
@@ -130,7 +130,7 @@ def _quantity(where: str, name: str, entry: Any, inputs: Mapping[str, Any], comp
         raise CaseError(f"{where}: give value, values or low and high, or name a `reference`, not both")
     relative = float(entry.get("relative", 0.0))
     if not relative + absolute > 0.0:
-        raise CaseError(f"{where}: relative or absolute: a band is needed, such as relative: 0.01")
+        raise CaseError(f"{where}: relative or absolute: a limit is needed, such as relative: 0.01")
     if entry.get("at") and entry["at"] not in inputs:
         raise CaseError(f"{where}: at: {entry['at']!r} is no input of the case")
     if bool(entry.get("known")) != ("known_within" in entry):
@@ -143,20 +143,20 @@ def _quantity(where: str, name: str, entry: Any, inputs: Mapping[str, Any], comp
 
 
 def _values(where: str, entry: Mapping[str, Any]) -> tuple[tuple[float, ...], float]:
-    """Expected values and half the band that comes with them: of a published range, half the range."""
+    """Return expected values and their absolute limit: of a published range, half the range."""
     if "low" in entry or "high" in entry:
         low, high = float(entry["low"]), float(entry["high"])
         if not low < high:
             raise CaseError(f"{where}: low has to be below high")
         return (0.5 * (low + high),), 0.5 * (high - low)
-    told = entry["values"] if "values" in entry else [entry["value"]] if "value" in entry else []
-    values = tuple(float(value) for value in told)
+    given = entry["values"] if "values" in entry else [entry["value"]] if "value" in entry else []
+    values = tuple(float(value) for value in given)
     if not all(math.isfinite(value) for value in values):
-        raise CaseError(f"{where}: not a finite number among {told}")
+        raise CaseError(f"{where}: not a finite number among {given}")
     return values, float(entry.get("absolute", 0.0))
 
 
-def _only(told: Mapping[str, Any], known: set[str], where: str) -> None:
-    unknown = sorted(set(told) - known)
+def _only(given: Mapping[str, Any], known: set[str], where: str) -> None:
+    unknown = sorted(set(given) - known)
     if unknown:
         raise CaseError(f"{where}: {', '.join(unknown)}: unknown; it may have {', '.join(sorted(known))}")

@@ -1,4 +1,4 @@
-"""A small figure of every case: a curve with its expected points and band, or values within their bands."""
+"""A small figure of every case: a curve with its expected points and limits, or values within their limits."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _WIDTH, _HEIGHT = 3.4, 2.1
 _WIDE = 30.0
 """An axis whose ends are so many times apart is logarithmic."""
 _FURTHEST = 30.0
-"""A value further from its band is drawn so many half bands away, an infinite one too."""
+"""A value beyond so many limits is drawn there, an infinite one too."""
 _LONGEST = 26
 """Letters of a label."""
 
@@ -42,7 +42,7 @@ def figure(each: Outcome) -> bytes:
     if curves:
         _draw_curves(place(drawn, 0.55, 0.4, _WIDTH - 0.7, height - 0.5), each, curves)
     else:
-        _draw_bands(place(drawn, 1.6, 0.38, _WIDTH - 1.7, height - 0.43), each)
+        _draw_shares(place(drawn, 1.6, 0.38, _WIDTH - 1.7, height - 0.43), each)
     target = io.BytesIO()
     with mpl.rc_context({"svg.fonttype": "none"}):  # letters as letters: a third of the bytes
         drawn.savefig(target, format="svg", metadata={"Date": None})
@@ -56,7 +56,7 @@ def _draw_curves(axes: Axes, each: Outcome, curves: list[Compared]) -> None:
         order = sorted(range(len(at)), key=at.__getitem__)
         across = [at[i] for i in order]
         expected = [part.rows[i].expected for i in order]
-        half = [part.rows[i].half_band for i in order]
+        half = [part.rows[i].limit for i in order]
         colour = COLOURS[number % len(COLOURS)]
         axes.errorbar(
             across, expected, yerr=half, fmt=MARKERS[number % len(MARKERS)], color=colour, markersize=2.5,
@@ -77,7 +77,7 @@ def _draw_curves(axes: Axes, each: Outcome, curves: list[Compared]) -> None:
 
 def _scale(axes: Axes, curves: list[Compared]) -> None:
     rows = [row for part in curves for row in part.rows]
-    lowest = min(min(row.expected - row.half_band, row.found) for row in rows)
+    lowest = min(min(row.expected - row.limit, row.found) for row in rows)
     if lowest > 0.0 and max(row.expected for row in rows) / lowest > _WIDE:
         axes.set_yscale("log")
         axes.yaxis.set_minor_formatter(NullFormatter())
@@ -85,10 +85,10 @@ def _scale(axes: Axes, curves: list[Compared]) -> None:
         axes.ticklabel_format(axis="y", scilimits=(-3, 4))
 
 
-def _draw_bands(axes: Axes, each: Outcome) -> None:
+def _draw_shares(axes: Axes, each: Outcome) -> None:
     """Draw each value's place within its limits, from -1 to 1."""
     values = [(part, row) for part in each.quantities for row in part.rows]
-    shares = [max(-_FURTHEST, min(row.of_band, _FURTHEST)) for _, row in values]
+    shares = [max(-_FURTHEST, min(row.of_limit, _FURTHEST)) for _, row in values]
     names = [f"{part.quantity.name} {row.label}".strip().replace("_", " ") for part, row in values]
     axes.axvspan(-1.0, 1.0, **BAND)
     axes.axvline(0.0, **LIMIT)

@@ -1,4 +1,4 @@
-"""What came out of a case: found values beside expected ones, their distance as a share of the band, a verdict."""
+"""Outcome of a case: found values beside expected ones, their deviation as a share of the limit, a verdict."""
 
 from __future__ import annotations
 
@@ -17,48 +17,48 @@ INSIDE, KNOWN, OUTSIDE, OPEN = "inside", "known difference", "OUTSIDE", "open"
 
 @dataclass(frozen=True)
 class Row:
-    """One expected value beside the one found."""
+    """An expected value beside the found one."""
 
     label: str
     expected: float
     found: float
-    half_band: float
+    limit: float
 
     @property
-    def of_band(self) -> float:
-        """How far off it is, over half the band; 1 is its edge. Signed."""
-        return (self.found - self.expected) / self.half_band
+    def of_limit(self) -> float:
+        """Return the signed deviation over the limit."""
+        return (self.found - self.expected) / self.limit
 
 
 @dataclass(frozen=True)
 class Compared:
-    """One quantity of a case, all of its rows."""
+    """A quantity of a case, with all rows."""
 
     quantity: Quantity
     rows: tuple[Row, ...]
 
     @property
     def worst(self) -> Row:
-        """The row nearest to the edge of its band, or furthest beyond."""
-        return max(self.rows, key=lambda row: abs(row.of_band))
+        """Return the row nearest its limit, or furthest beyond."""
+        return max(self.rows, key=lambda row: abs(row.of_limit))
 
     @property
     def verdict(self) -> str:
-        """Inside its band, outside by a known difference, or outside.
+        """Return the verdict: inside its limit, outside by a known difference, or outside.
 
         A difference that is known and no longer there is outside as well: the case has to be corrected.
         """
         if not all(np.isfinite(row.found) for row in self.rows):
             return OUTSIDE
         if not self.quantity.known:
-            return INSIDE if abs(self.worst.of_band) <= 1.0 else OUTSIDE
+            return INSIDE if abs(self.worst.of_limit) <= 1.0 else OUTSIDE
         furthest = max(abs(row.found / row.expected - 1.0) for row in self.rows)
-        return KNOWN if abs(self.worst.of_band) > 1.0 and furthest <= self.quantity.known_within else OUTSIDE
+        return KNOWN if abs(self.worst.of_limit) > 1.0 and furthest <= self.quantity.known_within else OUTSIDE
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """A case and what came out of it; nothing where it is open."""
+    """A case and its compared quantities, none if it is open."""
 
     case: Case
     quantities: tuple[Compared, ...]
@@ -66,20 +66,20 @@ class Outcome:
 
     @property
     def verdict(self) -> str:
-        """The worst of its quantities' verdicts."""
-        found = {one.verdict for one in self.quantities}
+        """Return the worst of its quantities' verdicts."""
+        found = {each.verdict for each in self.quantities}
         return next((verdict for verdict in (OUTSIDE, KNOWN, INSIDE) if verdict in found), OPEN)
 
     @property
     def worst(self) -> tuple[Compared, Row]:
-        """The quantity and the row that stand worst."""
+        """Return the worst quantity and row."""
         order = (INSIDE, KNOWN, OUTSIDE)
-        worst = max(self.quantities, key=lambda one: (order.index(one.verdict), abs(one.worst.of_band)))
+        worst = max(self.quantities, key=lambda each: (order.index(each.verdict), abs(each.worst.of_limit)))
         return worst, worst.worst
 
 
 def outcome(case: Case) -> Outcome:
-    """Compare a case. Raises CaseError where what comes back is not what the case expects."""
+    """Compare a case; raise CaseError if the values returned are not those expected."""
     if case.open:
         return Outcome(case, (), 0.0)
     begin = time.perf_counter()
@@ -90,39 +90,39 @@ def outcome(case: Case) -> Outcome:
 
 
 def worst_first(outcomes: Iterable[Outcome]) -> list[Outcome]:
-    """Outside first, then known differences, then the rest by how much of their bands they take; open ones last."""
+    """Sort: outside, known differences, the others by their share of the limit, open cases last."""
     order = (OUTSIDE, KNOWN, INSIDE, OPEN)
 
-    def rank(one: Outcome) -> tuple[int, float, str]:
-        used = abs(one.worst[1].of_band) if one.quantities else 0.0
-        return order.index(one.verdict), -used, one.case.name
+    def rank(each: Outcome) -> tuple[int, float, str]:
+        used = abs(each.worst[1].of_limit) if each.quantities else 0.0
+        return order.index(each.verdict), -used, each.case.name
 
     return sorted(outcomes, key=rank)
 
 
-def _called(room: str, case: Case, name: str) -> Mapping[str, Any]:
-    """What a function `module:function` of a room says of a case's inputs."""
+def _called(folder: str, case: Case, name: str) -> Mapping[str, Any]:
+    """Call a function `module:function` of a folder with a case's inputs."""
     module, _, function = name.partition(":")
     try:
-        call = getattr(import_module(f"{room}.{module}"), function)
+        call = getattr(import_module(f"{folder}.{module}"), function)
     except (ImportError, AttributeError) as error:
-        raise CaseError(f"{case.name}: {room} has no {name}: {error}") from error
-    told: Mapping[str, Any] = call(case.inputs)
-    return told
+        raise CaseError(f"{case.name}: {folder} has no {name}: {error}") from error
+    values: Mapping[str, Any] = call(case.inputs)
+    return values
 
 
 def _compared(case: Case, quantity: Quantity, found: Mapping[str, Any], expected: Mapping[str, Any]) -> Compared:
-    told = quantity.values or _numbers(expected.get(quantity.name, ()))
+    values = quantity.values or _numbers(expected.get(quantity.name, ()))
     here = _numbers(found.get(quantity.name, ()))
-    if not told or len(told) != len(here):
-        raise CaseError(f"{case.name}: {quantity.name}: {len(told)} values expected, {len(here)} found")
-    labels = _labels(case, quantity, len(told), expected.get("labels", {}).get(quantity.name, ()))
-    pairs = zip(labels, told, here, strict=True)
-    return Compared(quantity, tuple(Row(label, a, b, quantity.half_band(a)) for label, a, b in pairs))
+    if not values or len(values) != len(here):
+        raise CaseError(f"{case.name}: {quantity.name}: {len(values)} values expected, {len(here)} found")
+    labels = _labels(case, quantity, len(values), expected.get("labels", {}).get(quantity.name, ()))
+    pairs = zip(labels, values, here, strict=True)
+    return Compared(quantity, tuple(Row(label, a, b, quantity.limit(a)) for label, a, b in pairs))
 
 
-def _labels(case: Case, quantity: Quantity, count: int, told: Sequence[str]) -> tuple[str, ...]:
-    labels = quantity.labels or tuple(told)
+def _labels(case: Case, quantity: Quantity, count: int, given: Sequence[str]) -> tuple[str, ...]:
+    labels = quantity.labels or tuple(given)
     if quantity.at:
         labels = tuple(f"{quantity.at} {value}" for value in case.inputs[quantity.at])
     elif not labels:

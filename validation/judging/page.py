@@ -48,10 +48,10 @@ def values_csv(outcomes: Sequence[Outcome]) -> str:
     for each in sorted(outcomes, key=lambda each: each.case.name):
         for compared in each.quantities:
             for row in compared.rows:
-                numbers = (_number(value) for value in (row.expected, row.half_band, row.found))
+                numbers = (_number(value) for value in (row.expected, row.limit, row.found))
                 quantity = compared.quantity
                 label = (each.case.name, quantity.name, row.label, quantity.unit)
-                rows.writerow((*label, *numbers, f"{row.of_band:+.2f}"))
+                rows.writerow((*label, *numbers, f"{row.of_limit:+.2f}"))
     return text.getvalue()
 
 
@@ -74,8 +74,8 @@ def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
         compared, row = each.worst
         unit = "" if compared.quantity.unit == "1" else f" {compared.quantity.unit}"
         yield (
-            f"| [{name}](#{name}) | {_label(compared, row)} | {_number(row.expected)}{unit} | {_number(row.half_band)} "
-            f"| {_number(row.found)} | {row.of_band:+.2f} | {each.verdict} |"
+            f"| [{name}](#{name}) | {_label(compared, row)} | {_number(row.expected)}{unit} | {_number(row.limit)} "
+            f"| {_number(row.found)} | {row.of_limit:+.2f} | {each.verdict} |"
         )
 
 

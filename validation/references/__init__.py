@@ -1,1 +1,1 @@
-"""What others say of a case: closed solutions and stored tables. Nothing here imports the product."""
+"""Outside values of a case: closed solutions and stored tables. Nothing here imports the product."""

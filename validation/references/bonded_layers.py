@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.integrate import quad, solve_bvp, solve_ivp
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
-def sheared_ring(inputs: Told) -> Told:
+def sheared_ring(inputs: Values) -> Values:
     """Integral of r times traction over the ring; lengths in mm, modulus and traction in MPa."""
     outer, inner, thickness = (
         1e-3 * float(inputs[name].removesuffix(" mm")) for name in ("outer_radius", "inner_radius", "thickness")
@@ -25,20 +25,20 @@ def sheared_ring(inputs: Told) -> Told:
     }
 
 
-def in_series(inputs: Told) -> Told:
+def in_series(inputs: Values) -> Values:
     """Compliances add, in complex numbers."""
     slices = np.mean([1.0 / complex(*pair) for pair in inputs["slices"]])
     joint = 1.0 / (1.0 / complex(*inputs["layer"]) + 1.0 / complex(*inputs["support"]))
     return {"slices": [(1.0 / slices).real, (1.0 / slices).imag], "joint": [joint.real, joint.imag]}
 
 
-def rubber_blocks(inputs: Told) -> Told:
+def rubber_blocks(inputs: Values) -> Values:
     """1/E_app = 1/(E (1 + 2 S^2)) + 1/K (Gent and Lindley, Proc. Inst. Mech. Eng. 173 (1959) 111); in MPa."""
     youngs, bulk = (1e6 * float(inputs[name].removesuffix(" MPa")) for name in ("youngs_modulus", "bulk_modulus"))
     return {"modulus": [1.0 / (1.0 / (youngs * (1.0 + 2.0 * s**2)) + 1.0 / bulk) for s in inputs["shape_factor"]]}
 
 
-def lap_edges(inputs: Told) -> Told:
+def lap_edges(inputs: Values) -> Values:
     """Volkersen's differential equation of a lap, and of a sheet over a window, by collocation."""
     stiffness, width = inputs["layer"], inputs["width"]
     first, second = inputs["sheets"]
@@ -62,7 +62,7 @@ def lap_edges(inputs: Told) -> Told:
     return {"edge": edges, "window": windows}
 
 
-def melt_in_gaps(inputs: Told) -> Told:
+def melt_in_gaps(inputs: Values) -> Values:
     """Stokes' equation across a gap on a grid, Reynolds' integrated in time; the rise of water is the handbook's."""
     gap, length, width, thin, thick = (
         1e-3 * float(inputs[name].removesuffix(" mm")) for name in ("gap", "length", "width", "thin", "thick")
@@ -78,11 +78,11 @@ def melt_in_gaps(inputs: Told) -> Told:
     step = width / cells
     bowl = np.linalg.solve(tridiagonal(cells - 1), np.full(cells - 1, -12.0 * viscosity * step**2))
     per_speed = float(np.sum(bowl)) * step * length  # force times h^3 for a closing speed of 1 m/s
-    found = solve_ivp(
+    results = solve_ivp(
         lambda _, h: [-inputs["force"] * h[0] ** 3 / per_speed], (0.0, 1e5), [thick],
         events=_reached(thin), rtol=1e-9, atol=1e-14,
     )  # fmt: skip
-    return {"speed": float(np.mean(profile)), "squeeze_time": float(found.t_events[0][0]), "rise": 14.9e-3}
+    return {"speed": float(np.mean(profile)), "squeeze_time": float(results.t_events[0][0]), "rise": 14.9e-3}
 
 
 def _reached(height: float) -> Any:
@@ -93,8 +93,8 @@ def _reached(height: float) -> Any:
     return gap
 
 
-def held_link(inputs: Told) -> Told:
-    """A link without inertia on springs beside a Maxwell layer behind a structure, stepped in time (Radau)."""
+def held_link(inputs: Values) -> Values:
+    """Step a link without inertia on springs beside a Maxwell layer behind a structure (Radau)."""
     tau, k = (np.array(column, float) for column in zip(*inputs["modes"], strict=True))
     torque, springs, behind = (float(inputs[name]) for name in ("torque", "springs", "structure"))
     whole = float(np.sum(k))
@@ -105,17 +105,17 @@ def held_link(inputs: Told) -> Told:
         angle = (torque + behind / (behind + whole) * pull) / (springs + joined)
         return angle, (behind * angle + pull) / (behind + whole)
 
-    found = solve_ivp(
+    results = solve_ivp(
         lambda _, q: (angles(q)[1] - q) / tau, (0.0, inputs["time"][-1]), np.zeros(len(k)), method="Radau",
         t_eval=inputs["time"], rtol=1e-9, atol=1e-12,
     )  # fmt: skip
     return {
-        "angle": [angles(state)[0] for state in found.y.T],
-        "set_angle": [float(np.sum(k * state)) / whole for state in found.y.T],
+        "angle": [angles(state)[0] for state in results.y.T],
+        "set_angle": [float(np.sum(k * state)) / whole for state in results.y.T],
     }
 
 
-def plates_on_a_layer(inputs: Told) -> Told:
+def plates_on_a_layer(inputs: Values) -> Values:
     """Plates as one beam: clamped, of bending and shear over a span, then without end on springs that shorten.
 
     In the span M = m - q x, turn = (m x - q x^2/2)/D, w = (m x^2/2 - q x^3/6)/D + q x/S; beyond it

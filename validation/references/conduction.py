@@ -11,11 +11,11 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 from scipy.special import erf, erfc
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 AMBIENT = 295.15
 
 
-def slab_under_flux(inputs: Told) -> Told:
+def slab_under_flux(inputs: Values) -> Values:
     """k theta/(q L) at the heated and the insulated face (Carslaw and Jaeger, 2nd ed., section 3.8 (3))."""
     n = np.arange(1, 400)
 
@@ -26,7 +26,7 @@ def slab_under_flux(inputs: Told) -> Told:
     return {name: [rise(fo, depth) for fo in inputs["fourier"]] for name, depth in (("front", 1.0), ("back", 0.0))}
 
 
-def slab_in_a_stream(inputs: Told) -> Told:
+def slab_in_a_stream(inputs: Values) -> Values:
     """Share of the difference left in a slab behind a film (Incropera, section 5.5): zeta tan zeta = Bi."""
     biot = inputs["biot"]
     roots = [
@@ -41,13 +41,13 @@ def slab_in_a_stream(inputs: Told) -> Told:
     }
 
 
-def half_space_under_flux(inputs: Told) -> Told:
+def half_space_under_flux(inputs: Values) -> Values:
     """Rise of a half-space's surface [K] under 2000 W/m^2, 2 q sqrt(a t/pi)/k (Carslaw and Jaeger)."""
     diffusivity = 0.2 / (1145.0 * 1900.0)
     return {"surface": [2.0 * 2000.0 / 0.2 * np.sqrt(diffusivity * time / np.pi) for time in inputs["time"]]}
 
 
-def touching_bodies(inputs: Told) -> Told:
+def touching_bodies(inputs: Values) -> Values:
     """Face of two half-spaces by their effusivities [degC] (Carslaw and Jaeger, section 2.14)."""
     plate = inputs["plate"]
     metal = np.sqrt(plate["conductivity"] * plate["density"] * plate["specific_heat"])
@@ -55,14 +55,14 @@ def touching_bodies(inputs: Told) -> Told:
     return {"face": [(100.0 * metal + 22.0 * layer) / (metal + layer)] * len(inputs["time"])}
 
 
-def wall_in_series(inputs: Told) -> Told:
+def wall_in_series(inputs: Values) -> Values:
     """Drops under 2000 W/m^2 through joints, 1 mm of 0.2 W/m K, three cells of 1 mm of 0.8 W/m K, and a film."""
     flux, cell = 2000.0, 2000.0 * 1e-3 / 0.8
     joints = [flux / inputs[name] for name in ("hot_contact", "plate_contact", "film")]
     return {"drop": [joints[0], flux * 1e-3 / 0.2, joints[1], 0.5 * cell, cell, cell, 0.5 * cell + joints[2]]}
 
 
-def front(inputs: Told) -> Told:
+def front(inputs: Values) -> Values:
     """Neumann's root for a phase that grows from a face into another one, which melts or freezes at 330 K.
 
     Carslaw and Jaeger, section 11.2 (6); with the other phase at the melting point Stefan's one phase. 2000 J/kg K.
@@ -83,13 +83,13 @@ def front(inputs: Told) -> Told:
     return {"front": roots}
 
 
-def plate_in_two_dimensions(inputs: Told, across: int = 20) -> Told:
+def plate_in_two_dimensions(inputs: Values, across: int = 20) -> Values:
     """Mean temperature of a plate's upper face that an even flux of 1 W/m^2 leaves, below its fed lower face [K].
 
     Half a module and half a gap, finite volumes; no heat passes the ends or the lower face beside the module.
     """
     fed, thickness, k = inputs["fed"], inputs["thickness"], inputs["conductivity"]
-    step, found = thickness / across, []
+    step, results = thickness / across, []
     for beside in inputs["beside"]:
         columns, fed_columns = round((fed + beside) / step), round(fed / step)
         index = np.arange(columns * across).reshape(columns, across)
@@ -103,11 +103,11 @@ def plate_in_two_dimensions(inputs: Told, across: int = 20) -> Told:
         own = np.arange(index.size)
         places = (np.concatenate([first, second, own]), np.concatenate([second, first, own]))
         matrix = coo_matrix((np.concatenate([-k * np.ones(2 * len(first)), diagonal]), places)).tocsr()
-        found.append(float(np.mean(spsolve(matrix, flux)[index[:, -1]]) + 0.5 * step / k))
-    return {"resistance": found}
+        results.append(float(np.mean(spsolve(matrix, flux)[index[:, -1]]) + 0.5 * step / k))
+    return {"resistance": results}
 
 
-def plate_with_a_body_beside(inputs: Told, cells: int = 4000) -> Told:
+def plate_with_a_body_beside(inputs: Values, cells: int = 4000) -> Values:
     """Steady plate of many cells that each give heat to one body beside, solved as one system of equations [K]."""
     area, k, thickness = inputs["area"], inputs["conductivity"], inputs["thickness"]
     step = thickness / cells
@@ -125,13 +125,13 @@ def plate_with_a_body_beside(inputs: Told, cells: int = 4000) -> Told:
     rows = np.concatenate([own, own[:-1], own[1:], own, np.full(cells, cells), [cells]])
     columns = np.concatenate([own, own[1:], own[:-1], np.full(cells, cells), own, [cells]])
     values = np.concatenate([diagonal, upper, upper, np.full(2 * cells, -sideways), [cells * sideways + body]])
-    found = spsolve(coo_matrix((values, (rows, columns)), shape=(size, size)).tocsr(), right)
+    results = spsolve(coo_matrix((values, (rows, columns)), shape=(size, size)).tocsr(), right)
     middles = (own + 0.5) / cells
     places = (0.125, 0.375, 0.625, 0.875)
-    return {"plate": [float(np.interp(place, middles, found[:-1])) for place in places], "beside": [found[-1]]}
+    return {"plate": [float(np.interp(place, middles, results[:-1])) for place in places], "beside": [results[-1]]}
 
 
-def slab_that_heats_itself(inputs: Told) -> Told:
+def slab_that_heats_itself(inputs: Values) -> Values:
     """Rise [K] of the insulated face of a slab with heat I^2 R in it, its other face kept; that heat and 1 ohm's [W].
 
     q L^2/(2 k) (1 - 32/pi^3 sum (-1)^n/(2n+1)^3 exp(-((2n+1) pi/2)^2 Fo)), by separation of variables (Carslaw and
@@ -147,14 +147,14 @@ def slab_that_heats_itself(inputs: Told) -> Told:
     return {"insulated": [float(last * (1.0 - share)) for share in left], "power": power + inputs["current"] ** 2}
 
 
-def comb_by_differences(inputs: Told) -> Told:
+def comb_by_differences(inputs: Values) -> Values:
     """Resistance [ohm] of 1 mm on 1000 mm^2 over a comb by finite differences, extrapolated from two grids."""
-    found = []
+    results = []
     for gap, width in inputs["combs"]:
         coarse, fine = (_comb_cell(gap, width, cells) for cells in (20, 40))
         # A finger's edge is a singularity: the error falls with the size of the cells.
-        found.append(inputs["resistivity"] * (2.0 * fine - coarse) * (gap + width) * 1e-3 / 1e-3)
-    return {"resistance": found}
+        results.append(inputs["resistivity"] * (2.0 * fine - coarse) * (gap + width) * 1e-3 / 1e-3)
+    return {"resistance": results}
 
 
 def _comb_cell(gap: float, width: float, cells: int) -> float:
@@ -164,10 +164,10 @@ def _comb_cell(gap: float, width: float, cells: int) -> float:
     pairs = [(index[:-1], index[1:]), (index[:, :-1], index[:, 1:])]
     diagonal = np.zeros(across * cells)
     rows, columns = [], []
-    for one, other in pairs:
-        rows += [one.ravel(), other.ravel()]
-        columns += [other.ravel(), one.ravel()]
-        for side in (one, other):
+    for each, other in pairs:
+        rows += [each.ravel(), other.ravel()]
+        columns += [other.ravel(), each.ravel()]
+        for side in (each, other):
             np.add.at(diagonal, side.ravel(), 1.0)
     feet, middle = index[:foot, 0], index[-1]
     diagonal[feet] += 2.0

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
-def inner_fibre(inputs: Told) -> Told:
+def inner_fibre(inputs: Values) -> Values:
     """Stress at the inner fibre of a round curved bar over that of a straight one (Winkler and Bach).
 
     In diameters: neutral radius r_n = r^2/(2 (R - sqrt(R^2 - r^2))), sigma = M c_i/(A e r_i).
@@ -23,7 +23,7 @@ def inner_fibre(inputs: Told) -> Told:
     return {"smi": factor, "en": factor}
 
 
-def leg_by_vectors(inputs: Told) -> Told:
+def leg_by_vectors(inputs: Values) -> Values:
     """Turn of a straight leg that is tangent to its coil's circle and touches a pin, and its derivatives.
 
     The direction of the tangent from the pin to a circle, by vectors; derivatives by central differences of the

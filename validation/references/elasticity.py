@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.integrate import quad
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
-def torsion(inputs: Told) -> Told:
+def torsion(inputs: Values) -> Values:
     """Torsion by integrals: sum of r^2 over a bar's section; rings sheared one against the next."""
     shear = inputs["youngs_modulus"] / (2.0 * (1.0 + inputs["poissons_ratio"]))
     radius, ring = inputs["radius"], inputs["ring"]
@@ -25,25 +25,25 @@ def torsion(inputs: Told) -> Told:
     }
 
 
-def foot(inputs: Told) -> Told:
-    """A beam between two built-in ends that shift, by its energy: moment F (x - h/2), shear over 0.9 of the area."""
+def foot(inputs: Values) -> Values:
+    """Solve a beam between built-in ends that shift, by energy: moment F (x - h/2), shear over 0.9 of the area."""
     youngs = inputs["youngs_modulus"]
     shear = youngs / (2.0 * (1.0 + inputs["poissons_ratio"]))
     radius, bore = inputs["radius"], inputs["bore"]
     inertia, area = 0.25 * np.pi * (radius**4 - bore**4), np.pi * (radius**2 - bore**2)
-    found = []
+    results = []
     for height in inputs["height"]:
         bending, _ = quad(lambda x, h=height: (x - 0.5 * h) ** 2 / (youngs * inertia), 0.0, height)
-        found.append(1.0 / (bending + height / (0.9 * shear * area)))
-    return {"stiffness": found}
+        results.append(1.0 / (bending + height / (0.9 * shear * area)))
+    return {"stiffness": results}
 
 
-def pressed_cantilever(inputs: Told) -> Told:
+def pressed_cantilever(inputs: Values) -> Values:
     """Timoshenko's cantilever, pressed evenly beyond a free length: mean way of the pressed part, by quadrature."""
     youngs, width, thickness = (inputs[name] for name in ("youngs_modulus", "width", "thickness"))
     shear = youngs / (2.0 * (1.0 + inputs["poissons_ratio"]))
     bending, shearing = youngs * width * thickness**3 / 12.0, 5.0 / 6.0 * shear * width * thickness
-    height, found = inputs["height"], []
+    height, results = inputs["height"], []
     for free in inputs["free"]:
         tip = free + height
 
@@ -57,11 +57,11 @@ def pressed_cantilever(inputs: Told) -> Told:
         # The mean way of the pressed part is the work of a unit pressure spread over it: m^2/EI + v^2/kGA.
         bent = sum(quad(lambda x: moment(x) ** 2, a, b)[0] for a, b in ((0.0, free), (free, tip)))
         sheared = sum(quad(lambda x: force(x) ** 2, a, b)[0] for a, b in ((0.0, free), (free, tip)))
-        found.append(1.0 / (bent / bending + sheared / shearing))
-    return {"stiffness": found}
+        results.append(1.0 / (bent / bending + sheared / shearing))
+    return {"stiffness": results}
 
 
-def flat_shapes(inputs: Told, step: float = 2.5e-5) -> Told:
+def flat_shapes(inputs: Values, step: float = 2.5e-5) -> Values:
     """Areas and polar moments by counting squares of 0.025 mm whose middles are inside, row by row."""
     axis = np.arange(-0.05 + 0.5 * step, 0.05, step)
     names = ("sector", "disc", "rectangle", "slot", "notch")
@@ -80,7 +80,7 @@ def flat_shapes(inputs: Told, step: float = 2.5e-5) -> Told:
     }
 
 
-def _inside(inputs: Told, x: Any, y: float, radius: Any) -> Mapping[str, Any]:
+def _inside(inputs: Values, x: Any, y: float, radius: Any) -> Mapping[str, Any]:
     """Which places of a row are inside each shape."""
     span, inner, outer = inputs["sector"]
     small, distance = inputs["disc"]

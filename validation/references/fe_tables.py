@@ -1,4 +1,4 @@
-"""What finite elements and planes found, read off the tables that are stored in validation/."""
+"""Results of finite elements and planes, read from the tables in validation/."""
 
 from __future__ import annotations
 
@@ -9,30 +9,30 @@ from typing import Any
 
 import yaml
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 VALIDATION = Path(__file__).resolve().parents[1]
 
 
-def springs(_: Told) -> Told:
+def springs(_: Values) -> Values:
     """Rate and stresses of the drawn springs; the whole coil was looked at in some.
 
     Bends count that the product draws: an inside radius of a wire's diameter or more.
     """
-    told = yaml.safe_load((VALIDATION / "fe_spring/results.yaml").read_text(encoding="utf-8"))["springs"]
+    stored = yaml.safe_load((VALIDATION / "fe_spring/results.yaml").read_text(encoding="utf-8"))["springs"]
     names = ("rate", "fibre", "bend", "coil")
-    labels = {name: [spring for spring, case in told.items() if name in case] for name in names}
-    labels["bend"] = [spring for spring in labels["bend"] if told[spring]["bend_ratio"] >= 1.0]
-    return {**{name: [told[spring][name] for spring in labels[name]] for name in names}, "labels": labels}
+    labels = {name: [spring for spring, case in stored.items() if name in case] for name in names}
+    labels["bend"] = [spring for spring in labels["bend"] if stored[spring]["bend_ratio"] >= 1.0]
+    return {**{name: [stored[spring][name] for spring in labels[name]] for name in names}, "labels": labels}
 
 
-def links(_: Told) -> Told:
+def links(_: Values) -> Values:
     """Stiffness of links as drawn."""
-    told = yaml.safe_load((VALIDATION / "fe_link/results.yaml").read_text(encoding="utf-8"))
-    return {"stiffness": [case["link"] for case in told.values()], "labels": {"stiffness": list(told)}}
+    stored = yaml.safe_load((VALIDATION / "fe_link/results.yaml").read_text(encoding="utf-8"))
+    return {"stiffness": [case["link"] for case in stored.values()], "labels": {"stiffness": list(stored)}}
 
 
-def joints(inputs: Told) -> Told:
-    """One quantity of every shipped study, by FE."""
+def joints(inputs: Values) -> Values:
+    """Return a quantity of every shipped study, by FE."""
     with (VALIDATION / "fe_structure/results.csv").open(newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["quantity"] == inputs["quantity"] and row["fe"]]
     rows.sort(key=lambda row: row["study"])
@@ -40,14 +40,14 @@ def joints(inputs: Told) -> Told:
     return {name: [float(row["fe"]) for row in rows], "labels": {name: [row["study"] for row in rows]}}
 
 
-def tables(inputs: Told) -> Told:
+def tables(inputs: Values) -> Values:
     """Another column of the same rows of a stored table."""
     with (VALIDATION / inputs["table"]).open(newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if all(row[key] == value for key, value in inputs["where"].items())]
     return {"value": [float(row[inputs["expected"]]) for row in rows]}
 
 
-def plane_times(inputs: Told) -> Told:
+def plane_times(inputs: Values) -> Values:
     """Times [s] that the plane in two dimensions takes, of rows of study and time, as the studies start."""
     with (VALIDATION / "heat_sector/results.csv").open(newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["design"] == "start"]

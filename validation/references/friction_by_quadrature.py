@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.integrate import quad
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
-def clamped_disc(inputs: Told) -> Told:
+def clamped_disc(inputs: Values) -> Values:
     """Torque of an evenly pressed ring: integral of mu p r 2 pi r dr, lengths in mm."""
     outer = float(inputs["outer_radius"].removesuffix(" mm")) * 1e-3
     force = float(inputs["force"].removesuffix(" N"))
@@ -22,7 +22,7 @@ def clamped_disc(inputs: Told) -> Told:
     return {"torque": torques}
 
 
-def damping(inputs: Told) -> Told:
+def damping(inputs: Values) -> Values:
     """Energy that friction takes in a cycle over pi omega theta^2, summed over the cycle."""
     omega, amplitude, share = inputs["angular_frequency"], inputs["amplitude"], inputs["share"]
     phase = np.linspace(0.0, 2.0 * np.pi, 400_001)

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 
 
-def with_a_dashpot(inputs: Told) -> Told:
+def with_a_dashpot(inputs: Values) -> Values:
     """I theta'' + b theta' + K theta = 0 from rest, by its two roots."""
     roots = np.roots([inputs["inertia"], inputs["damping"], inputs["springs"]]).astype(complex)
     time = np.array(inputs["time"], float)
@@ -20,8 +20,8 @@ def with_a_dashpot(inputs: Told) -> Told:
     return {"angle": angle.real}
 
 
-def with_maxwell_modes(inputs: Told) -> Told:
-    """The link, the angle behind the structure and every dashpot stepped in time by scipy (Radau)."""
+def with_maxwell_modes(inputs: Values) -> Values:
+    """Step the link, the angle behind the structure and every dashpot by scipy (Radau)."""
     tau, k = (np.array(column, float) for column in zip(*inputs["modes"], strict=True))
     springs, behind, inertia = inputs["springs"], inputs["structure"], inputs["inertia"]
 
@@ -32,16 +32,16 @@ def with_maxwell_modes(inputs: Told) -> Told:
         return np.concatenate([[speed, torque / inertia], (layer - inner) / tau])
 
     begin = np.concatenate([[inputs["start"], 0.0], np.full(len(k), inputs["start"])])
-    found = solve_ivp(
+    results = solve_ivp(
         rates, (0.0, inputs["time"][-1]), begin, method="Radau", t_eval=inputs["time"], rtol=1e-9, atol=1e-12
     )
-    return {"angle": found.y[0]}
+    return {"angle": results.y[0]}
 
 
-def rubbed(inputs: Told) -> Told:
+def rubbed(inputs: Values) -> Values:
     """Amplitudes fall by 2 T_f/K each half swing until the springs no longer overcome the friction."""
-    band, last, found = inputs["friction"] / inputs["springs"], float(inputs["start"]), []
+    band, last, results = inputs["friction"] / inputs["springs"], float(inputs["start"]), []
     while last > band:
         last = abs(last - 2.0 * band)
-        found.append(last)
-    return {"amplitude": found[: inputs["count"]], "rest": last}
+        results.append(last)
+    return {"amplitude": results[: inputs["count"]], "rest": last}

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from scipy.integrate import quad, solve_ivp
 
-Told = Mapping[str, Any]
+Values = Mapping[str, Any]
 CASES = Path(__file__).resolve().parents[1] / "cases"
 
 
-def terminal_viscosities(inputs: Told) -> Told:
+def terminal_viscosities(inputs: Values) -> Values:
     """G''/w at the lowest frequencies of a file, the mean of the first two rows; power 3.4 of the molar mass."""
 
     def slow(name: str) -> float:
@@ -28,7 +28,7 @@ def terminal_viscosities(inputs: Told) -> Told:
     }
 
 
-def zener(inputs: Told) -> Told:
+def zener(inputs: Values) -> Values:
     """Standard linear solid of a permanent R and a passing G, eta = G tau (Findley, Lai and Onaran, ch. 5)."""
     (_, rest), (tau, passing) = inputs["modes"]
     time, omega = np.array(inputs["time"], float), np.array(inputs["frequency"], float)
@@ -43,7 +43,7 @@ def zener(inputs: Told) -> Told:
     }
 
 
-def of_a_spectrum(inputs: Told) -> Told:
+def of_a_spectrum(inputs: Values) -> Values:
     """Creep by the elements' own equations stepped in time, start-up and moduli by quadrature."""
     modes = [(float(tau), float(modulus)) for tau, modulus in inputs["modes"]]
 
@@ -86,7 +86,7 @@ def _strain(modes: list[tuple[float, float]], times: Any) -> Any:
     return found.y[-1]
 
 
-def wagner(inputs: Told, past_nodes: int = 6000, phases: int = 256) -> Told:
+def wagner(inputs: Values, past_nodes: int = 6000, phases: int = 256) -> Values:
     """First harmonics of Wagner's stress, integrated over the past at every phase of a period.
 
     sigma = int m(s) h(g) g ds, g = gamma(t) - gamma(t - s), h = 1/(1 + 5/95 (g/limit)^2).
@@ -106,7 +106,7 @@ def wagner(inputs: Told, past_nodes: int = 6000, phases: int = 256) -> Told:
     return {"storage": storage, "loss": loss}
 
 
-def transforms(inputs: Told) -> Told:
+def transforms(inputs: Values) -> Values:
     """exp(-t), 1 - exp(-t/5) and t."""
     time = np.array(inputs["time"], float)
     return {"fading": np.exp(-time), "creeping": 1.0 - np.exp(-0.2 * time), "flowing": time}
