@@ -2,7 +2,7 @@
 
 A lip touches the layer but for the running clearance below it; what else heats and cools it is in `lip_heat`. The arcs'
 ends have no lip; they are taken as having one, as an arc is a strip with as much edge. A liner and its film are as much
-more layer there, before the plate; the walls of its recess go on from the lip (`liner_rim`).
+more layer there, before the plate; the walls of its recess go on from the lip (`_liner_rim`).
 
 A liner gives heat sideways through the film around it to the walls of its recess in the rotor plate. Layer and liner
 end at one cold wall (`end_wall`): the walls of the recess, and below them a lip, if there is
@@ -142,11 +142,11 @@ def side_links(m: Module) -> tuple[Link, ...]:
     near, far = shape_factors.gap_end(slot) if m.melt_lip == NO_LIP else below_lip(slot)[::-1]
     through = m.edge_length * conductivity
     if m.melt_lip != NO_LIP:
-        return (*m.liner_rim, Link(HOT, FLOOR, near * through))
+        return (*_liner_rim(m), Link(HOT, FLOOR, near * through))
     corner = m.structure_conductivity * m.edge_length * shape_factors.corner_shape(near)
     inside = shape_factors.FALLING * shape_factors.gap_end_depth(slot) / (near + far)
     to_floor = Link(HOT, FLOOR, lumps.in_series(near * through, corner), of_layer=inside)
-    return (*m.liner_rim, to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
+    return (*_liner_rim(m), to_floor, Link(HOT, BESIDE, far * through, of_layer=inside))
 
 
 LINER, PLATE = ("liner", 0), ("plate", 0)
@@ -166,8 +166,7 @@ def liner_to_wall(m: Module) -> Scalar:
     )
 
 
-@quantities.helper()
-def liner_rim(m: Module) -> tuple[Link, ...]:
+def _liner_rim(m: Module) -> tuple[Link, ...]:
     """Links from a liner to the plate's edge, which lies between plate and strip beside it; none without a liner."""
     if m.liner_sheet is None:
         return ()

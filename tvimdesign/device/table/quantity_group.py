@@ -57,35 +57,20 @@ class QuantityGroup:
     def inputs(self) -> None:
         """Add the inputs that `inputs.yaml` lists under this group."""
         for name, entry in _all_inputs()[self.group].items():
-            unit = str(entry["unit"])
-            record = (str(entry["record"][0]), str(entry["record"][1])) if "record" in entry else None
-            whole = (str(entry["stock_record"][0]), str(entry["stock_record"][1])) if "stock_record" in entry else None
+            unit, record = str(entry["unit"]), _words(entry, "record")
+            source = f"{entry['status']}: {entry['source']}" if "value" in entry or not record else _of_record(record)
+            numbers = {field: to_si(float(entry[key]), unit) for field, key in _NUMBERS.items() if key in entry}
             self.quantities.append(
                 Input(
-                    name=name,
-                    unit=unit,
-                    description=entry["about"],
-                    group=self.group,
-                    default=to_si(float(entry["value"]), unit) if "value" in entry else None,
-                    lower=to_si(float(entry["from"]), unit),
-                    upper=to_si(float(entry["to"]), unit),
-                    variable=entry.get("vary", False),
-                    integer=entry.get("integer", False),
-                    part=entry.get("part", ""),
-                    period=to_si(float(entry["period"]), unit) if "period" in entry else None,
-                    per_point=entry.get("per_point", False),
-                    low=to_si(float(entry["low"]), unit) if "low" in entry else None,
-                    high=to_si(float(entry["high"]), unit) if "high" in entry else None,
-                    range_of=(str(entry["range_of"][0]), str(entry["range_of"][1])) if "range_of" in entry else None,
-                    source=_of_record(record) if record and "value" not in entry else _said(entry),
-                    record=record,
-                    stock_record=whole,
-                    stock=_listed_in(*entry["stock"]) if "stock" in entry else None,
-                    mode=entry.get("mode"),
+                    name=name, unit=unit, description=entry["about"], group=self.group, source=source, record=record,
+                    variable=entry.get("vary", False), integer=entry.get("integer", False), part=entry.get("part", ""),
+                    per_point=entry.get("per_point", False), range_of=_words(entry, "range_of"),
+                    stock_record=_words(entry, "stock_record"), mode=entry.get("mode"),
+                    stock=tuple(entry["stock"]) if "stock" in entry else None,
                     requires=(Feature(*entry["feature"]),) if "feature" in entry else (),
-                    read_by=entry.get("read_by", ""),
+                    read_by=entry.get("read_by", ""), **numbers,
                 )
-            )
+            )  # fmt: skip
 
     def property(
         self,
@@ -168,43 +153,11 @@ class QuantityGroup:
     ) -> Callable[[F], F]:
         """Add a function as a quantity; in a module that lacks one of its features it is `default`."""
 
-        def add(function: F) -> F:
-            quantity = Output(
-                name=function.__name__,
-                unit=unit,
-                description=_summary(function),
-                group=self.group,
-                function=function,
-                per_point=per_point,
-                instant=instant,
-                hidden=hidden,
-                headline=headline,
-                least_of=least_of,
-                also_limited=also_limited,
-                parts_differ_with=parts_differ_with,
-                rules=rules,
-                advice=advice,
-                ratings=ratings,
-                better=directions().get(function.__name__),
-                requires=self.requires if requires is None else requires,
-                default=default,
-            )
-            self.quantities.append(quantity)
-            return function
-
-        return add
-
-    def event(self, phase: Phase, *, headline: bool = True) -> Callable[[F], F]:
-        """Add a time: the first instant of a phase at which the function, which rises, passes zero."""
-
-        def add(function: F) -> F:
-            quantity = Event(name=function.__name__, unit="s", description=_summary(function), group=self.group,
-                        function=function, phase=phase.name, headline=headline,
-                        better=directions().get(function.__name__))  # fmt: skip
-            self.quantities.append(quantity)
-            return function
-
-        return add
+        return self._add(
+            Output, unit, rules=rules, advice=advice, ratings=ratings, per_point=per_point, instant=instant,
+            hidden=hidden, headline=headline, least_of=least_of, also_limited=also_limited, parts_differ_with=parts_differ_with,
+            requires=self.requires if requires is None else requires, default=default,
+        )  # fmt: skip
 
     def from_template(
         self,
@@ -244,51 +197,33 @@ class QuantityGroup:
         """Add an intermediate result that other quantities use and nobody asks for."""
         return self.output("1", per_point=per_point, instant=instant, hidden=True, requires=requires, default=default)
 
+    def event(self, phase: Phase, *, headline: bool = True) -> Callable[[F], F]:
+        """Add a time: the first instant of a phase at which the function, which rises, passes zero."""
+        return self._add(Event, "s", phase=phase.name, headline=headline)
+
     def path(
-        self,
-        phase: Phase,
-        unit: str,
-        reduce: Literal["integral", "maximum", "end"],
-        *,
-        headline: bool = False,
+        self, phase: Phase, unit: str, reduce: Literal["integral", "maximum", "end"], *, headline: bool = False
     ) -> Callable[[F], F]:
-        """Add what an instant's value adds up to, or reaches, over a phase, or is at its end."""
-
-        def add(function: F) -> F:
-            quantity = Path(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                       function=function, phase=phase.name, reduce=reduce, headline=headline,
-                       better=directions().get(function.__name__))  # fmt: skip
-            self.quantities.append(quantity)
-            return function
-
-        return add
+        """Add the integral or the largest value of a function over a phase, or its value at the end."""
+        return self._add(Path, unit, phase=phase.name, reduce=reduce, headline=headline)
 
     def steady(self, phase: Phase, unit: str, *, headline: bool = False) -> Callable[[F], F]:
-        """Add what an instant's value is when everything stays where a phase ends."""
-
-        def add(function: F) -> F:
-            quantity = Steady(name=function.__name__, unit=unit, description=_summary(function), group=self.group,
-                         function=function, phase=phase.name, headline=headline,
-                         better=directions().get(function.__name__))  # fmt: skip
-            self.quantities.append(quantity)
-            return function
-
-        return add
+        """Add the value of a function when everything stays where a phase ends."""
+        return self._add(Steady, unit, phase=phase.name, headline=headline)
 
     def first_oscillation(self, unit: str, *, headline: bool = True) -> Callable[[F], F]:
-        """Add what is seen at each operating point in the first swing of a released link, on average over it."""
+        """Add the mean of a function over the first swing of a released link, at each operating point."""
+        return self._add(FirstOscillation, unit, per_point=True, headline=headline)
+
+    def _add(self, kind: type[Output], unit: str, **fields: Any) -> Callable[[F], F]:
+        """Return a decorator that adds a function as a quantity of a kind."""
 
         def add(function: F) -> F:
-            quantity = FirstOscillation(
-                name=function.__name__,
-                unit=unit,
-                description=_summary(function),
-                group=self.group,
-                function=function,
-                per_point=True,
-                headline=headline,
-                better=directions().get(function.__name__),
-            )
+            name = function.__name__
+            quantity = kind(
+                name=name, unit=unit, description=_summary(function), group=self.group, function=function,
+                better=directions().get(name), **fields,
+            )  # fmt: skip
             self.quantities.append(quantity)
             return function
 
@@ -319,19 +254,18 @@ def _groups_of(room: ModuleType) -> Iterator[QuantityGroup]:
             yield from (group for group in value if isinstance(group, QuantityGroup))
 
 
-def _said(entry: Mapping[str, Any]) -> str:
-    """Return the source of an input that has a default of its own."""
-    return f"{entry['status']}: {entry['source']}"
-
-
 def _of_record(record: tuple[str, str]) -> str:
     """Return the source of an input whose value a chosen record gives."""
     return f"record: {record[1]} of the chosen {record[0]}"
 
 
-def _listed_in(category: str, table: str, column: str) -> tuple[str, str, str]:
-    """Return where a record lists the sizes of an input that one can buy."""
-    return category, table, column
+_NUMBERS = {"default": "value", "lower": "from", "upper": "to", "period": "period", "low": "low", "high": "high"}
+"""Keys of `inputs.yaml` that hold numbers, by the field of `Input`."""
+
+
+def _words(entry: Mapping[str, Any], key: str) -> tuple[str, str] | None:
+    """Return a pair of words of an entry of `inputs.yaml`, if it has it."""
+    return (str(entry[key][0]), str(entry[key][1])) if key in entry else None
 
 
 def _summary(function: Callable[..., Any]) -> str:

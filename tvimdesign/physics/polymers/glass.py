@@ -10,13 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tvimdesign.physics.polymers.polymer import (
-    PINNED_FREQUENCY,
-    Modes,
-    arrhenius_shift,
-    maxwell_moduli,
-    ramp,
-)
+from tvimdesign.physics.polymers.polymer import PINNED_FREQUENCY, Modes, arrhenius_shift, maxwell_moduli, ramp
 
 _CORNER = 1.0  # K; over this the shift's kink at the glass transition is rounded
 

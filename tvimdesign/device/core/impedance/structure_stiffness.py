@@ -105,8 +105,7 @@ def link_stiffness(m: Module) -> Scalar:
     )  # fmt: skip
 
 
-@quantities.helper(per_point=True)
-def stiffness_beyond_link(m: Module) -> tuple[Scalar, Scalar]:
+def _stiffness_beyond_link(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of the joint with its link, which is as warm as the core [N*m/rad]."""
     link = (m.link_stiffness * part for part in warm.complex_modulus(m.core_temperature, m.structure_softening))
     return series_stiffness(m.spring_stiffness + m.branch_stiffness[0], m.branch_stiffness[1], *link)
@@ -115,7 +114,7 @@ def stiffness_beyond_link(m: Module) -> tuple[Scalar, Scalar]:
 @quantities.output("N*m/rad", per_point=True, headline=True)
 def joint_stiffness_at_link(m: Module) -> Scalar:
     """Stiffness a force in the link's tool hole meets: the joint's at the hub in series with the link."""
-    return m.stiffness_beyond_link[0]
+    return _stiffness_beyond_link(m)[0]
 
 
 @quantities.helper()
