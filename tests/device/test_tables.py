@@ -1,11 +1,10 @@
 """Every quantity of both tables is said in words and units, every input is used, and symbols give what floats give."""
 
-from typing import Any
-
 import numpy as np
 import pint
 import pytest
 from cad_designs import TILES, VANE_TILE_ROWS
+from device_values import inputs_of
 from every import of_every
 from hypothesis import given as drawn
 from hypothesis import settings
@@ -25,10 +24,6 @@ from tvimdesign.study import given, read_study_text
 POINTS = ("cold", "hot")
 TABLE = table_for("shear")
 each_mode = pytest.mark.parametrize("mode", MODES)
-
-
-def inputs_of(mode: str, module: dict[str, Any] | None = None) -> dict[str, Any]:
-    return given(read_study_text(f"mode: {mode}\n", "a test").model_copy(update={"module": module or {}}))
 
 
 @each_mode
@@ -216,7 +211,7 @@ def algebraic(table: Table) -> list[str]:
 def test_floats_and_symbols_give_the_same_outputs(case: str) -> None:
     mode, module = MODULES[case]
     table = table_for(mode)
-    model = DeviceFunctions(table, inputs_of(mode, module), POINTS, 4)
+    model = DeviceFunctions(table, inputs_of(mode, **module), POINTS, 4)
     supplied = dict(zip(model.switch_names, np.linspace(60.0, 300.0, len(model.switch_names)), strict=True))
     numbers = {name: float(model.start[i]) for name, i in model.index.items()}
     floats = table.evaluate({**model.words, **numbers, **supplied}, algebraic(table))

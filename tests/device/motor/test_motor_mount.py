@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
+from device_values import inputs_of, values_of
 
 from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 RULES = {
@@ -22,16 +20,6 @@ ENCODER_RULES = {"encoder_ledge_margin", "encoder_floor_margin"}
 DRIVEN = {"motor": "frameless_70x10", "encoder": "on_axis_28"}
 
 
-def inputs_with(mode: str = "shear", **module: str) -> dict[str, Any]:
-    lines = "\n".join(f"  {name}: {value}" for name, value in {"stroke": "0.104 rad", **module}.items())
-    return given(read_study_text(f"mode: {mode}\nmodule:\n{lines}\n", "a test"))
-
-
-def values_of(rows: str, mode: str = "shear", **module: str) -> dict[str, float]:
-    found: dict[str, float] = table_for(mode).evaluate(inputs_with(mode, **module), rows.split())
-    return found
-
-
 def test_the_motor_stands_below_the_feet_and_the_envelope_has_it() -> None:
     rows = "drive_height motor_plate_level stator_top_level stator_bottom_level motor_bottom_level envelope_height"
     bare, driven = values_of("envelope_height envelope_diameter"), values_of(rows, **DRIVEN)
@@ -40,7 +28,7 @@ def test_the_motor_stands_below_the_feet_and_the_envelope_has_it() -> None:
     assert levels == pytest.approx([-16.0, -17.0, -39.6, -47.6])
     assert driven["drive_height"] == pytest.approx(37.6 * MM)
     assert driven["envelope_height"] - bare["envelope_height"] == pytest.approx(37.6 * MM)
-    narrow = inputs_with(**DRIVEN) | {"housing_outer_radius": 30.0 * MM}
+    narrow = inputs_of(**DRIVEN) | {"housing_outer_radius": 30.0 * MM}
     wide = table_for("shear").evaluate(narrow, ["envelope_diameter"])["envelope_diameter"]
     assert wide == pytest.approx((69.0 + 2 * 0.2 + 2 * 2.5) * MM)
     assert values_of("envelope_diameter", **DRIVEN)["envelope_diameter"] == bare["envelope_diameter"]
@@ -202,7 +190,7 @@ def test_each_rule_of_a_motor_mount_can_be_violated() -> None:
     }.items():
         assert values_of(rule, **DRIVEN | module)[rule] < 0.0, rule
     # The base begins at -39.6 mm: a rotor as long as that reaches into the clearance of 0.4 mm.
-    long = inputs_with(**DRIVEN) | {"motor_rotor_bottom_level": -39.3 * MM}
+    long = inputs_of(**DRIVEN) | {"motor_rotor_bottom_level": -39.3 * MM}
     assert table_for("shear").evaluate(long, ["motor_barrel_gap"])["motor_barrel_gap"] == pytest.approx(-0.1 * MM)
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import exp, pi, radians
-from typing import Any
 
 import pytest
+from device_values import values_of
 
 from tvimdesign.device import table_for
 from tvimdesign.study import given, read_study_text
@@ -13,14 +13,6 @@ from tvimdesign.study import given, read_study_text
 TABLE = table_for("shear")
 STEEL_RATE = 6.75e3  # N/m of 21 x 25 x 0.2 mm with three waves, by hand from the makers' formula
 G = 9.80665
-
-
-def values_of(rows: str, **module: Any) -> dict[str, float]:
-    """Rows of the default shear module but for what is said."""
-    lines = "\n".join(f"  {name}: {value}" for name, value in module.items())
-    known = given(read_study_text(f"mode: shear\nmodule:\n{lines or '  key_count: 0'}\n", "a test"))
-    found: dict[str, float] = TABLE.evaluate(known, rows.split())
-    return found
 
 
 def advised(row: str, value: float) -> bool:

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from math import cos, pi, sin
-from typing import Any
 
 import numpy as np
 import pytest
+from device_values import inputs_of
 
 from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("shear")
 GAPS = ["thermistor_window_gap", "thermistor_arc_gap"]
-
-
-def inputs_of(**module: Any) -> dict[str, Any]:
-    """Inputs of the shear module but for what is said (SI, records by name)."""
-    return given(read_study_text("mode: shear\n", "a test").model_copy(update={"module": module}))
 
 
 def test_the_floor_lacks_the_half_beside_the_pad_and_all_of_it_below() -> None:

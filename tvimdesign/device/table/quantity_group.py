@@ -155,8 +155,9 @@ class QuantityGroup:
 
         return self._add(
             Output, unit, rules=rules, advice=advice, ratings=ratings, per_point=per_point, instant=instant,
-            hidden=hidden, headline=headline, least_of=least_of, also_limited=also_limited, parts_differ_with=parts_differ_with,
-            requires=self.requires if requires is None else requires, default=default,
+            hidden=hidden, headline=headline, least_of=least_of, also_limited=also_limited,
+            parts_differ_with=parts_differ_with, requires=self.requires if requires is None else requires,
+            default=default,
         )  # fmt: skip
 
     def from_template(

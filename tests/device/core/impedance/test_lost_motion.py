@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
+from device_values import values_of
 
-from tvimdesign.device import MODES, table_for
-from tvimdesign.study import given, read_study_text
+from tvimdesign.device import MODES
 
 MM = 1e-3
-
-
-def values_of(rows: str, mode: str = "shear", **module: Any) -> dict[str, float]:
-    lines = "\n".join(f"  {name}: {value}" for name, value in module.items())
-    text = f"mode: {mode}\nmodule:\n{lines}\n" if module else f"mode: {mode}\n"
-    found = table_for(mode).evaluate(given(read_study_text(text, "a test")), rows.split())
-    return {name: float(value) for name, value in found.items()}
 
 
 @pytest.mark.parametrize("transmission", ["unity", "geometry"])

@@ -4,23 +4,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from device_values import inputs_of
 
 from tvimdesign.device import table_for
 from tvimdesign.device.core.impedance.warm_structure import parts_now
 from tvimdesign.device.table.module import Module
 from tvimdesign.physics.heat_flow import heat
-from tvimdesign.study import given as resolve
-from tvimdesign.study import read_study_text
 
 LEFT = ["structure_stiffness", "core_stiffness", "plate_stiffness", "floor_stiffness", "core_radius",
         "pcl_inner_radius", "pcl_outer_radius", "layer_polar_moment", "pad_compliance", "driven_share",
         "joint_stiffness@hot", "joint_damping@hot", "pcl_stiffness@hot", "pcl_damping@hot", "spring_stiffness",
         "part_temperatures@hot", "plate_temperature@hot", "core_temperature@hot", "hot_structure_share"]  # fmt: skip
-
-
-def inputs_of(mode: str, **module: str) -> dict[str, Any]:
-    words = "".join(f"  {name}: {word}\n" for name, word in module.items())
-    return resolve(read_study_text(f"mode: {mode}\n" + (f"module:\n{words}" if words else ""), "a test"))
 
 
 def star(celsius: Any) -> Any:

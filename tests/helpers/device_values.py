@@ -1,0 +1,26 @@
+"""Inputs and quantities of a module that is the default one but for some inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.device import table_for
+from tvimdesign.study import given, read_study_text
+
+
+def inputs_of(mode: str = "shear", /, **module: Any) -> dict[str, Any]:
+    """Return the inputs of a module; words are read as in a study ("2 mm", names of records), numbers are in SI."""
+    words = "".join(f"  {name}: {value}\n" for name, value in module.items() if isinstance(value, str))
+    study = read_study_text(f"mode: {mode}\n" + (f"module:\n{words}" if words else ""), "a test")
+    numbers = {name: value for name, value in module.items() if not isinstance(value, str)}
+    return given(study.model_copy(update={"module": {**study.module, **numbers}}))
+
+
+def values_of(names: str | Iterable[str], mode: str = "shear", /, **module: Any) -> dict[str, Any]:
+    """Return quantities of a module by name; `names` is a list, or one text with spaces between them."""
+    wanted = names.split() if isinstance(names, str) else list(names)
+    values = table_for(mode).evaluate(inputs_of(mode, **module), wanted)
+    return {name: float(value) if np.ndim(value) == 0 and np.isreal(value) else value for name, value in values.items()}
