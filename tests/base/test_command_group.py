@@ -28,27 +28,27 @@ def test_what_a_command_says_and_its_code_are_given_back() -> None:
 
 
 def test_commands_of_other_threads_end_with_the_group(tmp_path: Path) -> None:
-    told, ended = tmp_path / "told", []
+    reported, ended = tmp_path / "told", []
     with CommandGroup() as commands:
-        command = [sys.executable, "-c", STARTS_ANOTHER, str(told)]
+        command = [sys.executable, "-c", STARTS_ANOTHER, str(reported)]
         waits = Thread(target=lambda: ended.append(commands.run(command, 60.0)))
         waits.start()
-        while not told.exists():
+        while not reported.exists():
             time.sleep(0.02)
     waits.join(60.0)
-    assert [one.returncode < 0 for one in ended] == [True]
-    _gone(told)
+    assert [item.returncode < 0 for item in ended] == [True]
+    _gone(reported)
     assert commands.run([sys.executable, "-c", "print(1)"], 60.0).returncode < 0
 
 
 def test_a_command_that_takes_too_long_is_ended(tmp_path: Path) -> None:
-    told = tmp_path / "told"
+    reported = tmp_path / "told"
     starts_a_burner = STARTS_ANOTHER.replace("import time; time.sleep(600)", "while True: pass")
     with CommandGroup() as commands, pytest.raises(ProcessorTimeError):
-        commands.run([sys.executable, "-c", starts_a_burner, str(told)], 0.5)
-    _gone(told)
+        commands.run([sys.executable, "-c", starts_a_burner, str(reported)], 0.5)
+    _gone(reported)
 
 
-def _gone(told: Path) -> None:
-    numbers = [int(number) for number in told.read_text().split()]
+def _gone(reported: Path) -> None:
+    numbers = [int(number) for number in reported.read_text().split()]
     assert are_gone(numbers)

@@ -32,8 +32,8 @@ def test_a_run_without_cad_says_so_and_does_the_rest(tvimdesign: Command, tmp_pa
     assert done.stdout.count("No parts: cadquery is not installed: pip install 'tvimdesign[cad]'") == 1
     assert (tmp_path / "run/report.html").exists()
     assert not (tmp_path / "run/cad").exists()
-    told = json.loads(tvimdesign("run", study, "--no-plots", "--json", "--out", tmp_path / "json").stdout)
-    assert told["not_done"] == ["parts: cadquery is not installed: pip install 'tvimdesign[cad]'"]
+    reported = json.loads(tvimdesign("run", study, "--no-plots", "--json", "--out", tmp_path / "json").stdout)
+    assert reported["not_done"] == ["parts: cadquery is not installed: pip install 'tvimdesign[cad]'"]
     refused = tvimdesign("cad", tmp_path / "run/design.json", "--out", tmp_path / "parts")
     assert refused.returncode == InputError.exit_code
     assert "pip install 'tvimdesign[cad]'" in refused.stderr

@@ -56,8 +56,8 @@ def test_an_interrupt_that_cannot_be_raised_stays_pending(
             signal.raise_signal(signal.SIGTERM)  # as in a function of SciPy's that cannot hand an exception on
 
     with interrupt_handler():
-        one = Ends()
-        del one
+        item = Ends()
+        del item
         with pytest.raises(KeyboardInterrupt):
             raise_pending()
     assert not capsys.readouterr().err

@@ -40,9 +40,9 @@ end:
 def told(values: np.ndarray) -> float:
     code = MachineCode(TEXT)
     call = code.function("sums", (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64))
-    found = np.empty(1)
-    call(values.ctypes.data, found.ctypes.data, len(values))
-    return float(found[0])
+    result = np.empty(1)
+    call(values.ctypes.data, result.ctypes.data, len(values))
+    return float(result[0])
 
 
 @pytest.fixture

@@ -42,24 +42,24 @@ def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> 
     )
     with subprocess.Popen(
         [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as one:
-        set_low_priority(one.pid)
-        said, _ = one.communicate("go on\n")
-    assert int(said) > psutil.Process().nice()
-    set_low_priority(one.pid)  # it has ended: nobody is to give way
+    ) as item:
+        set_low_priority(item.pid)
+        message, _ = item.communicate("go on\n")
+    assert int(message) > psutil.Process().nice()
+    set_low_priority(item.pid)  # it has ended: nobody is to give way
 
 
 def test_who_gives_way_a_little_gives_way_further_and_others_do_not() -> None:
-    with subprocess.Popen([sys.executable, "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE) as one:
-        held = psutil.Process(one.pid)
-        set_lower_priority(one.pid)
+    with subprocess.Popen([sys.executable, "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE) as item:
+        held = psutil.Process(item.pid)
+        set_lower_priority(item.pid)
         assert held.nice() == psutil.Process().nice()
-        set_low_priority(one.pid, Niceness.LOW)
+        set_low_priority(item.pid, Niceness.LOW)
         little = held.nice()
-        set_lower_priority(one.pid)
+        set_lower_priority(item.pid)
         assert psutil.Process().nice() < little <= held.nice()
-        set_low_priority(one.pid, Niceness.SOME)
+        set_low_priority(item.pid, Niceness.SOME)
         last = held.nice()
-        set_lower_priority(one.pid)
+        set_lower_priority(item.pid)
         assert held.nice() == last
-        one.communicate()
+        item.communicate()

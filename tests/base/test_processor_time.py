@@ -24,8 +24,8 @@ def _running(code: str) -> Iterator[subprocess.Popen[bytes]]:
     try:
         yield child
     finally:
-        for one in processor_time.psutil.Process(child.pid).children():
-            one.kill()
+        for item in processor_time.psutil.Process(child.pid).children():
+            item.kill()
         child.kill()
         child.communicate()
 

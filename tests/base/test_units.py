@@ -69,7 +69,7 @@ def test_what_people_write(text: str, unit: str, expected: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "unit", "said"),
+    ("text", "unit", "message"),
     [
         ("1,5 mm", "mm", "decimal comma"),
         ("2.413", "mm", "say the unit, expected a length such as 2.413 mm"),
@@ -101,10 +101,10 @@ def test_what_people_write(text: str, unit: str, expected: float) -> None:
         ("9" * 300, "1", "at most 200 characters"),
     ],
 )
-def test_what_is_refused(text: str, unit: str, said: str) -> None:
+def test_what_is_refused(text: str, unit: str, message: str) -> None:
     with pytest.raises(UnitError) as caught:
         parse_quantity(text, unit)
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert len(str(caught.value)) < 400
 
 
@@ -194,5 +194,5 @@ def test_no_row_of_a_table_waits_for_pint(mode: str) -> None:
 
 def test_no_record_of_the_catalogue_waits_for_pint() -> None:
     tables = (columns.units for category in CATEGORIES.values() for columns in category.tables.values())
-    units = {unit for named in (*tables, *(one.units for one in CATEGORIES.values())) for unit in named.values()}
+    units = {unit for named in (*tables, *(item.units for item in CATEGORIES.values())) for unit in named.values()}
     assert units <= read_by_pint().keys()

@@ -33,18 +33,18 @@ def test_a_grade_of_the_same_material_may_have_the_laws_of_another() -> None:
 
 
 def test_another_polymer_is_told_each_law_it_takes(tmp_path: Path) -> None:
-    said = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA))
-    assert [line.split(" are those of ")[0] for line in said] == [
+    message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA))
+    assert [line.split(" are those of ")[0] for line in message] == [
         "Mine: the kinetics of freezing", "Mine: the viscosity of the melt", "Mine: the losses of the solid",
     ]  # fmt: skip
-    assert all("Polycaprolactone, 80 kg/mol" in line and "melting_start" in line for line in said)
-    assert "give crystallization_half_time or nucleation_constant or avrami_exponent of its own" in said[0]
+    assert all("Polycaprolactone, 80 kg/mol" in line and "melting_start" in line for line in message)
+    assert "give crystallization_half_time or nucleation_constant or avrami_exponent of its own" in message[0]
 
 
 def test_a_law_of_its_own_is_not_told(tmp_path: Path) -> None:
-    said = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA, **HALF_TIME, **VISCOSITY))
-    assert len(said) == 1
-    assert said[0].startswith("Mine: the losses of the solid")
+    message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA, **HALF_TIME, **VISCOSITY))
+    assert len(message) == 1
+    assert message[0].startswith("Mine: the losses of the solid")
 
 
 def test_measured_values_of_one_material_are_no_other_one(tmp_path: Path) -> None:
@@ -57,16 +57,16 @@ def test_a_wax_has_no_use_for_kinetics_and_is_refused_a_polymer_s_melt(tmp_path:
     words = "words: {freezing: equilibrium}"
     own = {"density_solid": (880.0, "kg/m^3"), "density_melt": (770.0, "kg/m^3")}
     if base == "fields_metal":  # the same kind, another material
-        said = inherited_law_warnings(record(tmp_path, base, words, **own))
-        assert [line.partition(" are those")[0] for line in said] == [
+        message = inherited_law_warnings(record(tmp_path, base, words, **own))
+        assert [line.partition(" are those")[0] for line in message] == [
             "Mine: the viscosity of the melt", "Mine: the losses of the solid",
         ]  # fmt: skip
         return
     with pytest.raises(CatalogError) as caught:
         record(tmp_path, base, words, **own)
-    said = str(caught.value).splitlines()
-    assert len(said) == 2
-    assert "viscosity of the melt: those of pcl_80k mean nothing here, where freezing is equilibrium" in said[0]
+    message = str(caught.value).splitlines()
+    assert len(message) == 2
+    assert "viscosity of the melt: those of pcl_80k mean nothing here, where freezing is equilibrium" in message[0]
 
 
 def test_a_glass_needs_a_spectrum_of_its_own(tmp_path: Path) -> None:

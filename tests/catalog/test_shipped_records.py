@@ -93,7 +93,7 @@ JIS = {
 
 @pytest.mark.parametrize("name", JIS)
 def test_jis_wire_is_never_stronger_than_its_standard_nor_much_weaker(name: str) -> None:
-    table = [tuple(map(float, one.split())) for one in JIS[name].split(", ")]
+    table = [tuple(map(float, item.split())) for item in JIS[name].split(", ")]
     for diameter, least in table:
         assert 0.944 * least < strength(name, diameter) <= least
     for (thinner, _), (_, least) in pairwise(table):  # between standard diameters the next larger one counts
@@ -132,7 +132,7 @@ def test_chinese_wire_has_the_preferred_metric_sizes() -> None:
         [round(1e3 * row["wire_diameter"], 6) for row in CATALOG.record("wires", name).table("sizes")]
         for name in ("gb_1358", "metric")
     )
-    assert [one for one in sizes if one <= 2.5] == [0.5, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0, 2.5]
+    assert [item for item in sizes if item <= 2.5] == [0.5, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0, 2.5]
     assert set(sizes) <= set(metric)
 
 

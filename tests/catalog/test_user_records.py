@@ -56,7 +56,7 @@ def test_a_user_record_replaces_a_shipped_one(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("good", "bad", "said"),
+    ("good", "bad", "message"),
     [
         (", unit: mV/K", "", "values.seebeck.unit: missing"),
         ("source: our bench, status: measured}\n  res", "status: measured}\n  res", "values.seebeck.source: missing"),
@@ -84,12 +84,12 @@ def test_a_user_record_replaces_a_shipped_one(tmp_path: Path) -> None:
         ("title: A", "title: A\ntitle: B", "'title' is given twice"),
     ],
 )
-def test_a_broken_record_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
+def test_a_broken_record_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
     assert good in GOOD
     catalog = put(tmp_path, GOOD.replace(good, bad, 1))
     with pytest.raises(CatalogError) as caught:
         catalog.record("peltiers", "mine")
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert str(tmp_path / "peltiers" / "mine.yaml") in str(caught.value)
     assert any("mine.yaml" in problem for problem in check_records(catalog))
 
@@ -105,7 +105,7 @@ WIRE = "title: w\ntables:\n  sizes: {{columns: {columns}, rows: {rows}, source: 
 
 
 @pytest.mark.parametrize(
-    ("columns", "rows", "status", "said"),
+    ("columns", "rows", "status", "message"),
     [
         ("{diameter: mm}", "[[1]]", "handbook", "columns.wire_diameter: missing"),
         ("{wire_diameter: MPa}", "[[1]]", "handbook", "expected a length"),
@@ -117,18 +117,18 @@ WIRE = "title: w\ntables:\n  sizes: {{columns: {columns}, rows: {rows}, source: 
         ("{wire_diameter: mm}", "[[1]]", "assumed", "tables.sizes.range: missing"),
     ],
 )
-def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status: str, said: str) -> None:
+def test_a_broken_table_is_named(tmp_path: Path, columns: str, rows: str, status: str, message: str) -> None:
     catalog = put(tmp_path, WIRE.format(columns=columns, rows=rows, status=status), category="wires")
     with pytest.raises(CatalogError) as caught:
         catalog.record("wires", "mine")
-    assert said in str(caught.value)
+    assert message in str(caught.value)
 
 
 PCL = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml"
 
 
 @pytest.mark.parametrize(
-    ("good", "bad", "said"),
+    ("good", "bad", "message"),
     [
         ("[0.1, 0.07545]", "[0, 0.07545]",
          "tables.solid_spectrum.rows[4].relaxation_time: 0 does not do: it must be greater than zero"),
@@ -138,12 +138,12 @@ PCL = Path(__file__).parents[2] / "tvimdesign/catalog/data/polymers/pcl_80k.yaml
          "tables.solid_spectrum.rows[3].relaxation_time: 1 does not do: it must be below the row's before"),
     ],
 )  # fmt: skip
-def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
+def test_a_solid_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
     text = PCL.read_text(encoding="utf-8")
     assert good in text
     with pytest.raises(CatalogError) as caught:
         put(tmp_path, text.replace(good, bad, 1), category="polymers").record("polymers", "mine")
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
 
 
@@ -169,7 +169,7 @@ def test_a_users_spectrum_agrees_with_viscosity_and_plateau(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(
-    ("good", "bad", "said"),
+    ("good", "bad", "message"),
     [
         ("3500", "3900", "values.zero_shear_viscosity: 3900 and tables.melt_spectrum contradict"),
         ("3500", "35", "the sum of modulus times relaxation_time is 3491.07"),
@@ -179,11 +179,11 @@ def test_a_users_spectrum_agrees_with_viscosity_and_plateau(tmp_path: Path) -> N
         ("[4e-3,", "[4e-2,", "rows[2].relaxation_time: 0.04 does not do: it must be below the row's before"),
     ],
 )
-def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, said: str) -> None:
+def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad: str, message: str) -> None:
     assert good in OWN_SPECTRUM
     with pytest.raises(CatalogError) as caught:
         put(tmp_path, OWN_SPECTRUM.replace(good, bad, 1), category="polymers").record("polymers", "mine")
-    assert said in str(caught.value)
+    assert message in str(caught.value)
 
 
 def test_a_hundredth_of_viscosity_and_plateau_changes_the_melt(tmp_path: Path) -> None:
@@ -212,23 +212,23 @@ def test_a_based_record_keeps_the_sources_of_its_base(tmp_path: Path) -> None:
     for name, (base, value) in own.items():
         text = f"title: {name}\nbased_on: {base}\nvalues:\n  {value}, source: scale, status: measured}}\n"
         catalog = put(tmp_path, text, "structure_materials", name)
-    petg, found = (catalog.record("structure_materials", name) for name in ("petg", "second"))
-    assert found.title == "second"
-    assert (found.value("density"), found.entry("density").source) == (1300.0, "scale")
-    assert found.value("youngs_modulus") == pytest.approx(3e9)
-    assert found.entry("specific_heat") == petg.entry("specific_heat")
-    assert set(found.entries) == set(petg.entries)
+    petg, result = (catalog.record("structure_materials", name) for name in ("petg", "second"))
+    assert result.title == "second"
+    assert (result.value("density"), result.entry("density").source) == (1300.0, "scale")
+    assert result.value("youngs_modulus") == pytest.approx(3e9)
+    assert result.entry("specific_heat") == petg.entry("specific_heat")
+    assert set(result.entries) == set(petg.entries)
 
 
 def test_a_record_may_be_based_on_the_shipped_one_that_it_replaces(tmp_path: Path) -> None:
     text = "title: mine\nbased_on: qc_17\nvalues: {mass: {value: 9, unit: g, source: scale, status: measured}}"
-    found = put(tmp_path, text, name="qc_17").record("peltiers", "qc_17")
-    assert found.value("mass") == pytest.approx(9e-3)
-    assert found.entry("area") == Catalog().record("peltiers", "qc_17").entry("area")
+    result = put(tmp_path, text, name="qc_17").record("peltiers", "qc_17")
+    assert result.value("mass") == pytest.approx(9e-3)
+    assert result.entry("area") == Catalog().record("peltiers", "qc_17").entry("area")
 
 
 @pytest.mark.parametrize(
-    ("bases", "said"),
+    ("bases", "message"),
     [
         ({"a": "b", "b": "c", "c": "a"}, "based_on: a -> b -> c -> a goes in a circle"),
         ({"a": "a"}, "based_on: a -> a goes in a circle"),
@@ -237,12 +237,12 @@ def test_a_record_may_be_based_on_the_shipped_one_that_it_replaces(tmp_path: Pat
         ({"a": "../../x"}, "based_on: peltiers has no record"),
     ],
 )
-def test_what_a_record_cannot_be_based_on_is_named(tmp_path: Path, bases: dict[str, str], said: str) -> None:
+def test_what_a_record_cannot_be_based_on_is_named(tmp_path: Path, bases: dict[str, str], message: str) -> None:
     for name, base in bases.items():
         catalog = put(tmp_path, f"title: {name}\nbased_on: {base}\n", name=name)
     with pytest.raises(CatalogError) as caught:
         catalog.record("peltiers", "a")
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert str(tmp_path) in str(caught.value)
 
 
@@ -353,9 +353,9 @@ def test_a_folder_that_is_a_link_is_told_with_where_it_leads(tmp_path: Path) -> 
     (tmp_path / "kept").mkdir()
     put(tmp_path / "kept", GOOD)
     (tmp_path / "records").symlink_to(tmp_path / "kept")
-    with pytest.warns(FolderWarning) as told:
+    with pytest.warns(FolderWarning) as reported:
         catalog = Catalog(tmp_path / "records")
-    assert [str(one.message) for one in told] == [
+    assert [str(item.message) for item in reported] == [
         f"{tmp_path / 'records'}: the folder of records leads to {tmp_path / 'kept'}"
     ]
     assert catalog.record("peltiers", "mine").title == "A module I measured"
@@ -377,9 +377,9 @@ def test_another_user_s_folder_is_told_and_refused_where_anybody_writes_it(
     monkeypatch.setattr("tvimdesign.base.file_owner.os.getuid", lambda: theirs + 1)
     monkeypatch.setattr("tvimdesign.base.file_owner.ROOT", -1)  # who runs this may be root
     refused = pytest.raises(CatalogError, match=r"belongs to another user, .*anybody may write to it; copy it")
-    with pytest.warns(FolderWarning) if folder == "peltiers" else nullcontext(), refused as found:
+    with pytest.warns(FolderWarning) if folder == "peltiers" else nullcontext(), refused as result:
         Catalog(tmp_path)
-    assert "\n" not in str(found.value)
+    assert "\n" not in str(result.value)
     (tmp_path / folder).chmod(0o755)
     with pytest.warns(FolderWarning, match="belongs to another user, "):
         Catalog(tmp_path)
@@ -392,5 +392,5 @@ def test_the_commands_tell_of_such_a_folder_in_one_line(tmp_path: Path, tvimdesi
     (tmp_path / "records").symlink_to(tmp_path / "kept")
     (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: records\n")
     done = tvimdesign("check", str(tmp_path / "study.yaml"))
-    said = f"Warning: {tmp_path / 'records'}: the folder of records leads to {tmp_path / 'kept'}"
-    assert [line for line in done.stderr.splitlines() if "records" in line] == [said]
+    message = f"Warning: {tmp_path / 'records'}: the folder of records leads to {tmp_path / 'kept'}"
+    assert [line for line in done.stderr.splitlines() if "records" in line] == [message]

@@ -18,18 +18,18 @@ __all__ = ["browser"]
 def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     """Serve one explorer of the small study for all tests of a file."""
     folder = tmp_path_factory.mktemp("explore")
-    found = Served(small_study(folder), folder / "out")
-    found.begin()
-    yield found
-    found.end()
+    result = Served(small_study(folder), folder / "out")
+    result.begin()
+    yield result
+    result.end()
 
 
 @pytest.fixture
 def explorer(browser: Browser, served: Served) -> Iterator[Explorer]:
     """Open the explorer on a usual screen, in its first state."""
-    with exploring(browser, served.address) as found:
-        found.reset()
-        yield found
+    with exploring(browser, served.address) as result:
+        result.reset()
+        yield result
 
 
 @pytest.fixture

@@ -109,11 +109,11 @@ def test_a_design_is_pinned_and_a_study_saved_that_run_answers_the_same(explorer
     page.get_by_role("button", name="Save as study").click()
     page.get_by_text("Saved:").wait_for()
     report = page.locator("#report")
-    told = {row[0]: row[1:] for row in report.get_by_role("table").first.evaluate(CELLS)}
+    reported = {row[0]: row[1:] for row in report.get_by_role("table").first.evaluate(CELLS)}
     run(served.folder / "mine.yaml", served.folder / "run")
-    found = Opened(explorer.page.context.new_page())
-    found.page.goto((served.folder / "run/report.html").as_uri())
-    assert {row[0]: row[1:] for row in found.page.get_by_role("table").first.evaluate(CELLS)} == told
+    result = Opened(explorer.page.context.new_page())
+    result.page.goto((served.folder / "run/report.html").as_uri())
+    assert {row[0]: row[1:] for row in result.page.get_by_role("table").first.evaluate(CELLS)} == reported
     design = json.loads((served.folder / "run/design.json").read_text("utf-8"))["values"]
     for name, unit in (("pcl_thickness", 1e-3), ("current", 1.0)):
         shown = explorer.knob(name).get_by_role("textbox").first.input_value()
@@ -165,8 +165,8 @@ def test_a_phone_has_it_all_in_its_width_and_axe_finds_no_serious_fault(
     page.evaluate("document.getElementById('report').remove()")  # the report has its own test
     page.evaluate(AXE)
     faults = page.evaluate("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations)")
-    serious = [one for one in faults if one["impact"] in {"serious", "critical"}]
-    assert [(one["id"], [node["html"][:120] for node in one["nodes"][:3]]) for one in serious] == []
+    serious = [item for item in faults if item["impact"] in {"serious", "critical"}]
+    assert [(item["id"], [node["html"][:120] for node in item["nodes"][:3]]) for item in serious] == []
 
 
 @pytest.mark.slow
@@ -229,10 +229,10 @@ def test_an_infeasible_study_shows_the_nearest_design(explorer: Explorer) -> Non
 def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browser: Browser, tmp_path: Path) -> None:
     study = small_study(tmp_path, SMALL.replace(WANTED, FRONT))
     run(study, tmp_path / "run")
-    found = Served(tmp_path / "run", tmp_path / "out")
-    found.begin()
+    result = Served(tmp_path / "run", tmp_path / "out")
+    result.begin()
     try:
-        with exploring(browser, found.address) as explorer:
+        with exploring(browser, result.address) as explorer:
             page = explorer.page
             points = page.locator("#front svg path[d^='M1 0A']")
             points.first.wait_for(state="attached")
@@ -250,4 +250,4 @@ def test_a_point_of_a_front_is_clicked_its_module_seen_and_its_parts_made(browse
             page.wait_for_selector("#figure-solids[data-state=drawn]")
             assert explorer.complaints == []
     finally:
-        found.end()
+        result.end()

@@ -26,16 +26,16 @@ from tvimdesign.study import Range, read_study
 from tvimdesign.study.text.mistakes import StudyError
 
 
-async def _statuses(study: Path, folder: Path, asked: list[tuple[str, dict[str, str]]]) -> list[int]:
+async def _statuses(study: Path, folder: Path, requests: list[tuple[str, dict[str, str]]]) -> list[int]:
     async with served(study, folder) as (_, client):
         (folder / "parts").mkdir()
         (folder / "parts" / "bom.csv").write_text("a part")
         (folder / "parts" / "link").symlink_to(study)
-        found = []
-        for path, headers in asked:
+        result = []
+        for path, headers in requests:
             async with client.get(path, headers=headers, allow_redirects=False) as response:
-                found.append(response.status)
-        return found
+                result.append(response.status)
+        return result
 
 
 def test_only_the_token_opens_the_folder_and_nothing_outside(tmp_path: Path) -> None:
@@ -50,10 +50,10 @@ def test_only_the_token_opens_the_folder_and_nothing_outside(tmp_path: Path) -> 
         f"/{TOKEN}/static/explore/main.js",
         f"/{TOKEN}/parts/bom.csv",
     ]
-    asked: list[tuple[str, dict[str, str]]] = [(path, {}) for path in given + outside]
-    asked += [(given[0], {"Host": "example.com"}), (given[0], {"Origin": "http://example.com"})]
-    found = awaited(_statuses(small_study(tmp_path), tmp_path / "out", asked))
-    assert found == [200] * len(given) + [404] * len(outside) + [404, 403]
+    requests: list[tuple[str, dict[str, str]]] = [(path, {}) for path in given + outside]
+    requests += [(given[0], {"Host": "example.com"}), (given[0], {"Origin": "http://example.com"})]
+    result = awaited(_statuses(small_study(tmp_path), tmp_path / "out", requests))
+    assert result == [200] * len(given) + [404] * len(outside) + [404, 403]
     assert HOST == "127.0.0.1"
 
 
@@ -71,11 +71,11 @@ def test_what_is_typed_is_refused_in_the_words_of_a_study(tmp_path: Path) -> Non
 
     async def talk() -> list[dict[str, Any]]:
         async with talking(study, tmp_path / "out") as page:
-            found = []
+            result = []
             for message in REFUSED:
                 await page.send(**message)
-                found.append(await page.kind("refused"))
-            return found
+                result.append(await page.kind("refused"))
+            return result
 
     for message, refused in zip(REFUSED, awaited(talk()), strict=True):
         written = SMALL.replace("{cover: none}", "{" + f'{message["name"]}: "{message["text"]}"' + "}")
@@ -165,12 +165,12 @@ def test_changes_are_undone_kept_and_saved_as_a_study_that_reads_the_same(tmp_pa
     assert _input(second, "core_radius") == "9.5 mm"
     assert _input(third, "core_radius") == _input(first, "core_radius")
     assert third["redo"]
-    kept = read_study(folder / "kept.yaml")
-    assert (kept.require[0].limit, kept.module["core_radius"]) == (10.0, pytest.approx(9.5e-3))
-    current = kept.vary["current"]
+    stored = read_study(folder / "kept.yaml")
+    assert (stored.require[0].limit, stored.module["core_radius"]) == (10.0, pytest.approx(9.5e-3))
+    current = stored.vary["current"]
     assert isinstance(current, Range)
     assert (current.lower, current.upper, current.start) == (1.0, 2.0, 1.5)
-    assert kept.minimize == {"response_time": 1.0, "module_mass": 3.0}
+    assert stored.minimize == {"response_time": 1.0, "module_mass": 3.0}
     fixed = read_study(folder / "fixed.yaml")
     assert (fixed.vary, fixed.minimize, fixed.module["pcl_thickness"]) == ({}, {}, pytest.approx(0.9e-3))
     reopened = awaited(again())
@@ -219,13 +219,13 @@ def test_a_history_that_somebody_changed_meanwhile_is_kept_beside(tmp_path: Path
     opened = open_source(small_study(tmp_path))
     out = tmp_path / "out"
     out.mkdir()
-    kept = open_history(out, opened.text, opened.first)
-    before = write_history(out, kept, "")
-    assert write_history(out, kept, before) == before
+    stored = open_history(out, opened.text, opened.first)
+    before = write_history(out, stored, "")
+    assert write_history(out, stored, before) == before
     (out / FILE).write_text("changed by hand")
-    write_history(out, kept, before)
+    write_history(out, stored, before)
     assert (out / "explore-1.json").read_text() == "changed by hand"
-    assert json.loads((out / FILE).read_text())["study"] == kept.study
+    assert json.loads((out / FILE).read_text())["study"] == stored.study
 
 
 def test_a_study_that_is_saved_replaces_only_what_was_saved_before(tmp_path: Path) -> None:
@@ -233,14 +233,14 @@ def test_a_study_that_is_saved_replaces_only_what_was_saved_before(tmp_path: Pat
 
     async def save() -> list[str]:
         async with talking(study, folder) as page:
-            said = []
+            message = []
             for text in (None, None, "mine", "changed by hand"):
                 if text:
                     (folder / f"{text[:4]}.yaml").write_text(text)
                 await page.send(kind="save", file=f"{(text or 'chan')[:4]}.yaml")
-                answer = await page.until(lambda told: told["kind"] in {"saved", "refused"})
-                said.append(answer["kind"])
-            return said
+                answer = await page.until(lambda reported: reported["kind"] in {"saved", "refused"})
+                message.append(answer["kind"])
+            return message
 
     saved = awaited(save())
     assert saved[:2] == ["saved", "saved"]
@@ -250,7 +250,7 @@ def test_a_study_that_is_saved_replaces_only_what_was_saved_before(tmp_path: Pat
 
 
 def _input(state: dict[str, Any], name: str) -> str:
-    return str(next(one["text"] for one in state["controls"]["inputs"] if one["name"] == name))
+    return str(next(item["text"] for item in state["controls"]["inputs"] if item["name"] == name))
 
 
 def test_a_server_that_ends_does_not_wait_for_the_pages_that_are_open(tmp_path: Path) -> None:
@@ -332,9 +332,9 @@ async def _first_line(port: int, request: bytes) -> bytes:
 def test_malformed_requests_are_refused_in_silence(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     async def ask() -> dict[str, bytes]:
         async with served(small_study(tmp_path), tmp_path / "out") as (_, client):
-            found = {name: await _first_line(client.port or 0, request) for name, request in MALFORMED.items()}
-            found["well formed"] = await _first_line(client.port or 0, _request(f"/{TOKEN}/", b"Cookie: a=\xc3\xa4"))
-            return found
+            result = {name: await _first_line(client.port or 0, request) for name, request in MALFORMED.items()}
+            result["well formed"] = await _first_line(client.port or 0, _request(f"/{TOKEN}/", b"Cookie: a=\xc3\xa4"))
+            return result
 
     answers = awaited(ask())
     gc.collect()  # a task that failed unseen is logged once it is collected
@@ -346,7 +346,7 @@ def test_malformed_requests_are_refused_in_silence(tmp_path: Path, caplog: pytes
 def test_pages_that_vanish_leave_no_word(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     key = b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ=="
     opened = _request(f"/{TOKEN}/socket", *UPGRADE, key)
-    begun = (
+    started = (
         _request(),
         _request()[:20],
         b"",
@@ -358,11 +358,11 @@ def test_pages_that_vanish_leave_no_word(tmp_path: Path, caplog: pytest.LogCaptu
 
     async def vanish() -> None:
         async with served(small_study(tmp_path), tmp_path / "out") as (_, client):
-            for request in begun:
+            for request in started:
                 for pause in (0.0, 0.05):
-                    with socket.create_connection(("127.0.0.1", client.port or 0)) as one:
-                        one.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # end by a reset
-                        one.sendall(request)
+                    with socket.create_connection(("127.0.0.1", client.port or 0)) as item:
+                        item.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # end by a reset
+                        item.sendall(request)
                         await asyncio.sleep(pause)
                     await asyncio.sleep(0.05)
 

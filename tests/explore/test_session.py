@@ -31,13 +31,13 @@ def test_the_newest_state_of_a_drag_is_answered(tmp_path: Path) -> None:
                 await page.send(
                     kind="require", name="peak_power", texts=[f"<= {11.9 - 0.05 * step} W"], final=step == 59
                 )
-            last = await page.until(lambda one: one["kind"] == "answer" and one["number"] == 61)
-            return [one for one in page.heard if one["kind"] == "answer"], first, last
+            last = await page.until(lambda item: item["kind"] == "answer" and item["number"] == 61)
+            return [item for item in page.heard if item["kind"] == "answer"], first, last
 
     answers, first, last = awaited(drag())
     assert len(answers) < 50
-    assert [one["number"] for one in answers] == sorted(one["number"] for one in answers)
-    power = next(one for one in last["shown"]["limits"] if one["of"] == "peak_power")
+    assert [item["number"] for item in answers] == sorted(item["number"] for item in answers)
+    power = next(item for item in last["shown"]["limits"] if item["of"] == "peak_power")
     assert (power["stands"], power["got"], power["text"]) == ("binds", "8.95 W", "peak_power <= 8.95 W")
     assert last["shown"]["variables"]["current"]["value"] < first["shown"]["variables"]["current"]["value"]
 
@@ -47,12 +47,14 @@ def test_an_impossible_module_has_a_reason_in_place_of_a_draft(tmp_path: Path) -
     async def dragged() -> list[dict[str, Any]]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.send(kind="way", way="evaluate")
-            told = []
+            reported = []
             for text in ("20 mm", "38 mm", "20.1 mm"):  # between them is one without room for the heaters' windows
                 await page.send(kind="set", name="pcl_inner_radius", text=text, final=False)
-                number = len(told) + 3
-                told.append(await page.until(lambda one, of=number: one["kind"] == "draft" and one["number"] == of))
-            return told
+                number = len(reported) + 3
+                reported.append(
+                    await page.until(lambda item, of=number: item["kind"] == "draft" and item["number"] == of)
+                )
+            return reported
 
     before, none, after = awaited(dragged())
     assert before["meshes"]
@@ -96,7 +98,7 @@ def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) ->
                 await asyncio.sleep(0.01)
             await page.send(kind="require", name="peak_power", texts=["<= 10 W"])
             await page.answer("exact")
-            answers = [(one["number"], one["shown"]["stage"]) for one in page.heard if one["kind"] == "answer"]
+            answers = [(item["number"], item["shown"]["stage"]) for item in page.heard if item["kind"] == "answer"]
             return answers, server.session.solver.process == process
 
     answers, same = awaited(superseded())
@@ -111,14 +113,14 @@ def test_an_infeasible_state_reports_the_conflict(tmp_path: Path) -> None:
             await page.answer("quick")
             await page.send(kind="require", name="response_time", texts=["<= 20 s"])
             return await page.until(
-                lambda one: one["kind"] == "answer" and one["number"] == 2 and one["shown"]["stage"] == "exact"
+                lambda item: item["kind"] == "answer" and item["number"] == 2 and item["shown"]["stage"] == "exact"
             )
 
     shown = awaited(asked())["shown"]
     assert not shown["found"]
     assert "no design found that keeps every limit" in shown["status"]
     assert shown["values"]
-    assert any(one["stands"] == "broken" for one in shown["limits"])
+    assert any(item["stands"] == "broken" for item in shown["limits"])
 
 
 @pytest.mark.slow
@@ -126,20 +128,20 @@ def test_two_pages_share_a_study_a_design_is_pinned_and_gone_back_to(tmp_path: P
     async def pinned() -> tuple[list[dict[str, Any]], dict[str, Any]]:
         async with (
             served(small_study(tmp_path), tmp_path / "out") as (_, client),
-            client.ws_connect(f"/{TOKEN}/socket") as one,
+            client.ws_connect(f"/{TOKEN}/socket") as item,
             client.ws_connect(f"/{TOKEN}/socket") as two,
         ):
-            first, second = Talk(one), Talk(two)
+            first, second = Talk(item), Talk(two)
             await first.kind("state")
             await second.answer("quick")
             await first.send(kind="pin", name="as it was")
-            pins = (await second.until(lambda told: told["kind"] == "state" and told["pins"] != []))["pins"]
+            pins = (await second.until(lambda reported: reported["kind"] == "state" and reported["pins"] != []))["pins"]
             await first.send(kind="way", way="evaluate")
             await first.send(kind="set", name="current", text="1.1 A")
-            await second.until(lambda told: told["kind"] == "state" and _current(told) == "1.1 A")
+            await second.until(lambda reported: reported["kind"] == "state" and _current(reported) == "1.1 A")
             await second.send(kind="recall", number=0)
             back = await first.until(
-                lambda told: told["kind"] == "state" and told["undo"] and told["way"] == "optimize"
+                lambda reported: reported["kind"] == "state" and reported["undo"] and reported["way"] == "optimize"
             )
             return pins, back
 
@@ -151,7 +153,7 @@ def test_two_pages_share_a_study_a_design_is_pinned_and_gone_back_to(tmp_path: P
 
 
 def _current(state: dict[str, Any]) -> str:
-    return str(next(one["text"] for one in state["controls"]["variables"] if one["name"] == "current"))
+    return str(next(item["text"] for item in state["controls"]["variables"] if item["name"] == "current"))
 
 
 @pytest.mark.slow
@@ -164,23 +166,23 @@ def test_a_worker_that_dies_is_started_again_and_the_state_is_there(tmp_path: Pa
                 await page.answer("quick")
                 os.kill(server.session.solver.process, signal.SIGKILL)
                 await page.send(kind="require", name="peak_power", texts=["<= 9 W"])
-                return await page.until(lambda one: one["kind"] == "answer" and one["number"] == 2)
+                return await page.until(lambda item: item["kind"] == "answer" and item["number"] == 2)
 
     shown = awaited(killed())["shown"]
-    assert any(one["text"] == "peak_power <= 9 W" for one in shown["limits"])
+    assert any(item["text"] == "peak_power <= 9 W" for item in shown["limits"])
 
 
 @pytest.mark.slow
 def test_a_result_is_opened_with_its_own_optimum(tmp_path: Path) -> None:
-    found = shipped_answer("paper_shear").design
-    write_design(found, tmp_path / "design.json")
+    result = shipped_answer("paper_shear").design
+    write_design(result, tmp_path / "design.json")
     source = open_source(tmp_path)
     shown = Engine(source.tree, compiled=False).answer(source.first, "quick").shown
     for name in ("wire_diameter", "coil_diameter", "placement_radius", "current"):
         unit = source.study.table.unit(name)
-        value, told = shown["at"][name].split(" ", 1)
-        assert told == unit
-        assert float(value) == pytest.approx(from_si(found.values[name], unit), rel=0.01)  # another is 2 to 5 % off
+        value, reported = shown["at"][name].split(" ", 1)
+        assert reported == unit
+        assert float(value) == pytest.approx(from_si(result.values[name], unit), rel=0.01)  # another is 2 to 5 % off
 
 
 @pytest.mark.slow
@@ -194,6 +196,6 @@ def test_a_quick_evaluation_is_the_exact_one_to_two_thousandths(tmp_path: Path) 
         quick, exact = (engine.answer(state, stage).shown["values"] for stage in ("quick", "exact"))
         names = [row.name for row in source.study.table.supplied]
         assert names
-        units = [one for one in zip(quick, exact, strict=True) if None not in one]
+        units = [item for item in zip(quick, exact, strict=True) if None not in item]
         assert len(units) > 200
         assert all(a == pytest.approx(b, rel=2e-3, abs=1e-2) for a, b in units)

@@ -78,8 +78,8 @@ def test_the_page_begins_at_the_best_cell_and_draws_those_with_an_answer(swept: 
     assert shown is not None
     assert [point["number"] for point in shown["points"]] == [2, 3]
     place = shown["names"].index("response_time")
-    told = [point["values"][place] for point in shown["points"]]
-    assert told == [float(row["response_time"]) for row in rows[1:]]
+    reported = [point["values"][place] for point in shown["points"]]
+    assert reported == [float(row["response_time"]) for row in rows[1:]]
     assert shown["words"]["one"] == "cell"
 
 
@@ -110,8 +110,8 @@ def test_what_is_no_cell_or_no_finished_sweep_is_refused_in_words(swept: Path, t
         (tmp_path / name).write_bytes((swept / name).read_bytes())
     with pytest.raises(InputError, match=r"cells.sqlite: cannot be read"):
         open_source(tmp_path)
-    told = json.loads((swept / "sweep.json").read_bytes())
-    (tmp_path / "sweep.json").write_text(json.dumps({**told, "cells": 4}))
+    reported = json.loads((swept / "sweep.json").read_bytes())
+    (tmp_path / "sweep.json").write_text(json.dumps({**reported, "cells": 4}))
     with pytest.raises(InputError, match=r"study.yaml asks for 3 cells and the table has 4"):
         open_source(tmp_path)
     (tmp_path / "sweep.json").write_text("[]")
@@ -142,20 +142,20 @@ def test_a_page_is_told_the_cells_once_and_shows_the_one_it_chooses(swept: Path,
             page.heard.clear()
             await page.send(kind="point", number=2)
             state = await page.kind("state")
-            answer = await page.until(lambda one: one["kind"] == "answer" and one["number"] == 2)
+            answer = await page.until(lambda item: item["kind"] == "answer" and item["number"] == 2)
             await page.send(kind="point", number=9)
             await page.kind("refused")
             return points, state, answer, page.heard
 
     points, state, answer, heard = awaited(chosen())
     assert len(points["points"]["points"]) == 2
-    assert not [one for one in heard if one["kind"] == "points"]
+    assert not [item for item in heard if item["kind"] == "points"]
     assert (state["way"], state["undo"]) == ("evaluate", True)
-    limit = next(one for one in state["controls"]["requirements"] if one["name"] == "peak_power")
+    limit = next(item for item in state["controls"]["requirements"] if item["name"] == "peak_power")
     assert limit["value"] == 9.0
-    names = [one["name"] for one in state["quantities"]]
-    found = answer["shown"]["values"][names.index("response_time")]
-    assert found == pytest.approx(float(_table(swept)[1]["response_time"]), rel=2e-3)  # as quick answers are
+    names = [item["name"] for item in state["quantities"]]
+    result = answer["shown"]["values"][names.index("response_time")]
+    assert result == pytest.approx(float(_table(swept)[1]["response_time"]), rel=2e-3)  # as quick answers are
     assert "cell 9: the sweep has the cells 1 to 3" in heard[-1]["words"]
 
 
@@ -171,15 +171,15 @@ def test_what_was_chosen_is_there_when_the_page_is_opened_again(swept: Path, tmp
             return await Talk(socket).kind("state")
 
     state = awaited(opened_twice())
-    assert {one["name"]: one["value"] for one in state["controls"]["requirements"]} == {"peak_power": 9.0}
+    assert {item["name"]: item["value"] for item in state["controls"]["requirements"]} == {"peak_power": 9.0}
 
 
 @pytest.mark.slow
 def test_a_cell_is_clicked_and_one_is_asked_for_by_its_number(browser: Browser, swept: Path, tmp_path: Path) -> None:
-    found = Served(swept, tmp_path / "out")
-    found.begin()
+    result = Served(swept, tmp_path / "out")
+    result.begin()
     try:
-        with exploring(browser, found.address) as explorer:
+        with exploring(browser, result.address) as explorer:
             page = explorer.page
             page.get_by_role("heading", name="Cells").wait_for()
             points = page.locator("#front svg").first.locator("path[d^='M1 0A']")
@@ -198,4 +198,4 @@ def test_a_cell_is_clicked_and_one_is_asked_for_by_its_number(browser: Browser, 
             page.locator("#status").get_by_text("layer_strain_safety").wait_for()
             assert explorer.complaints == []
     finally:
-        found.end()
+        result.end()

@@ -21,18 +21,20 @@ class _Counted(WorkerProcess):
 
 def test_a_worker_that_cannot_start_is_tried_again_per_job() -> None:
     async def asked() -> tuple[list[tuple[int, str]], int]:
-        told: list[tuple[int, str]] = []
-        worker = _Counted("tvimdesign.no_such_module", [], lambda job, said: told.append((job.number, said["words"])))
-        begun = worker.starts
+        reported: list[tuple[int, str]] = []
+        worker = _Counted(
+            "tvimdesign.no_such_module", [], lambda job, reply: reported.append((job.number, reply["words"]))
+        )
+        started = worker.starts
         for number in (1, 2):
             worker.ask(Job(number, {}, {"words": "given up"}))
             async with asyncio.timeout(600.0):
-                while (number, "given up") not in told:
+                while (number, "given up") not in reported:
                     await asyncio.sleep(0.02)
         await asyncio.sleep(0.3)
         worker.close()
-        return told, worker.starts - begun
+        return reported, worker.starts - started
 
-    told, starts = awaited(asked())
-    assert told == [(1, "given up"), (2, "given up")]
+    reported, starts = awaited(asked())
+    assert reported == [(1, "given up"), (2, "given up")]
     assert starts <= 2

@@ -34,9 +34,9 @@ def test_the_catalogue_is_opened_once_and_the_table_is_the_mode_s(study: Study) 
 
 
 def test_a_copy_keeps_them_where_it_may(study: Study) -> None:
-    kept = study.model_copy(update={"module": {}})
-    assert kept.catalog is study.catalog
-    assert kept.table is study.table
+    stored = study.model_copy(update={"module": {}})
+    assert stored.catalog is study.catalog
+    assert stored.table is study.table
 
 
 def test_a_copy_of_another_mode_has_that_table(study: Study) -> None:
@@ -62,8 +62,8 @@ def test_what_it_has_opened_is_no_part_of_it(study: Study, mine: str) -> None:
     assert fresh == Study.model_validate(study.model_dump())
     assert fresh.model_dump_json() == study.model_dump_json()
     stored = study.model_copy(update={"catalog_folder": mine})
-    found = pickle.loads(pickle.dumps(stored))
-    assert not {"catalog", "table"} & found.__dict__.keys()
-    assert found == stored
-    assert "mine" in found.catalog.names("structure_materials")
+    result = pickle.loads(pickle.dumps(stored))
+    assert not {"catalog", "table"} & result.__dict__.keys()
+    assert result == stored
+    assert "mine" in result.catalog.names("structure_materials")
     assert copy.deepcopy(stored) == stored

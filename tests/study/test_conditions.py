@@ -112,6 +112,6 @@ def test_an_evaluated_study_is_not_compared_with_an_optimised_one(tmp_path: Path
 
 
 def test_one_study_twice_is_told(tmp_path: Path) -> None:
-    one = entrants(tmp_path, SHEAR)
+    item = entrants(tmp_path, SHEAR)
     with pytest.raises(StudyError, match=r"study_0\.yaml: given twice"):
-        refuse_unequal([*one, *one])
+        refuse_unequal([*item, *item])

@@ -70,9 +70,9 @@ def test_an_edited_design_is_refused_in_words_with_the_line(name: str, tmp_path:
     change(plain)
     edited = tmp_path / "design.json"
     edited.write_text(json.dumps(plain, indent=2))
-    with pytest.raises(StudyError, match=expected) as told:
+    with pytest.raises(StudyError, match=expected) as reported:
         read_design(edited)
-    assert all(problem.line > 0 for problem in told.value.problems)
+    assert all(problem.line > 0 for problem in reported.value.problems)
 
 
 def test_a_folder_of_records_whose_name_is_too_long_is_not_there(tmp_path: Path) -> None:
@@ -91,14 +91,14 @@ def test_all_mistakes_of_a_design_and_its_version_are_reported(tmp_path: Path) -
     plain["choices"]["cold_side"] = "opened"
     edited = tmp_path / "design.json"
     edited.write_text(json.dumps(plain))
-    with pytest.raises(StudyError) as told:
+    with pytest.raises(StudyError) as reported:
         read_design(edited)
-    assert {problem.path for problem in told.value.problems} == {
+    assert {problem.path for problem in reported.value.problems} == {
         "tvimdesign",
         "values.wire_diameter",
         "choices.cold_side",
     }
-    assert "another version wrote it: '2019.1'" in str(told.value)
+    assert "another version wrote it: '2019.1'" in str(reported.value)
 
 
 ODD: list[Any] = [

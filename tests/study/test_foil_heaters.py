@@ -25,14 +25,14 @@ def test_both_modes_take_them_and_leave_cooling_to_the_air(mode: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "sections",
     ["module: {%s, cooling_current: 0.3 A}",
      "module: {%s}\nvary: {cooling_current: [0.3 A, 0.5 A]}\nminimize: {module_mass: 1}"],
 )  # fmt: skip
-def test_a_study_cannot_ask_a_foil_to_cool(asked: str) -> None:
-    study = read_study_text(f"mode: shear\n{asked % 'peltier_module: silicone_9ar_04_12v'}\n", "a test")
-    said = "cooling_current of 0.3 A and peltier_module silicone_9ar_04_12v cannot stand together"
-    with pytest.raises(InputError, match=said):
+def test_a_study_cannot_ask_a_foil_to_cool(sections: str) -> None:
+    study = read_study_text(f"mode: shear\n{sections % 'peltier_module: silicone_9ar_04_12v'}\n", "a test")
+    message = "cooling_current of 0.3 A and peltier_module silicone_9ar_04_12v cannot stand together"
+    with pytest.raises(InputError, match=message):
         given(study)
 
 
@@ -48,8 +48,8 @@ def test_a_foil_whose_record_names_no_cooling_current_is_told(tmp_path: Path) ->
     text = f"title: Mine\nbased_on: silicone_9ar_04_12v\nvalues: {{cooling_current: {own}}}\n"
     (tmp_path / "peltiers/mine.yaml").write_text(text, encoding="utf-8")
     study = read_study_text(f"mode: shear\ncatalog: {tmp_path}\nmodule: {{peltier_module: mine}}\n", "a test")
-    (said,) = record_checks(study)
-    assert said.startswith("cooling_current of 0.2 A heats: Mine cannot cool")
+    (message,) = record_checks(study)
+    assert message.startswith("cooling_current of 0.2 A heats: Mine cannot cool")
 
 
 def test_a_peltier_module_keeps_the_default(capsys: pytest.CaptureFixture[str]) -> None:
@@ -63,7 +63,7 @@ def test_all_of_an_order_gives_the_same_heat_for_an_area() -> None:
     for name in FOILS:
         value = Catalog().record("peltiers", name).value
         density = value("max_current") ** 2 * value("resistance") / value("area")
-        asked = 1.6 if name.startswith("polyimide") else int(name.split("_")[2]) / 10.0
-        assert density == pytest.approx(asked * 1e4, rel=2e-4)
+        nominal = 1.6 if name.startswith("polyimide") else int(name.split("_")[2]) / 10.0
+        assert density == pytest.approx(nominal * 1e4, rel=2e-4)
         volts = float(name.rsplit("_", 1)[1].removesuffix("v"))
         assert value("max_current") * value("resistance") == pytest.approx(volts, rel=2e-4)

@@ -77,11 +77,11 @@ TEXTS = {
 
 @pytest.mark.parametrize("case", TEXTS)
 def test_hostile_text_is_refused_in_time(problems: Callable[..., list[str]], case: str) -> None:
-    text, said = TEXTS[case]
+    text, message = TEXTS[case]
     start = time.process_time()
     lines = problems(text)
     assert time.process_time() - start < LIMIT
-    assert said in "\n".join(lines)
+    assert message in "\n".join(lines)
     assert len(lines) <= 51
     assert all(line.isprintable() and len(line) < 1000 for line in lines)
     assert not Path("pwned").exists()
@@ -94,8 +94,8 @@ def test_the_parser_in_python_says_the_same(
     problems: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch, case: str
 ) -> None:
     monkeypatch.setattr(yaml_text, "LOADER", yaml.SafeLoader)
-    text, said = TEXTS[case]
-    assert said in "\n".join(problems(text))
+    text, message = TEXTS[case]
+    assert message in "\n".join(problems(text))
 
 
 FILES: dict[str, tuple[bytes, str]] = {
@@ -111,11 +111,11 @@ FILES: dict[str, tuple[bytes, str]] = {
 
 @pytest.mark.parametrize("case", FILES)
 def test_hostile_files(tmp_path: Path, case: str) -> None:
-    raw, said = FILES[case]
+    raw, message = FILES[case]
     (tmp_path / "x.yaml").write_bytes(raw)
     with pytest.raises(StudyError) as caught:
         read_study(tmp_path / "x.yaml")
-    assert said in str(caught.value)
+    assert message in str(caught.value)
 
 
 def test_a_large_file_is_not_read(tmp_path: Path) -> None:

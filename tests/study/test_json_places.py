@@ -33,7 +33,7 @@ def test_places_are_those_of_yaml(indent: int | None) -> None:
     text = json.dumps(plain, indent=indent, ensure_ascii=False)
     places = JsonPlaces(text.encode())
     loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    every = [one for one in marks(yaml.compose(text, Loader=loader)) if "@" not in one[0]]
+    every = [item for item in marks(yaml.compose(text, Loader=loader)) if "@" not in item[0]]
     for path, line, column in random.Random(1).sample(every, 30):
         assert (places.at(path).line, places.at(path).column) == (line, column)
 

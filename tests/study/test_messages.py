@@ -30,14 +30,14 @@ def cases(text: str) -> list[str]:
 def test_messages_are_those_of_the_snapshot(problems: Callable[..., list[str]], name: str) -> None:
     path = FOLDER / name
     expected = path.read_text(encoding="utf-8")
-    found = ""
+    result = ""
     for text in cases(expected):
         lines = problems(text) if name == "small_table.txt" else _of_shipped_tables(text)
         messages = "".join(f"> {_MANY.sub('one of ...', line.removeprefix('x.yaml:'))}\n" for line in lines)
-        found += f"{text}\n{messages}\n"
+        result += f"{text}\n{messages}\n"
     if os.environ.get("UPDATE_MESSAGES"):
-        path.write_text(found, encoding="utf-8")
-    assert found == expected
+        path.write_text(result, encoding="utf-8")
+    assert result == expected
 
 
 def _of_shipped_tables(text: str) -> list[str]:

@@ -50,9 +50,11 @@ def test_rows_of_one_name_mean_the_same_in_both_modes() -> None:
     shared = shear.keys() & compression.keys()
     assert len(shared) > 200
     for name in shared:
-        one, other = shear[name], compression[name]
-        assert type(one) is type(other), name
-        assert getattr(one, "unit", "") == getattr(other, "unit", ""), name
-        assert one.group == other.group, name
-        if isinstance(one, Output) and isinstance(other, Output):
-            assert (one.per_point, one.instant, one.headline) == (other.per_point, other.instant, other.headline), name
+        item, other = shear[name], compression[name]
+        assert type(item) is type(other), name
+        assert getattr(item, "unit", "") == getattr(other, "unit", ""), name
+        assert item.group == other.group, name
+        if isinstance(item, Output) and isinstance(other, Output):
+            assert (item.per_point, item.instant, item.headline) == (other.per_point, other.instant, other.headline), (
+                name
+            )

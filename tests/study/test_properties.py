@@ -70,9 +70,9 @@ def test_any_bytes(tmp_path_factory: pytest.TempPathFactory, raw: bytes) -> None
 def test_a_range_is_read_or_refused_by_its_order(read: Read, lower: float, upper: float) -> None:
     text = f"mode: shear\nminimize: module_mass\nvary: {{wire_diameter: [{lower!r} mm, {upper!r} mm]}}"
     if upper > lower * (1 + 1e-6):
-        found = read(text).vary["wire_diameter"].model_dump()
-        assert found["lower"] == pytest.approx(lower / 1000)
-        assert found["upper"] == pytest.approx(upper / 1000)
+        result = read(text).vary["wire_diameter"].model_dump()
+        assert result["lower"] == pytest.approx(lower / 1000)
+        assert result["upper"] == pytest.approx(upper / 1000)
     elif upper < lower:
         with pytest.raises(StudyError, match=r"upside down|ends where it begins"):
             read(text)

@@ -35,10 +35,10 @@ def _study(folder: Path, record: str) -> Study:
 
 def test_inconsistent_cooling_power_is_reported(shipped: Path, tmp_path: Path) -> None:
     study = _study(tmp_path, _cut_to_size(shipped))
-    (said,) = record_checks(study)
+    (message,) = record_checks(study)
     # S^2 T^2/(2 R) is V_max^2/(2 R) at the sheet's own 27 degC: 15.8^2/(2 * 2.0455) = 61.0 W.
-    assert "61 W, the sheet says 51 W" in said
-    assert said in describe(study).splitlines()
+    assert "61 W, the sheet says 51 W" in message
+    assert message in describe(study).splitlines()
 
 
 def test_a_sheet_that_agrees_is_not(shipped: Path, tmp_path: Path) -> None:
@@ -64,8 +64,8 @@ def test_another_material_with_the_polymer_s_laws_is_told_on_the_page(tmp_path: 
         "mode: shear\ncatalog: records\nmodule: {pcl_grade: metal}\n", encoding="utf-8"
     )
     study = read_study(tmp_path / "study.yaml")
-    said = record_checks(study)
-    assert [line.partition(" are those")[0].removeprefix("My metal: the ") for line in said] == [
+    message = record_checks(study)
+    assert [line.partition(" are those")[0].removeprefix("My metal: the ") for line in message] == [
         "kinetics of freezing", "viscosity of the melt", "losses of the solid",
     ]  # fmt: skip
-    assert said[0] in describe(study).splitlines()
+    assert message[0] in describe(study).splitlines()

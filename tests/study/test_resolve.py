@@ -19,14 +19,14 @@ def _given(read: Read, module: str = "", more: str = "") -> dict[str, Any]:
 
 def test_every_input_and_choice_has_a_value(read: Read) -> None:
     study = read(BASE % "wire_diameter: 2 mm" + "operating_points: {warm: {temperature: 60 degC}}")
-    found = given(study)
+    result = given(study)
     points = {f"{row.name}@{point}" for row in study.table.inputs if row.per_point for point in ("cold", "hot", "warm")}
     fixed = {row.name for row in study.table.inputs if not row.per_point}
-    assert set(found) == points | fixed | {row.name for row in study.table.choices}
-    assert found["wire_diameter"] == pytest.approx(2e-3)
-    assert found["coil_diameter"] == 24e-3
-    assert found["temperature@warm"] == pytest.approx(333.15)
-    assert (found["rate_model"], found["peltier"].name) == ("bending", "flexible_1600")
+    assert set(result) == points | fixed | {row.name for row in study.table.choices}
+    assert result["wire_diameter"] == pytest.approx(2e-3)
+    assert result["coil_diameter"] == 24e-3
+    assert result["temperature@warm"] == pytest.approx(333.15)
+    assert (result["rate_model"], result["peltier"].name) == ("bending", "flexible_1600")
 
 
 def test_the_study_before_the_record_before_the_default(read: Read) -> None:
@@ -59,8 +59,8 @@ def test_what_has_no_value_is_named(read: Read) -> None:
     ],
 )
 def test_what_varies_starts_within(read: Read, *, module: str, vary: str, name: str, value: float | str) -> None:
-    found = _given(read, module, VARY % vary)[name]
-    assert found == (value if isinstance(value, str) else pytest.approx(value))
+    result = _given(read, module, VARY % vary)[name]
+    assert result == (value if isinstance(value, str) else pytest.approx(value))
 
 
 def test_a_varied_input_without_any_value_starts_in_the_middle(read: Read) -> None:
@@ -69,11 +69,11 @@ def test_a_varied_input_without_any_value_starts_in_the_middle(read: Read) -> No
 
 
 def test_a_varied_record_takes_its_fields_along(read: Read) -> None:
-    found = _given(read, "", VARY % "spring_material: {choose: [stainless_302]}")
-    assert found["youngs_modulus"] == 193e9
+    result = _given(read, "", VARY % "spring_material: {choose: [stainless_302]}")
+    assert result["youngs_modulus"] == 193e9
 
 
 def test_the_table_accepts_it(read: Read) -> None:
     study = read(BASE % "")
-    found = study.table.evaluate(given(study), ["joint_stiffness@hot", "envelope_diameter"])
-    assert found["envelope_diameter"] == pytest.approx(0.138)
+    result = study.table.evaluate(given(study), ["joint_stiffness@hot", "envelope_diameter"])
+    assert result["envelope_diameter"] == pytest.approx(0.138)

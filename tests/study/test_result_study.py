@@ -28,8 +28,8 @@ solver: {starts: 1, cells: 8}
 
 
 def values_of(folder: Path) -> dict[str, float | str]:
-    found: dict[str, float | str] = json.loads((folder / "design.json").read_text())["values"]
-    return found
+    result: dict[str, float | str] = json.loads((folder / "design.json").read_text())["values"]
+    return result
 
 
 @pytest.mark.gate
@@ -41,11 +41,11 @@ def test_a_result_as_a_study_is_answered_the_same_to_the_last_digit(tvimdesign: 
     assert tvimdesign("new", again, "--from", tmp_path / "first").returncode == 0
     done = tvimdesign("run", again, *words, tmp_path / "second")
     assert done.returncode == 0, done.stderr
-    found = values_of(tmp_path / "first")
-    assert values_of(tmp_path / "second") == found
+    result = values_of(tmp_path / "first")
+    assert values_of(tmp_path / "second") == result
     # The list with a zero in it was searched, and what presses on an end of its range is exactly there.
-    assert found["hub_depth"] == 0.0
-    assert found["current"] == 2.5
+    assert result["hub_depth"] == 0.0
+    assert result["current"] == 2.5
 
 
 def design(**changes: object) -> Design:
@@ -74,7 +74,7 @@ PROFILES = {
 
 def test_a_current_profile_becomes_given_currents() -> None:
     study = evaluating(design(current_profiles=PROFILES))
-    assert {phase: one.model_dump(mode="json") for phase, one in study.currents.items()} == PROFILES
+    assert {phase: item.model_dump(mode="json") for phase, item in study.currents.items()} == PROFILES
     again = read_study_text(study_text(study, "written", ROOT), "again", ROOT)
     assert again.currents == study.currents  # to the last digit
     assert resolve_study(again).current_profiles["softening"].plain() == PROFILES["softening"]

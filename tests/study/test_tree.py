@@ -77,7 +77,7 @@ def test_the_last_of_two_settings_counts() -> None:
 
 
 @pytest.mark.parametrize(
-    ("setting", "said"),
+    ("setting", "message"),
     [
         ("pcl_thickness=1,2 mm", "module.pcl_thickness: '1,2 mm': a decimal comma is not read"),
         ("pcl_thicknes=1 mm", "did you mean 'pcl_thickness'?"),
@@ -94,10 +94,10 @@ def test_the_last_of_two_settings_counts() -> None:
         ("current=1\x07 A", "control character"),
     ],
 )
-def test_a_wrong_setting_is_named_as_the_place(setting: str, said: str) -> None:
+def test_a_wrong_setting_is_named_as_the_place(setting: str, message: str) -> None:
     (line,) = problems(setting)
     assert line.startswith("--set " + setting.partition("\x07")[0])
-    assert said in line
+    assert message in line
 
 
 def test_mistakes_of_all_settings_and_of_the_file_are_told_at_once() -> None:
@@ -148,9 +148,9 @@ def test_pints_own_words_for_units_are_read(value: str, unit: str) -> None:
 )
 def test_a_range_may_be_given_in_many_ways(pair: Any) -> None:
     sections = {"mode": "shear", "vary": {"pcl_thickness": pair}, "minimize": "module_mass"}
-    found = read_tree(tree_of_values(sections, "Study(...)", Path())).vary["pcl_thickness"]
-    assert isinstance(found, Range)
-    assert (found.lower, found.upper) == (pytest.approx(6e-4), pytest.approx(2e-3))
+    result = read_tree(tree_of_values(sections, "Study(...)", Path())).vary["pcl_thickness"]
+    assert isinstance(result, Range)
+    assert (result.lower, result.upper) == (pytest.approx(6e-4), pytest.approx(2e-3))
 
 
 def endless() -> list[Any]:
@@ -160,16 +160,16 @@ def endless() -> list[Any]:
 
 
 @pytest.mark.parametrize(
-    ("value", "said"),
+    ("value", "message"),
     [
         (1.2, "say the unit"), (float("nan"), "does not start with a number"), (object(), "a value of the type object"),
         ("1 mm\x00", "control character"), (endless(), "nested deeper"), (True, "'true'"), (b"1 mm", "type bytes"),
     ],
 )  # fmt: skip
-def test_what_cannot_stand_in_a_study_is_refused(value: Any, said: str) -> None:
+def test_what_cannot_stand_in_a_study_is_refused(value: Any, message: str) -> None:
     with pytest.raises(StudyError) as caught:
         read_tree(tree_of_values({"mode": "shear", "module": {"pcl_thickness": value}}, "Study(...)", Path()))
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert {problem.file for problem in caught.value.problems} == {"Study(...)"}
 
 

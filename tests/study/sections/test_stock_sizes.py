@@ -22,6 +22,6 @@ def test_the_lengths_a_screw_or_pin_is_sold_in_are_those_that_are_tried(
     row: str, record: str, lengths: tuple[int, ...]
 ) -> None:
     study = read_study_text(STUDY.format(f"{row}: {record}"), "x.yaml")
-    found = study.vary[row]
-    assert isinstance(found, Options)
-    assert found.values == pytest.approx([1e-3 * length for length in lengths])
+    result = study.vary[row]
+    assert isinstance(result, Options)
+    assert result.values == pytest.approx([1e-3 * length for length in lengths])

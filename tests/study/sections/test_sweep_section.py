@@ -14,9 +14,9 @@ Refuse = Callable[..., list[str]]
 
 
 def block(tmp_path: Path, **sweep: object) -> SweepBlock:
-    found = read_swept(tree_of_values({"mode": "shear", "sweep": sweep}, "study", tmp_path))[1]
-    assert found is not None
-    return found
+    result = read_swept(tree_of_values({"mode": "shear", "sweep": sweep}, "study", tmp_path))[1]
+    assert result is not None
+    return result
 
 
 def test_a_grid_has_lists_and_ranges(tmp_path: Path) -> None:
@@ -28,14 +28,14 @@ def test_a_grid_has_lists_and_ranges(tmp_path: Path) -> None:
         "require.module_mass": {"from": "<= 90 g", "to": "<= 120 g", "count": 4},
         "operating_points.hot.temperature": {"from": "90 degC", "to": "110 degC", "step": "5 K"},
     }
-    found = block(tmp_path, over=over)
-    spans = [axis.range.count if axis.range else len(axis.values) for axis in found.axes]
+    result = block(tmp_path, over=over)
+    spans = [axis.range.count if axis.range else len(axis.values) for axis in result.axes]
     assert spans == [8, 3, 5, 2, 4, 5]
-    assert [axis.unit for axis in found.axes] == ["mm", "1", "A", "", "g", "degC"]
-    assert [axis.number for axis in found.axes] == [True, False, True, False, False, True]
-    assert found.axes[0].range == SweptRange(pytest.approx(0.6e-3), pytest.approx(2e-3), 8)
-    assert found.axes[4].sense == "<="
-    assert (found.method, found.task, found.seed) == ("grid", "", 1)
+    assert [axis.unit for axis in result.axes] == ["mm", "1", "A", "", "g", "degC"]
+    assert [axis.number for axis in result.axes] == [True, False, True, False, False, True]
+    assert result.axes[0].range == SweptRange(pytest.approx(0.6e-3), pytest.approx(2e-3), 8)
+    assert result.axes[4].sense == "<="
+    assert (result.method, result.task, result.seed) == ("grid", "", 1)
 
 
 def test_a_sample_and_a_list(tmp_path: Path) -> None:

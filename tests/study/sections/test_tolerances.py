@@ -17,27 +17,27 @@ def _read(text: str) -> Study:
 
 
 def test_a_tolerance_is_a_quantity_or_a_share() -> None:
-    found = _read("tolerances: {wire_diameter: 0.025 mm, peltier_seebeck: 10 %, temperature@hot: 2 K}").tolerances
-    assert found["wire_diameter"].plus_minus == pytest.approx(25e-6)
-    assert (found["peltier_seebeck"].share, found["peltier_seebeck"].plus_minus) == (pytest.approx(0.1), None)
-    assert found["temperature@hot"].plus_minus == 2.0
-    assert {one.status for one in found.values()} == {"stated"}
+    result = _read("tolerances: {wire_diameter: 0.025 mm, peltier_seebeck: 10 %, temperature@hot: 2 K}").tolerances
+    assert result["wire_diameter"].plus_minus == pytest.approx(25e-6)
+    assert (result["peltier_seebeck"].share, result["peltier_seebeck"].plus_minus) == (pytest.approx(0.1), None)
+    assert result["temperature@hot"].plus_minus == 2.0
+    assert {item.status for item in result.values()} == {"stated"}
 
 
 def test_everything_of_a_tolerance_can_be_said() -> None:
     text = "{plus_minus: 5 deg, distribution: uniform, sigma: 2, adjustable: true, adjusted_to: 1 deg}"
-    one = _read(f"tolerances: {{preload_angle: {text}}}").tolerances["preload_angle"]
-    assert (one.distribution, one.sigma, one.adjustable) == ("uniform", 2.0, True)
-    assert one.plus_minus == pytest.approx(5.0 * one.adjusted_to) == pytest.approx(0.0872665, rel=1e-6)
+    item = _read(f"tolerances: {{preload_angle: {text}}}").tolerances["preload_angle"]
+    assert (item.distribution, item.sigma, item.adjustable) == ("uniform", 2.0, True)
+    assert item.plus_minus == pytest.approx(5.0 * item.adjusted_to) == pytest.approx(0.0872665, rel=1e-6)
 
 
 def test_standard_tolerances_are_those_of_the_mode_and_may_be_overridden() -> None:
     assert _read("tolerances: standard").tolerances == standard_tolerances(table_for("shear"))
     assert {"pcl_thickness", "block_depth"} & set(standard_tolerances(table_for("compression"))) == {"block_depth"}
-    found = _read("tolerances: {standard: true, current: 3 %, preload_angle: {adjustable: true}}").tolerances
-    assert found["current"].share == pytest.approx(0.03)
-    assert (found["preload_angle"].row, found["preload_angle"].adjustable) == ("free_angle_tolerance", True)
-    assert found["wire_diameter"].plus_minus == pytest.approx(25e-6)
+    result = _read("tolerances: {standard: true, current: 3 %, preload_angle: {adjustable: true}}").tolerances
+    assert result["current"].share == pytest.approx(0.03)
+    assert (result["preload_angle"].row, result["preload_angle"].adjustable) == ("free_angle_tolerance", True)
+    assert result["wire_diameter"].plus_minus == pytest.approx(25e-6)
 
 
 @pytest.mark.parametrize("name", standard_entries())
@@ -58,12 +58,12 @@ def _size(written: str, unit: str) -> float:
 
 
 def test_robust_is_a_count_of_deviations_or_a_yield() -> None:
-    asked = f"{SEARCH}tolerances: standard\nrobust: "
-    assert _read(asked + "{sigma: 2.5}").robust == Robust(sigma=2.5)
-    robust = _read(asked + "{yield: 95 %}").robust
+    request = f"{SEARCH}tolerances: standard\nrobust: "
+    assert _read(request + "{sigma: 2.5}").robust == Robust(sigma=2.5)
+    robust = _read(request + "{yield: 95 %}").robust
     assert robust is not None
     assert robust.share == pytest.approx(0.95)
-    assert _read(asked).robust is None
+    assert _read(request).robust is None
 
 
 def test_a_study_with_tolerances_survives_json() -> None:

@@ -43,17 +43,17 @@ def _flat(vary: Vary) -> list[Any]:
     ],
 )
 def test_forms(read: Read, name: str, form: str, expected: Vary) -> None:
-    found = read(_study(name, form)).vary[name]
-    assert type(found) is type(expected)
-    for found_value, value in zip(_flat(found), _flat(expected), strict=True):
+    result = read(_study(name, form)).vary[name]
+    assert type(result) is type(expected)
+    for found_value, value in zip(_flat(result), _flat(expected), strict=True):
         assert found_value == (value if isinstance(value, str | None) else pytest.approx(value))
 
 
 def test_the_modules_value_is_the_start(read: Read) -> None:
     def start(module: str, form: str = "[1 mm, 2 mm]") -> float | None:
-        found = read(_study("wire_diameter", form, module)).vary["wire_diameter"]
-        assert isinstance(found, Range)
-        return found.start
+        result = read(_study("wire_diameter", form, module)).vary["wire_diameter"]
+        assert isinstance(result, Range)
+        return result.start
 
     assert start("") is None
     assert start("wire_diameter: 1.5 mm") == pytest.approx(1.5e-3)
