@@ -15,7 +15,7 @@ MODULES = {
 
 
 def how_to_install(extra: str) -> str:
-    """Which module of an extra is not there and the command that brings it; empty where nothing is missing."""
+    """Return which module of an extra is missing and the command that installs it; empty if none is."""
     missing = next((module for module in MODULES[extra] if find_spec(module) is None), "")
     return f"{missing} is not installed: pip install 'tvimdesign[{extra}]'" if missing else ""
 

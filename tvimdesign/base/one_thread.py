@@ -9,7 +9,7 @@ NAMES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def ask_for_one_thread() -> None:
-    """Say so to what is loaded from now on, here and in children.
+    """Set the variables for libraries that are loaded from now on, here and in children.
 
     Two threads double the CPU time of systems as small as here and gain nothing; to start one takes numpy half of its
     time to load.
