@@ -130,8 +130,9 @@ def test_a_front_that_spans_next_to_nothing_is_no_trade_and_has_no_knee() -> Non
         "There is no trade to speak of: over the whole front module_mass spans 0.40% (100.9 g to 101.3 g); "
         "take the point with the least response_time."
     )
-    assert plain(front, list(front.outputs), table)["knee"] is None
-    assert "knee" not in front_csv(front, list(front.outputs), table)
+    reported = plain(front, list(front.outputs), table)
+    assert reported["knee"] is None
+    assert "knee" not in front_csv(reported)
     assert figure_data(front, points[0], table)["knee"] is None
 
 
@@ -160,8 +161,6 @@ def test_a_front_without_points_says_why_and_is_written_all_the_same() -> None:
     reported = plain(front, list(front.outputs), table)
     assert reported["points"] == []
     assert reported["in_words"] == [f"No design at least response_time: {words}."]
-    assert front_csv(front, list(front.outputs), table).splitlines() == [
-        "point,status,response_time [s],module_mass [g]"
-    ]
+    assert front_csv(reported).splitlines() == ["point,status,response_time [s],module_mass [g]"]
     (block,) = front_section(reported, list(front.outputs)).blocks
     assert words in str(block)

@@ -65,7 +65,7 @@ def sides(*texts: str) -> ConflictSet:
         (answer(), SURE | {"parts_yield": {"share": 0.005}}, [GRAVE], "Nominal optimum: add margins (yield 0.5 %)"),
         (answer(), SURE, [GRAVE], "Not yet: pin fillet safety is 0.93"),
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.2}}, [],
-         "Measure the structure layer strength first: it decides on the thread of the retainer screw"),
+         "Measure the structure layer strength first: it decides on the retainer thread"),
         (answer(), SURE, [RunWarning("a spring may rattle")], "Build it"),
         (answer(), {}, [], "Optimum found"),
     ],

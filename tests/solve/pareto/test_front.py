@@ -245,8 +245,9 @@ def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
     ]
     assert len(front.points) == 2 - len(lost)
     table = table_for(solved.study.mode)
-    assert front_csv(front, front.outputs, table).count("\n") == 1 + len(front.points)
-    assert plain(front, front.outputs, table)["in_words"][0] == "An end has no design."
+    reported = plain(front, front.outputs, table)
+    assert front_csv(reported).count("\n") == 1 + len(front.points)
+    assert reported["in_words"][0] == "An end has no design."
 
 
 def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:

@@ -45,10 +45,8 @@ class FrontOfRun:
         self.study, self.table = study, table
         self.outputs: tuple[str, ...] = study.front.of if study.front else ()
         self.front: Front | None = None
-        self.kept: list[float] = []
-        """Of a robust study, the share of modules drawn at random that keep all limits, for each point."""
-        self.above: list[tuple[str, ...]] = []
-        """The ratings that each point is beyond and the study does not accept."""
+        self.entry: FrontEntry | None = None
+        """The front as plain data."""
         self.optimum: Point | None = None
         self._memory = FolderMemory(folder, study) if study.front and folder else None
         self._built: list[tuple[Optimizer, list[Run]]] = []
@@ -70,14 +68,15 @@ class FrontOfRun:
         front = self.front = completed(sought, trade)
         self.optimum = trade.optimum
         late = trade.optimizer.deadline.late
+        yields: list[float] = []
         if self.study.robust:
             drawing = partial(kept_at, trade.optimizer, front, late)
-            self.kept = late.attempt("the yield of each point of the front", drawing) or []
+            yields = late.attempt("the yield of each point of the front", drawing) or []
         accept = self.study.model_dump(include={"accept"})
-        self.above = [of_ratings(point, accept, self.table)["above_rating"] for point in front.points]
-        reported["front"] = plain(front, shown_names(self.study, front), self.table, self.kept, self.above)
-        if any(self.above):
-            troubles.append(AboveRatingError(said_of_ratings(self.above)))
+        above = [of_ratings(point, accept, self.table)["above_rating"] for point in front.points]
+        self.entry = reported["front"] = plain(front, shown_names(self.study, front), self.table, yields, above)
+        if any(above):
+            troubles.append(AboveRatingError(said_of_ratings(above)))
         failures = [one for one in front.failures if one.reason != OUT_OF_TIME]
         if len(failures) < len(front.failures):
             late.leave_out(f"{len(front.failures) - len(failures)} points of the front")
@@ -87,11 +86,10 @@ class FrontOfRun:
 
     def write(self, folder: ResultsFolder, found: StudyResult) -> None:
         """Write all of it but its figure."""
-        if self.front is None:
+        if self.front is None or self.entry is None:
             return
-        names = shown_names(self.study, self.front)
-        folder.write("front.csv", front_csv(self.front, names, self.table, self.kept, self.above))
-        folder.write_json("front.json", {**head(), **plain(self.front, names, self.table, self.kept, self.above)})
+        folder.write("front.csv", front_csv(self.entry))
+        folder.write_json("front.json", {**head(), **self.entry})
         for number, point in enumerate(self.front.points, start=1):
             folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, found, self.table)))
         folder.remove(PROGRESS)
@@ -147,31 +145,20 @@ def said_of_ratings(above: Sequence[tuple[str, ...]]) -> str:
     return f"points {points} of the front are beyond their rating, which the study does not accept: {named}"
 
 
-def front_csv(
-    front: Front,
-    names: Sequence[str],
-    table: Table,
-    kept: Sequence[float] = (),
-    above: Sequence[tuple[str, ...]] = (),
-) -> str:
-    """Return a line for each point, in units; the ratings it is beyond where any point is beyond one not accepted."""
+def front_csv(front: FrontEntry) -> str:
+    """Return a line for each point, in units; its yield and the ratings it is beyond, if any point has them."""
+    points, more = front["points"], []
+    if any("yield_share" in point for point in points):
+        more.append(("yield", [str(point.get("yield_share", "")) for point in points]))
+    if any("above_rating" in point for point in points):
+        more.append(("above_rating", [" ".join(point.get("above_rating", ())) for point in points]))
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    heads = [f"{name} [{pretty(table.unit(name))}]" for name in names]
-    writer.writerow(
-        ["point", "status", *heads, *(["yield"] if kept else []), *(["above_rating"] if any(above) else [])]
-    )
-    for number, point in enumerate(front.points, start=1):
-        values = (from_si(point.values[name], table.unit(name)) for name in names)
-        writer.writerow(
-            [
-                number,
-                status(front, number - 1),
-                *(f"{value:.8g}" for value in values),
-                *kept[number - 1 : number],
-                *([" ".join(above[number - 1])] if any(above) else []),
-            ]
-        )
+    heads = [f"{name} [{unit}]" for name, unit in front["units_of_values"].items()]
+    writer.writerow(["point", "status", *heads, *(name for name, _ in more)])
+    for i, point in enumerate(points):
+        values = ("inf" if value is None else f"{value:.8g}" for value in point["values"].values())
+        writer.writerow([point["number"], point["status"], *values, *(column[i] for _, column in more)])
     return stream.getvalue()
 
 

@@ -7,14 +7,9 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from rich import box
-from rich.console import Console
-from rich.table import Table
-
 from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.process_tree import Niceness, set_low_priority
-from tvimdesign.base.units import pretty
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts
@@ -106,30 +101,10 @@ def refuse_failed(report: CadReport) -> None:
     )
 
 
-_COLOURS = {"failure": "red", "warning": "yellow"}
-_SHOWN = 15
-
-
-def print_solid_checks(checks: Sequence[SolidCheck], console: Console) -> None:
-    """Print what did not pass, worst first, and count the rest."""
-    found = worst_first(checks)
-    if found:
-        grid = Table(box=box.SIMPLE_HEAD, title="Checks on the solids", title_justify="left", show_edge=False)
-        for column in ("", "what was found", "value", "limit", "at x, y, z in mm"):
-            grid.add_column(column, justify="right" if column in {"value", "limit"} else "left")
-        for check in found[:_SHOWN]:
-            unit = pretty(check.unit)
-            place = ", ".join(f"{x:.1f}" for x in check.place) if check.place else ""
-            level = f"[{_COLOURS[check.level]}]{check.level}[/]"
-            grid.add_row(level, check.text, f"{check.value:.4g} {unit}", f"{check.limit:.4g} {unit}", place)
-        console.print(grid)
-    console.print(_count(checks, max(0, len(found) - _SHOWN)), soft_wrap=True)
-
-
 def in_short(checks: Sequence[SolidCheck]) -> str:
     """Return how many checks passed, how many did not, and the worst failure."""
     found = worst_first(checks)
-    counts = (f"{sum(check.level == level for check in found)} {level}s" for level in _COLOURS)
+    counts = (f"{sum(check.level == level for check in found)} {level}s" for level in ("failure", "warning"))
     said = [f"{sum(check.level == 'pass' for check in checks)} of {len(checks)} checks on the solids passed"]
     said += [count for count in counts if not count.startswith("0 ")]
     said += [f"the worst: {check.text}" for check in found[:1] if check.level == "failure"]
@@ -140,16 +115,5 @@ def worst_first(checks: Sequence[SolidCheck]) -> list[SolidCheck]:
     """Return failures, then warnings, those that miss their limit by the most first."""
     rank = {"failure": 0, "warning": 1}
     reported = [check for check in checks if check.level in rank]
-    return sorted(reported, key=lambda check: (rank[check.level], -_missed(check), check.name))
-
-
-def _missed(check: SolidCheck) -> float:
-    """Return the share of its limit by which a value misses it."""
-    return abs(check.value - check.limit) / max(abs(check.limit), 1e-9)
-
-
-def _count(checks: Sequence[SolidCheck], hidden: int) -> str:
-    passed = sum(check.level == "pass" for check in checks)
-    sampled = sum(check.resolution > 0.0 for check in checks)
-    more = f"; {hidden} more that did not are in checks.json" if hidden else ""
-    return f"{passed} of {len(checks)} checks on the solids passed, {sampled} of them all by samples{more}."
+    missed = {check.name: abs(check.value - check.limit) / max(abs(check.limit), 1e-9) for check in reported}
+    return sorted(reported, key=lambda check: (rank[check.level], -missed[check.name], check.name))

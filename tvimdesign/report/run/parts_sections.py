@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -59,16 +59,21 @@ def checks_section(cad: Path) -> list[Section]:
     said = ", ".join(f"{count} {level}" for level, count in counts if count)
     failed = [check for check in ordered if check["level"] != "pass"]
     blocks: list[Block] = [Words([f"{len(checks)} checks on the solids: {said}."])]
-    blocks += [_checks("Checks that did not pass", failed)] if failed else []
-    return [Section("checks", "Checks", [*blocks, Folded("All checks", [_checks("Checks on the solids", ordered)])])]
-
-
-def _checks(title: str, checks: list[dict[str, Any]]) -> Grid:
-    rows = [
-        (check["level"], check["text"], _with_unit(check, "value"), _with_unit(check, "limit"), check["basis"])
-        for check in checks
+    blocks += [checks_grid("Checks that did not pass", failed)] if failed else []
+    return [
+        Section("checks", "Checks", [*blocks, Folded("All checks", [checks_grid("Checks on the solids", ordered)])])
     ]
-    return grid(title, ("", "what was checked", "value", "limit", "basis"), rows, right=(2, 3), code=(), toned=(0,))
+
+
+def checks_grid(title: str, checks: Sequence[Mapping[str, Any]]) -> Grid:
+    """Return checks on the solids as a table: value against limit, exact or sampled, and where."""
+    rows = [
+        (check["level"], check["text"], _with_unit(check, "value"), _with_unit(check, "limit"), check["basis"],
+         ", ".join(f"{x:.1f}" for x in check.get("place") or ()))
+        for check in checks
+    ]  # fmt: skip
+    heads = ("", "what was checked", "value", "limit", "basis", "at x, y, z in mm")
+    return grid(title, heads, rows, right=(2, 3), code=(), toned=(0,))
 
 
 def _with_unit(check: Mapping[str, Any], what: str) -> str:

@@ -37,6 +37,9 @@ if TYPE_CHECKING:
     from tvimdesign.solve.result import Designed
     from tvimdesign.study.design import Design
 
+_CHECKS = 15
+"""Checks that are printed; checks.json has all."""
+
 
 def run_study(
     path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
@@ -208,14 +211,16 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
 
 def _parts(making: BackgroundPartsJob, progress: Progress, as_json: bool, *, in_full: bool) -> Parts:
     """Wait for the parts and print what was found. Raises GeometryError where a check fails."""
-    from tvimdesign.report.output.terminal import block, print_lines
-    from tvimdesign.report.run.parts_of_design import in_short, plain_report, print_solid_checks, refuse_failed
+    from tvimdesign.report.output.terminal import print_grid, print_lines, wrapped
+    from tvimdesign.report.run.parts_of_design import in_short, plain_report, refuse_failed, worst_first
+    from tvimdesign.report.run.parts_sections import checks_grid
 
     report = making.finish(progress)
     console = wide_console()
     if not as_json and in_full:
-        print_solid_checks(report.checks, console)
-    elif not as_json:
-        print_lines(block("Parts", in_short(report.checks), console.width), console)
+        failed = [check.plain() for check in worst_first(report.checks)]
+        print_grid(checks_grid("Checks on the solids that did not pass", failed[:_CHECKS]), console)
+    if not as_json:
+        print_lines(wrapped(f"Parts: {in_short(report.checks)}", console.width, indent="  "), console)
     refuse_failed(report)
     return plain_report(report)

@@ -127,8 +127,8 @@ def _model(uncertainty: Mapping[str, Any]) -> list[Fact]:
     if not name:
         return [Fact("Model", ["every limit is met whatever the unmeasured inputs are in their ranges"])]
     first = measure_first(name, uncertainty)
-    parts = [f"the limit most in doubt is {label(name)}", f"met in {100.0 * share:.0f} of 100 cases"]
-    return [Fact("Model", parts, f"measure the {label(first)} first" if first else "")]
+    text = f"the limit most in doubt is {label(name)} (met in {100.0 * share:.0f} %)"
+    return [Fact("Model", [text], f"measure {label(first)} first" if first else "")]
 
 
 def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) -> list[Fact]:
