@@ -114,12 +114,6 @@ def structure_compliances(m: Module) -> Compliances:
     )  # fmt: skip
 
 
-@quantities.output("N*m/rad")
-def structure_stiffness(m: Module) -> Scalar:
-    """Stiffness in series with the blocks, at 23 degC: core, plate, vanes, pads, and floor up to its feet or flange."""
-    return 1.0 / sum(m.structure_compliances)
-
-
 @quantities.helper()
 def floor_ring(m: Module) -> Scalar:
     """Thickness of the floor within the PCL's outer radius, as if spread evenly [m].

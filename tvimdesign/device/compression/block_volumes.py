@@ -119,12 +119,6 @@ def housing_moments(m: Module) -> Section:
     return m.bare_housing_moments.plus(m.housing_vanes_moments)
 
 
-@quantities.output("mm^3")
-def housing_volume(m: Module) -> Scalar:
-    """Volume of the housing: skirt and floor, wall, hub, spring posts and vanes."""
-    return m.housing_moments.area
-
-
 @quantities.helper()
 def rotor_vanes(m: Module) -> Section:
     """Plan view of the rotor's vanes."""

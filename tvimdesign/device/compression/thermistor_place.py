@@ -49,12 +49,6 @@ def thermistor_volume(m: Module) -> Scalar:
     return 0.25 * np.pi * m.thermistor_diameter**2 * m.thermistor_length
 
 
-@weights.output("g")
-def thermistor_mass(m: Module) -> Scalar:
-    """Mass of the thermistor's bead; zero without."""
-    return m.thermistor_volume * m.thermistor_density
-
-
 @rules.output("mm", at_least(0.0, "the thermistor would be taller than the block: a shorter bead"))
 def thermistor_height_gap(m: Module) -> Scalar:
     """Height of the block beyond the bead's, where there is one."""

@@ -125,6 +125,18 @@ def retainer_section(m: Module) -> Section:
     return ring(0.5 * m.retainer_screw_clearance, m.retainer_radius)
 
 
+@quantities.output("g")
+def thermistor_mass(m: Module) -> Scalar:
+    """Mass of all thermistor beads together; zero without."""
+    return m.thermistor_volume * m.thermistor_density
+
+
+@quantities.output("mm^3")
+def housing_volume(m: Module) -> Scalar:
+    """Volume of the housing: skirt and floor, wall, hub and spring posts, and what its mode adds."""
+    return m.housing_moments.area
+
+
 @quantities.output("mm^3")
 def rotor_volume(m: Module) -> Scalar:
     """Volume of the rotor with its core and pins."""

@@ -89,12 +89,6 @@ def housing_moments(m: Module) -> Section:
     return m.bare_housing_moments
 
 
-@quantities.output("mm^3")
-def housing_volume(m: Module) -> Scalar:
-    """Volume of the housing: skirt and floor, wall, hub and spring posts."""
-    return m.housing_moments.area
-
-
 @quantities.output("deg", requires=WITH_LINER)
 def liner_span(m: Module) -> Scalar:
     """Angle a liner covers: at the arc's inner radius its recess is a slip clearance longer at each end; zero

@@ -108,12 +108,6 @@ def structure_compliances(m: Module) -> Compliances:
     return Compliances(1.0 / m.core_stiffness, 1.0 / m.plate_stiffness - above, above, 0.0, below, sheets)
 
 
-@quantities.output("N*m/rad")
-def structure_stiffness(m: Module) -> Scalar:
-    """Stiffness in series with the layer, at 23 degC: core, plate, pads, and floor up to its feet or sensor flange."""
-    return 1.0 / sum(m.structure_compliances)
-
-
 @quantities.helper()
 def floor_ring(m: Module) -> Scalar:
     """Thickness of the floor within the PCL's outer radius [m]: its web, where pockets and windows thin it."""

@@ -56,12 +56,6 @@ def thermistor_volume(m: Module) -> Scalar:
     return m.thermistor_count * 0.25 * np.pi * m.thermistor_diameter**2 * m.thermistor_length
 
 
-@weights.output("g")
-def thermistor_mass(m: Module) -> Scalar:
-    """Mass of all thermistor beads together; zero without."""
-    return m.thermistor_volume * m.thermistor_density
-
-
 @rules.output(
     "mm",
     at_least(0.0, "the thermistor's seat leaves too thin a web to the window: a smaller bead, or a wider window_ledge"),

@@ -150,3 +150,9 @@ one to another it has a kink, and IPOPT goes from side to side of it until its i
 def core_holding_torque(m: Module) -> Scalar:
     """Torque the core bears at its foot and beside its holes, by `holding_safety` below yield."""
     return np.fmin(m.core_foot_holding_torque, np.fmin(m.core_screws_holding_torque, m.core_dowels_holding_torque))
+
+
+@quantities.output("N*m/rad")
+def structure_stiffness(m: Module) -> Scalar:
+    """Stiffness in series with the PCL, at 23 degC: core, plate, vanes, pads, and floor up to its feet or flange."""
+    return 1.0 / sum(m.structure_compliances)
