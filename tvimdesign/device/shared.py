@@ -1,4 +1,4 @@
-"""The rooms whose quantities all modes share; what differs between modes stands in a folder for each."""
+"""Files whose quantities all modes share; each mode has a folder for its own."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from tvimdesign.device.core.impedance import (
 from tvimdesign.device.core.springs import spring_as_drawn, spring_holds, torsion_springs
 from tvimdesign.device.motor import motor_clearances, motor_layout, motor_mass_properties
 
-ROOMS = (
+SHARED_FILES = (
     materials, layout, torsion_springs, spring_as_drawn, spring_holds, joint_impedance, lost_motion,
     structure_stiffness, warm_structure, large_motion, creep_under_hold, thermal_stack, softening, stiffening,
     mass_properties, clearances, shrinkage, process, heater_form, screws, tang, dowels, cutout, liner, bearing,

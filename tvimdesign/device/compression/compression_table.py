@@ -1,4 +1,4 @@
-"""The table of the compression-mode module, put together from the rooms that write the quantities."""
+"""The table of the compression-mode module, of the files that define its quantities."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from tvimdesign.device.compression import (
     vane_stiffness,
     vane_tiles,
 )
-from tvimdesign.device.shared import ROOMS as SHARED
+from tvimdesign.device.shared import SHARED_FILES
 from tvimdesign.device.table.quantity import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (
+FILES = (
     vane_layout, block_impedance, vane_stiffness, block_heat, ring_heat, vane_heat, block_volumes, vane_clearances,
     vane_tiles, thermistor_place,
 )  # fmt: skip
-TABLE = Table(gather((*SHARED, *ROOMS), "compression"), PHASES)
+TABLE = Table(gather((*SHARED_FILES, *FILES), "compression"), PHASES)

@@ -14,7 +14,7 @@ WITH_MOTOR = (Feature("motor", WITHOUT),)
 WITH_ENCODER = (*WITH_MOTOR, Feature("encoder", WITHOUT))
 
 quantities = QuantityGroup("Layout", WITH_MOTOR)
-"""The layout's own room asks for the motor, so its name is not taken from there."""
+"""`layout.py` asks for the motor, so its name is not taken from there."""
 
 quantities.record(
     "motor", "motors", WITHOUT, "Frameless motor that turns the module's housing, or none", others=(WITHOUT,)

@@ -1,8 +1,8 @@
-"""The table of the shear-mode module, put together from the rooms that write the quantities."""
+"""The table of the shear-mode module, of the files that define its quantities."""
 
 from __future__ import annotations
 
-from tvimdesign.device.shared import ROOMS as SHARED
+from tvimdesign.device.shared import SHARED_FILES
 from tvimdesign.device.shear import (
     arc_clearances,
     arc_laps,
@@ -25,8 +25,8 @@ from tvimdesign.device.table.quantity import PHASES
 from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
-ROOMS = (
+FILES = (
     pad_pockets, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, lip_heat, floor_heat, arc_volumes,
     arc_clearances, pad_heat, tiles, thermistor_seat, keys, layer_shrinkage, melt_lip,
 )  # fmt: skip
-TABLE = Table(gather((*SHARED, *ROOMS), "shear"), PHASES)
+TABLE = Table(gather((*SHARED_FILES, *FILES), "shear"), PHASES)

@@ -1,1 +1,1 @@
-"""The machinery of the one table: quantities, how a room writes them, and the phases of the working cycle."""
+"""The table: kinds of quantities, their definition in a file, and the phases of the working cycle."""

@@ -1,4 +1,4 @@
-"""Collection of a room's quantities: a function's name is the quantity's name, its docstring the description."""
+"""Collection of a file's quantities: a function's name is the quantity's name, its docstring the description."""
 
 from __future__ import annotations
 
@@ -37,21 +37,26 @@ GROUPS = (
 
 
 class QuantityGroup:
-    """Collects the quantities of one group in the order they are written."""
+    """Quantities of one group in the order they are written."""
 
     def __init__(self, group: str, requires: tuple[Feature, ...] = ()) -> None:
-        """`group` is the heading under which reports list the quantities, `requires` what they are of unless they say
-        it."""
+        """Start an empty group.
+
+        Parameters
+        ----------
+        group
+            The heading under which reports list the quantities, one of `GROUPS`.
+        requires
+            Features that a module needs to have the quantities, unless they say otherwise.
+        """
         self.group = group
         self.requires = requires
         self.quantities: list[Quantity] = []
         self.anchors: dict[int, str] = {}
-        """Of the quantities that stand after a certain quantity of the group, by their place here, that quantity's
-        name."""
+        """Name of the quantity that the one at a place here is listed after."""
 
     def after(self, name: str) -> None:
-        """Let the next quantities stand after a quantity that another group of the group wrote, where reports list
-        them."""
+        """List the next quantities after a quantity that another file defines under this heading."""
         self.anchors[len(self.quantities)] = name
 
     def inputs(self) -> None:
@@ -231,10 +236,10 @@ class QuantityGroup:
         return add
 
 
-def gather(rooms: Iterable[ModuleType], mode: str) -> tuple[Quantity, ...]:
-    """Return the quantities of a mode that the rooms write, those of a group together."""
+def gather(files: Iterable[ModuleType], mode: str) -> tuple[Quantity, ...]:
+    """Return the quantities of a mode that the files define, those of a group together."""
     gathered: dict[str, list[Quantity]] = {group: [] for group in GROUPS}
-    for group in (group for room in rooms for group in _groups_of(room)):
+    for group in (group for file in files for group in _groups_of(file)):
         together = gathered[group.group]
         place = len(together)
         for i, quantity in enumerate(group.quantities):
@@ -246,9 +251,9 @@ def gather(rooms: Iterable[ModuleType], mode: str) -> tuple[Quantity, ...]:
     return tuple(quantity for together in gathered.values() for quantity in together)
 
 
-def _groups_of(room: ModuleType) -> Iterator[QuantityGroup]:
-    """Yield the groups that a room defines, alone or in tuples (`screwed_joint`)."""
-    for value in vars(room).values():
+def _groups_of(file: ModuleType) -> Iterator[QuantityGroup]:
+    """Yield the groups that a file defines, alone or in tuples (`screwed_joint`)."""
+    for value in vars(file).values():
         if isinstance(value, QuantityGroup):
             yield value
         elif isinstance(value, tuple):

@@ -50,9 +50,9 @@ class Table:
         except CycleError as error:
             raise ValueError(f"quantities depend on one another: {' -> '.join(error.args[1])}") from error
         given: tuple[Input | Choice, ...] = (*self.inputs, *self.choices)
-        records = {source[0] for row in given for source in (row.record, row.stock_record) if source}
+        records = {source[0] for quantity in given for source in (quantity.record, quantity.stock_record) if source}
         currents = {phase.current_input for phase in self.phases}
-        unread = {row.name for row in given if isinstance(row, Choice) or not row.read_by} - records - currents
+        unread = {q.name for q in given if isinstance(q, Choice) or not q.read_by} - records - currents
         if unread := unread.difference(*parents.values()):
             raise ValueError(f"nothing reads the input {min(unread)!r}")
 

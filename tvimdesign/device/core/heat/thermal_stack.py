@@ -1,6 +1,6 @@
 """The thermal stack of the module, and what it is like at each instant of a phase.
 
-Each mode says in its own room what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
+Each mode defines what the heat passes: `pcl_area` and `pcl_depth`, the plate behind (`plate_depth`,
 `plate_outside`), the rotor beside that (`rotor_beside`, `uneven_sideways`, `plate_mass`, `core_share`), the pads' open
 `cold_area` and the way along them to a sink there (`cold_to_sink`); the bodies around the pads (`around_pads`), what
 passes heat to, from and between them (`floor_links`, `stack_links`, `side_links`, `loss_links`, and a `lip` of the

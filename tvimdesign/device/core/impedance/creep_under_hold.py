@@ -1,7 +1,7 @@
 """Creep of the PCL in a hold under load, and its cost in impedance.
 
 The joint is at rest and its PCL free of stress; a load comes on at once, stays for `hold_time`, and goes. Meanwhile the
-PCL relaxes, so that it would be free of stress somewhere else: `set_angle`. Each mode says in its own room how much of
+PCL relaxes, so that it would be free of stress somewhere else: `set_angle`. Each mode defines how much of
 it can part from what presses on it, `parting_share`. A block that only pushes leaves a gap as wide as its set; a
 layer bonded to both faces cannot part and acts in both senses from where it is, so that a hold takes nothing of its
 impedance, however much of its stress has relaxed. The springs turn such a joint back all the same, more slowly.

@@ -1,6 +1,6 @@
 """Stiffness and damping of the joint at its operating points: PCL, structure and springs together.
 
-Each mode says in its own room what its PCL and its structure are: `pcl_stiffness` and `pcl_damping`, and for spectra
+Each mode defines what its PCL and its structure are: `pcl_stiffness` and `pcl_damping`, and for spectra
 `pcl_moment` over `pcl_depth` times the shear modulus, in series with `support`. `warm_structure.py` has the structure.
 """
 

@@ -2,7 +2,7 @@
 
 An oscillation to the full stroke at the hot point's temperature and frequency. The melt remembers a fraction of a
 second, so it is strained less than the stroke says (Wagner's equation, `physics/polymers/melt.py`). Each mode
-says in its own room what its strains are: `stroke_strains`, (strain [1], share of the small-motion torque [1]) at
+defines what its strains are: `stroke_strains`, (strain [1], share of the small-motion torque [1]) at
 nodes, and `largest_melt_strain`.
 The springs count as at rest; their change over the stroke is `stiffness_over_stroke`.
 """

@@ -2,7 +2,7 @@
 
 At an operating point the PCL has been at its temperature for so long that nothing changes any more; in a phase the
 parts have the temperatures of the instant. The floor, away from the pads' hot sides, has that of the air, or of the
-pads' outer side; a wall between two pads is halfway between their sides. Each mode says in its own room what its parts
+pads' outer side; a wall between two pads is halfway between their sides. Each mode defines what its parts
 are: `structure_compliances`, and `lossless_compliance` of what is in series with the PCL's shear modes besides.
 
 The plate beside the PCL gives next to the core: its compliance goes as 1/r^3 and its temperature as ln r between core

@@ -169,10 +169,8 @@ def preload_margin(m: Module) -> Scalar:
 @quantities.output("MPa")
 def spring_tensile_strength(m: Module) -> Scalar:
     """Tensile strength of the wire at its diameter."""
-    quantities = m.spring_material.table("strength")
-    return spring.tensile_strength(
-        m.wire_diameter, [(quantity["coefficient"], quantity["exponent"]) for quantity in quantities]
-    )
+    ranges = m.spring_material.table("strength")
+    return spring.tensile_strength(m.wire_diameter, [(range_["coefficient"], range_["exponent"]) for range_ in ranges])
 
 
 @quantities.output(
@@ -180,9 +178,9 @@ def spring_tensile_strength(m: Module) -> Scalar:
 )
 def wire_range_margin(m: Module) -> Scalar:
     """Wire diameter against the nearer end of the range the material's strength is known for, above one inside."""
-    quantities = m.spring_material.table("strength")
-    thinnest = min(quantity["wire_diameter_from"] for quantity in quantities)
-    thickest = max(quantity["wire_diameter_to"] for quantity in quantities)
+    ranges = m.spring_material.table("strength")
+    thinnest = min(range_["wire_diameter_from"] for range_ in ranges)
+    thickest = max(range_["wire_diameter_to"] for range_ in ranges)
     return np.fmin(m.wire_diameter / thinnest, thickest / m.wire_diameter)
 
 
