@@ -12,11 +12,12 @@ import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
-from cad_designs import BEARINGS, DRIVEN, SPRUNG_BLOCKS, TILES, design_of
+from cad_designs import BEARINGS, BLOCKS, DRIVEN, SPRUNG_BLOCKS, TILES, design_of
 
 from tvimdesign.base.errors import GeometryError
+from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.assembly.module_parts import MODULES
-from tvimdesign.cad.export.mesh import Mesh, face_meshes
+from tvimdesign.cad.export.mesh import Mesh, face_meshes, solid_mesh
 from tvimdesign.cad.export.print_files import (
     _distance,
     _from_surface,
@@ -28,7 +29,8 @@ from tvimdesign.cad.export.print_files import (
 from tvimdesign.cad.export.step_file import Product, read_part, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes, levels, upright_cylinders
-from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, Production
+from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, Production, supported_levels
+from tvimdesign.cad.inspection.printing import printing_checks
 
 UP = Production(down="bottom", why="")
 OVER = Production(down="top", why="")
@@ -238,3 +240,23 @@ def test_the_tip_of_a_drilled_hole_does_not_open_the_mesh() -> None:
     assert mesh.is_watertight
     assert mesh.volume == pytest.approx(drilled.Volume(), rel=1e-3)
     assert worst < 0.05
+
+
+@pytest.mark.parametrize(("mode", "changes"), [("shear", {}), ("compression", BLOCKS)])
+def test_its_overhangs_are_those_that_the_print_text_tells(mode: str, changes: dict[str, float]) -> None:
+    dims = dimensions(design_of("printed", changes, mode))
+    mesh, levels = solid_mesh(drawn_part(dims, "rotor")), supported_levels("rotor", dims)
+    bed = (dims.bed_length, dims.bed_width, dims.bed_height)
+
+    def warned(supported: tuple[tuple[float, float], ...]) -> bool:
+        checks = printing_checks("rotor", mesh, "top", dims.overhang_angle, dims.bridge_span, bed, supported)
+        return next(check for check in checks if check.name == "rotor: overhang").warned
+
+    assert not warned(levels)
+    # Without either of the two it is a fault: the plate with its fillets, and the ends of the pins.
+    assert warned(levels[:1])
+    assert warned(levels[1:])
+    assert warned(((dims.rotor_top_level, dims.rotor_top_level), levels[1]))
+    said = PRODUCTION["rotor"].why
+    assert "under the pins" in said
+    assert "supports from the bed" in said

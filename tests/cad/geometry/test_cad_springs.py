@@ -1,9 +1,11 @@
-"""The spring's solid and its shape on the pin, against closed forms."""
+"""The spring's solid and its shape on the pin, against closed forms; and the tight box around a solid."""
 
 from __future__ import annotations
 
 from math import hypot, pi, sin, sqrt
+from typing import Any
 
+import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
@@ -15,6 +17,7 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import build
 from tvimdesign.cad.export.mesh import spring_mesh
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil, spring_solid
 from tvimdesign.study.design import Design
 
@@ -108,3 +111,37 @@ def test_a_pin_out_of_reach_is_an_error() -> None:
     design = good.model_copy(update={"values": good.values | {"pin_radius": 0.05}})
     with pytest.raises(GeometryError, match="cannot reach"):
         build(design)
+
+
+SIDES = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
+
+
+def sides(box: Any) -> list[float]:
+    return [getattr(box, side) for side in SIDES]
+
+
+def pin_on_plate(plate: float) -> cq.Solid:
+    """Draw a pin of 4 mm with a fillet of 1.5 mm at its foot, on a square plate of a side [mm]."""
+    body = cq.Workplane().box(plate, plate, 4.0).faces(">Z").workplane().circle(2.0).extrude(9.0)
+    return body.edges(cq.selectors.RadiusNthSelector(0)).edges("<Z").fillet(1.5).solids().val()
+
+
+@pytest.mark.parametrize("plate", [7.5, 30.0])
+@pytest.mark.parametrize("turn", [0.0, 17.0, 211.3])
+def test_a_fillet_within_the_rest_is_left_out(plate: float, turn: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    solid = pin_on_plate(plate).rotate(cq.Vector(), cq.Vector(0.2, 0.1, 1.0), turn)
+    expected = sides(solid.BoundingBox())
+    assert "TORUS" in [face.geomType() for face in solid.Faces()]
+    monkeypatch.setattr(cq.Shape, "BoundingBox", lambda _self: pytest.fail("the kernel's search"))
+    assert sides(tight_box(solid)) == expected
+
+
+def test_a_fillet_that_is_outermost_counts() -> None:
+    foot = cq.Workplane("XZ").moveTo(1.0, 0.0).lineTo(3.0, 0.0).radiusArc((1.5, 1.5), 1.5).lineTo(1.0, 1.5).close()
+    solid = foot.revolve(360.0, (0.0, 0.0), (0.0, 1.0)).solids().val()
+    assert sides(tight_box(solid)) == sides(solid.BoundingBox())
+
+
+def test_round_and_plain_bodies_are_the_kernels() -> None:
+    for solid in (cq.Solid.makeTorus(9.0, 2.0), cq.Solid.makeBox(1, 2, 3), cq.Solid.makeSphere(3.0)):
+        assert sides(tight_box(solid)) == sides(solid.BoundingBox())

@@ -1,15 +1,17 @@
-"""Blind holes of milled parts end in the point of a drill; those of prints end flat."""
+"""Drilled points: blind holes of milled parts end in a drill's, and an adjuster's scale is made of dots."""
 
 from __future__ import annotations
 
-from math import radians, tan
+from math import atan2, degrees, hypot, radians, tan
 
 import cadquery as cq
 import pytest
-from cad_designs import BEARING_BLOCKS, DRIVEN_BLOCKS, design_of
+from cad_designs import BEARING_BLOCKS, BEARINGS, DRIVEN_BLOCKS, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.features import Cylinder, holes
+from tvimdesign.cad.geometry.spring_solids import installed_coil
 from tvimdesign.cad.inspection.size_checks import size_checks
 
 
@@ -48,3 +50,23 @@ def test_volumes_and_inertias_of_milled_parts_count_their_points(changes: dict[s
     for kind in ("adjuster", "motor_hub", "motor_housing"):
         assert kind not in drawn or cones(drawn[kind]), kind
     assert [check.text for check in size_checks(design, place(dims, drawn)) if not check.ok] == []
+
+
+def test_the_scale_has_dots_every_thirty_degrees_and_a_mark() -> None:
+    dims = dimensions(design_of("scale", BEARINGS))
+    is_dot = 0.5 * dims.scale_dot_diameter
+    dots = [one for one in holes(drawn_part(dims, "adjuster")) if one.radius == pytest.approx(is_dot)]
+    tang = atan2(*reversed(installed_coil(dims).tang_position))
+    turns = sorted(round((degrees(atan2(one.y, one.x) - tang) % 360.0), 6) for one in dots)
+    assert turns == pytest.approx([30.0 * index for index in range(2, 11)])
+    assert min(hypot(one.x, one.y) for one in dots) > 0.5 * (dims.coil_diameter + dims.wire_diameter)
+    assert all(one.top == pytest.approx(0.0) and one.bottom == pytest.approx(-0.4) for one in dots)
+    marks = [one for one in holes(drawn_part(dims, "housing")) if one.radius == pytest.approx(is_dot)]
+    assert len(marks) == dims.count("spring_count")
+    for azimuth, (x, y) in zip(dims.azimuths("spring_count"), _in_order(marks), strict=True):
+        assert (degrees(atan2(y, x) - azimuth) + 180.0) % 360.0 - 180.0 > 0.0
+
+
+def _in_order(marks: list[Cylinder]) -> list[tuple[float, float]]:
+    """Return their places, counted around the axis."""
+    return sorted(((one.x, one.y) for one in marks), key=lambda at: atan2(at[1], at[0]) % 6.283185307179586)

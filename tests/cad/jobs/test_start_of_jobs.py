@@ -1,8 +1,10 @@
-"""Which pieces of work a design's plan begins first, and the process that does them."""
+"""The process that makes parts: how it loads the kernel, and which pieces of work it starts first."""
 
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 
 import psutil
 import pytest
@@ -12,6 +14,28 @@ from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.build_plan import PICTURES, build_plan
 from tvimdesign.cad.jobs.worker import Turn
 from tvimdesign.cad.make import PartsProcess
+
+CODE = """
+import sys
+
+import pytest
+from tvimdesign.cad.jobs.main import load_kernel
+load_kernel()
+import cadquery
+few = sum(name.startswith("vtkmodules.") for name in sys.modules)
+assert cadquery.Solid.makeBox(1, 2, 3).Volume() > 5.9
+assert "vtk" not in sys.modules
+import vtk
+print(few, sum(name.startswith("vtkmodules.") for name in sys.modules), vtk.vtkVersion().GetVTKMajorVersion())
+"""
+
+
+@pytest.mark.gate
+def test_vtk_is_not_loaded_whole_with_the_kernel_and_can_be_afterwards() -> None:
+    said = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, check=True).stdout
+    few, whole, version = (int(word) for word in said.split())
+    assert few < 0.4 * whole
+    assert version >= 9
 
 
 def test_the_files_of_a_part_that_others_wait_for_come_before_its_drawing() -> None:
