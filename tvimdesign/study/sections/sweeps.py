@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import replace
 
 from tvimdesign.device import Choice, Input, Table
@@ -19,7 +18,7 @@ from tvimdesign.study.sections.sweep_block import (
     SweptAxis,
     SweptRange,
 )
-from tvimdesign.study.text.mistakes import one_of, quoted, step
+from tvimdesign.study.text.mistakes import quoted, step
 from tvimdesign.study.text.values import (
     ROUNDING,
     Reading,
@@ -32,6 +31,7 @@ from tvimdesign.study.text.values import (
     text,
     unknown_keys,
     whole,
+    word_of,
 )
 from tvimdesign.study.text.yaml_text import Mapping, Node, Sequence, Text
 
@@ -62,7 +62,9 @@ def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
     )
     if node is None or not parts:
         return None
-    method = _word(reading, parts.get("method"), "sweep.method", METHODS) or ("list" if "cells" in parts else "grid")
+    method = word_of(reading.problems, parts.get("method"), "sweep.method", METHODS) or (
+        "list" if "cells" in parts else "grid"
+    )
     before = len(reading.problems.items)
     if method == "list":
         axes, rows = _listed(reading, parts, node)
@@ -70,7 +72,7 @@ def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
         axes, rows = _axes(reading, parts, node, method), ()
     count = _count(reading, parts, node, method)
     block = SweepBlock(
-        method=method, axes=axes, rows=rows, task=_word(reading, parts.get("task"), "sweep.task", TASKS),
+        method=method, axes=axes, rows=rows, task=word_of(reading.problems, parts.get("task"), "sweep.task", TASKS),
         count=count, seed=_number(reading, parts, "seed", 0, _MOST_SEED) or 0 if "seed" in parts else 1,
         outputs=_outputs(reading, parts.get("outputs")),
     )  # fmt: skip
@@ -78,16 +80,6 @@ def _read(reading: Reading, node: Node | None) -> SweepBlock | None:
     if len(reading.problems.items) > before:
         return None
     return block if most is None else replace(block, most=most)
-
-
-def _word(reading: Reading, node: Node | None, path: str, known: Collection[str]) -> str:
-    """Return one of some words; empty if none is written."""
-    if node is None:
-        return ""
-    word = text(reading.problems, node, path, one_of(list(known)))
-    if word is not None and word not in known:
-        reading.problems.unknown(node, path, f"{path.rpartition('.')[2]}: {quoted(word)}", word, known)
-    return word if word is not None and word in known else ""
 
 
 def _number(reading: Reading, parts: dict[str, Node], key: str, least: int, most: int) -> int | None:
@@ -238,7 +230,7 @@ def _range(reading: Reading, node: Mapping, path: str, axis: SweptAxis, method: 
     if ends is None:
         return None
     (lower, sense), (upper, other) = ends
-    logarithmic = _word(reading, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
+    logarithmic = word_of(reading.problems, parts.get("spacing"), f"{path}.spacing", _SPACINGS) == "logarithmic"
     if sense != other:
         reading.problems.add(node, path, f"begins with {sense} and ends with {other}", "the same sense at both ends")
     elif not below(lower, upper):

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from functools import cache
 from importlib import resources
-from typing import Any, Literal
+from typing import Any
 
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
@@ -35,6 +35,7 @@ from tvimdesign.study.text.values import (
     si_value,
     text,
     unknown_keys,
+    word_of,
 )
 from tvimdesign.study.text.yaml_text import Mapping, Node, Text
 
@@ -161,7 +162,8 @@ def _read_parts(reading: Reading, parts: dict[str, Node], path: str, row: Input)
     if "row" in parts:
         read |= _read_row(reading, parts["row"], f"{path}.row", row)
     if "distribution" in parts:
-        read |= _read_distribution(reading, parts["distribution"], f"{path}.distribution")
+        word = word_of(reading.problems, parts["distribution"], f"{path}.distribution", ["normal", "uniform"])
+        read |= {"distribution": word} if word else {}
     if "sigma" in parts:
         sigma = _sigmas(reading, parts["sigma"], f"{path}.sigma")
         read |= {} if sigma is None else {"sigma": sigma}
@@ -214,17 +216,6 @@ def _read_row(reading: Reading, node: Node, path: str, row: Input) -> dict[str, 
         reading.problems.add(node, path, f"{word} is in {reading.table.unit(word)}", f"a row in {row.unit}")
         return {}
     return {"row": word}
-
-
-def _read_distribution(reading: Reading, node: Node, path: str) -> dict[str, Literal["normal", "uniform"]]:
-    word = text(reading.problems, node, path, "normal or uniform")
-    if word == "normal":
-        return {"distribution": "normal"}
-    if word == "uniform":
-        return {"distribution": "uniform"}
-    if word is not None:
-        reading.problems.unknown(node, path, f"distribution: {quoted(word)}", word, ["normal", "uniform"])
-    return {}
 
 
 def _sigmas(reading: Reading, node: Node, path: str) -> float | None:

@@ -15,7 +15,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity, si_unit
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
-from tvimdesign.study.text.mistakes import Mistakes, Place, quoted, step
+from tvimdesign.study.text.mistakes import Mistakes, Place, one_of, quoted, step
 from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text
 
 LONGEST_VALUE = 200
@@ -104,6 +104,14 @@ def text(problems: Mistakes, node: Node, path: str, expected: str) -> str | None
         problems.add(node, path, message, expected)
         return None
     return node.value.strip()
+
+
+def word_of(problems: Mistakes, node: Node | None, path: str, known: Collection[str]) -> str:
+    """Return one of some words; empty if none is written, or (with a problem) another one."""
+    word = None if node is None else text(problems, node, path, one_of(list(known)))
+    if node is not None and word is not None and word not in known:
+        problems.unknown(node, path, f"{path.rpartition('.')[2]}: {quoted(word)}", word, known)
+    return word if word is not None and word in known else ""
 
 
 def whole(problems: Mistakes, node: Node, path: str) -> int | None:
