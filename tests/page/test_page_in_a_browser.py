@@ -84,6 +84,14 @@ def test_nothing_reaches_beyond_a_phone(opened: Open, report: Path) -> None:
     assert found.page.evaluate("document.documentElement.scrollWidth") <= 360
 
 
+@pytest.mark.parametrize("size", [(1400, 900), (390, 844)], ids=["desktop", "phone"])
+def test_the_answer_is_seen_without_scrolling(opened: Open, report: Path, size: tuple[int, int]) -> None:
+    page = opened(report, viewport={"width": size[0], "height": size[1]}).page
+    assert page.locator(".status").bounding_box()["y"] < 0.2 * size[1]  # the verdict
+    first = page.locator("#first .glance > div").first.bounding_box()  # requirements, or facts if there are none
+    assert first["y"] < 0.4 * size[1]
+
+
 def test_it_is_read_without_its_code(opened: Open, report: Path) -> None:
     page = opened(report, java_script_enabled=False).page
     assert page.get_by_role("heading", name="Module").is_visible()

@@ -53,7 +53,7 @@ def read_on(capsys: pytest.CaptureFixture[str], lines: list[str]) -> list[str]:
     return lines
 
 
-def test_plain_lines_come_every_few_seconds_and_the_last_thing_said_is_told(
+def test_plain_lines_come_every_few_seconds(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(progress, "PLAIN_EVERY", 1.2)

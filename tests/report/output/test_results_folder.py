@@ -283,7 +283,7 @@ def test_an_interrupt_while_the_manifest_is_made_is_told_in_it(tmp_path: Path, m
     assert (said["status"], list(said["files"])) == ("interrupted", ["results.csv"])
 
 
-def test_what_was_made_after_an_interrupt_that_was_swallowed_is_not_told_as_done(tmp_path: Path) -> None:
+def test_nothing_after_a_swallowed_interrupt_counts_as_done(tmp_path: Path) -> None:
     with interrupt_handler(), suppress(KeyboardInterrupt), ResultsFolder(tmp_path / "out") as folder:
         with suppress(KeyboardInterrupt):  # as some library does
             os.kill(os.getpid(), signal.SIGTERM)

@@ -26,7 +26,7 @@ INTERVALS = {
 }
 
 
-def test_the_values_that_shrink_are_told_with_both_intervals_the_most_first() -> None:
+def test_values_that_shrink_have_both_intervals() -> None:
     assert [(name, before, now) for name, before, now, _ in shrunk(INTERVALS)] == [
         ("frozen_time", "200 to never", "280 to 330 s"),
         ("softening_time", "40 to 240", "90 to 120 s"),

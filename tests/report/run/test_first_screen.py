@@ -278,7 +278,7 @@ INFEASIBLE = (
 
 
 @pytest.mark.gate
-def test_where_there_is_no_design_the_screen_says_so_and_nothing_but_our_lines_is_on_standard_error(
+def test_a_study_without_a_design_says_so_on_both_outputs(
     process: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONWARNINGS", "always")

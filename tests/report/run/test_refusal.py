@@ -75,9 +75,7 @@ def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(
     assert json.loads(capsys.readouterr().out)["reason"] == "no start keeps it"
 
 
-def test_an_interrupt_that_a_solver_swallowed_is_no_reason_against_the_study(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_swallowed_interrupt_is_no_conflict(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path, out = tmp_path / "study.yaml", tmp_path / "out"
     path.write_text(STUDY.replace("<= 120 mm", "<= 300 mm"))
 

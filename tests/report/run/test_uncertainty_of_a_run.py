@@ -58,7 +58,7 @@ def test_the_yield_is_what_tolerate_says(found: StudyResult, module: ResolvedMod
 
 
 @pytest.mark.slow
-def test_a_kernel_for_the_study_says_the_same_of_a_design_as_one_for_the_design(
+def test_the_study_s_kernel_agrees_with_the_design_s(
     found: StudyResult, module: ResolvedModule, model: UncertaintyModel
 ) -> None:
     alone = model.at(module, SAMPLES)
@@ -81,7 +81,7 @@ def test_what_is_assumed_is_what_the_chosen_records_assume(module: ResolvedModul
 
 @pytest.mark.gate
 @pytest.mark.parametrize("output", ["holding_torque", "impedance_range"])
-def test_the_assumed_input_shown_is_the_one_that_moves_an_algebraic_output_most(
+def test_the_assumed_input_shown_moves_its_output_most(
     module: ResolvedModule, spread: DesignUncertainty, output: str
 ) -> None:
     def at(name: str, value: float) -> float:

@@ -54,9 +54,7 @@ def test_an_uncertainty_that_is_not_computed_is_a_warning(
     assert (tmp_path / "out/design.json").exists()
 
 
-def test_a_process_that_reads_nothing_is_not_waited_for_beyond_the_deadline(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_process_that_reads_nothing_ends_at_the_deadline(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A design does not fit into the pipe: to ask for it comes back at once all the same."""
 
     def start(_module: str, **options: Any) -> subprocess.Popen[Any]:
@@ -72,9 +70,7 @@ def test_a_process_that_reads_nothing_is_not_waited_for_beyond_the_deadline(
             process.finish(Deadline(0.0, lambda: 0.0))
 
 
-def test_what_the_time_limit_leaves_out_is_on_the_first_screen_and_in_the_results(
-    tvimdesign: Command, tmp_path: Path
-) -> None:
+def test_steps_left_out_are_on_the_screen_and_in_the_results(tvimdesign: Command, tmp_path: Path) -> None:
     (tmp_path / "arm.yaml").write_text(STUDY)
     done = tvimdesign("run", "arm.yaml", "--no-cad", "--no-plots", "--out", "out", "--time-limit", "1 ms", cwd=tmp_path,
                       spread="on")  # fmt: skip

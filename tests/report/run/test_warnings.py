@@ -23,7 +23,7 @@ PLACES = {"point": "hot"}
 OTHERS = {kind: entry["mend"] for kind, entry in hints()["others"].items()}
 
 
-def test_every_advice_and_rating_of_the_table_has_what_mends_it_and_nothing_else_has() -> None:
+def test_every_advice_and_rating_of_the_table_has_a_cure() -> None:
     assert hints()["advice"].keys() == ADVICE.keys()
     assert hints()["ratings"].keys() == RATINGS.keys()
     assert all(entry["mend"] for kind in ("advice", "ratings") for entry in hints()[kind].values())
