@@ -54,7 +54,14 @@ def measure_files(
     if not paths:
         raise InputError("give at least one file of measured data")
     files = tuple(read_data_file(path, columns) for path in paths)
-    blocks = [block for file in files for block in file.blocks]
+    every = [block for file in files for block in file.blocks]
+    blocks = [block for block in every if not _is_flow_curve(block)]
+    if not blocks:
+        raise InputError(
+            f"{every[0].place}: shear rate and viscosity without strain or moduli are a flow curve, which is not "
+            "fitted; give a frequency sweep of the melt (angular frequency, G', G''), or enter the viscosity at low "
+            "rates as pcl_zero_shear_viscosity in the study's module"
+        )
     sheet = kind_sheet(kind) if kind else _likely_kind(blocks)
     values = sheet.values(settings or {})
     fitting = tuple(block for block in blocks if sheet.fits(block) and _rows(block, sheet) >= LEAST_ROWS)
@@ -64,7 +71,17 @@ def measure_files(
         raise InputError(
             f"{why}; {sheet.name} needs {_needed(sheet)}. A column map (--columns) says which column is what"
         )
-    return Measured(sheet, files, fitting, measure_of(sheet)(fitting, values))
+    measurement = measure_of(sheet)(fitting, values)
+    for block in reversed(fitting):
+        if block.flagged:
+            measurement = measurement.with_note(f"{block.place}: {block.flagged}, and left out.")
+    return Measured(sheet, files, fitting, measurement)
+
+
+def _is_flow_curve(block: Block) -> bool:
+    """Return whether the columns are those of steady shearing, which no kind of measurement fits."""
+    others = {"strain", "compliance", "relaxation_modulus", "storage_modulus", "loss_modulus"}
+    return {"shear_rate", "viscosity"} <= block.columns.keys() and not others & block.columns.keys()
 
 
 def measure_of(sheet: KindSheet) -> Callable[..., Measurement]:

@@ -50,7 +50,10 @@ def test_slow_flow_alone_gives_a_viscosity_and_no_time(tmp_path: Path) -> None:
     storage, loss = (1e-4 * np.exp(noise.normal(0.0, 1.0, 12)), 500.0 * omega * np.exp(noise.normal(0.0, 0.01, 12)))
     path = csv(tmp_path / "s.csv", angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
                temperature__degC=np.full(12, 100.0))  # fmt: skip
-    fit = found(path, "frequency_sweep").fit
+    result = found(path, "frequency_sweep")
+    fit = result.fit
+    assert not result.record_tables
+    assert any("open: no record is written. The viscosity is known" in note for note in result.notes)
     assert any("time_1 and modulus_1 apart" in said for said in fit.words)
     viscosity = fit["zero_shear_viscosity"]
     assert viscosity.low is not None

@@ -156,6 +156,20 @@ def test_reptate_with_and_without_headings(tmp_path: Path, head: str, ending: st
     assert found.number("temperature") == pytest.approx(353.15)
 
 
+@pytest.mark.parametrize(("heading", "good"), [("Status", "Dy_auto"), ("Etat", ""), ("Quality", "no error")])
+def test_rows_that_the_instrument_flags_are_left_out_and_counted(tmp_path: Path, heading: str, good: str) -> None:
+    rows = [f"{x};{a};{b};{good}" for x, a, b in SWEEP]
+    flagged = ["1e-1;5;9e9;ME-", "1e-2;5;9e9;ME-, taD", "1e-3;5;9e9;MV-"]
+    head = f"Angular frequency [rad/s];Storage modulus [Pa];Loss modulus [Pa];{heading}"
+    (found,) = blocks(tmp_path, "sweep.csv", "\n".join([head, *rows, *flagged]))
+    is_the_sweep(found)
+    assert found.flagged == "3 of 6 rows are flagged by the instrument (ME- 1, ME-, taD 1, MV- 1)"
+    assert found.shown()[-1] == f"    left out: {found.flagged}"
+    (none,) = blocks(tmp_path, "none.csv", "\n".join([head, *flagged]))
+    with pytest.raises(InputError, match=r"none\.csv:2: 3 of 3 rows are flagged by the instrument .*: no row is left"):
+        none.complete(["loss_modulus"])
+
+
 def test_a_workbook(tmp_path: Path) -> None:
     cells = [["sample", "PCL"], [], ["ω (rad/s)", "G' (Pa)", "G'' (Pa)"], *SWEEP]
     (found,) = blocks(tmp_path, "sweep.xlsx", workbook(cells))

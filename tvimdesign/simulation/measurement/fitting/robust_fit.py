@@ -75,14 +75,14 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
         least, most = one.bounds
         if not least < most:
             raise InputError(f"{one.name}: the data suggest {one.start:.0e} {one.unit}; look for a wrong number")
-    least = _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts])
+    floor = _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts])
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
-    noise = np.where(noise > 0.0, noise, least)
+    noise = np.where(noise > 0.0, noise, floor)
     inner = start
     for _ in range(_PASSES):
         inner = solved(residuals, inner, noise)
         now = _noises(residuals, inner, parameters_of(residuals, inner, noise))
-        now = np.maximum(now, least)
+        now = np.maximum(now, floor)
         settled = np.all(np.abs(now / noise - 1.0) < _SETTLED)
         noise = now
         if settled:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import re
+import unicodedata
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +16,8 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
-from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, unit_of
-from tvimdesign.simulation.measurement.reading.sheets import Sheet, file_bytes, read_sheets
+from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, unit_of
+from tvimdesign.simulation.measurement.reading.sheets import Row, Sheet, file_bytes, read_sheets
 from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blocks_of
 
 Array = NDArray[np.float64]
@@ -47,6 +50,8 @@ class Block:
     """Lines among the rows that hold no number."""
     problems: Mapping[str, str] = field(default_factory=dict)
     """Why a column of a known name could not be read, by its quantity: with line and column."""
+    flagged: str = ""
+    """How many rows the instrument itself flags, and how; they are left out."""
 
     @property
     def place(self) -> str:
@@ -88,6 +93,8 @@ class Block:
             lines.append(f"    not used: {', '.join(self.unused)}")
         if self.skipped:
             lines.append(f"    without a number: line {', '.join(map(str, self.skipped))}")
+        if self.flagged:
+            lines.append(f"    left out: {self.flagged}")
         return lines
 
 
@@ -128,11 +135,17 @@ def _place(path: Path, sheet: Sheet) -> str:
 
 
 def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
+    lines = raw.rows[0].line, raw.rows[-1].line
+    good, flagged = _not_flagged(raw)
     found: dict[str, Column] = {}
     problems: dict[str, str] = {}
+    if not good:
+        why = f"{file}:{lines[0]}: {flagged}: no row is left; measure where the instrument can"
+        problems = {one.quantity: why for one in raw.headings if one.quantity}
+    raw = replace(raw, rows=good or raw.rows)
     unused = []
     for i, one in enumerate(columns.applied(raw.headings)):
-        if not one.quantity or one.quantity in found:
+        if not one.quantity or one.quantity in found or not good:
             unused += [one.text] if one.text and not one.text.startswith("column ") else []
             continue
         try:
@@ -142,9 +155,35 @@ def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
             continue
         if column is not None:
             found[one.quantity] = column
-    lines = raw.rows[0].line, raw.rows[-1].line
     unread = {quantity: why for quantity, why in problems.items() if quantity not in found}
-    return Block(file, raw.title, lines, found, tuple(unused), raw.settings, tuple(raw.skipped), unread)
+    return Block(file, raw.title, lines, found, tuple(unused), raw.settings, tuple(raw.skipped), unread, flagged)
+
+
+def _folded(text: str) -> str:
+    """Return a word in small letters without accents; signs stay."""
+    letters = unicodedata.normalize("NFKD", text)
+    return "".join(sign for sign in letters if not unicodedata.combining(sign)).lower().strip()
+
+
+def _is_flag(cell: str) -> bool:
+    """Return whether a verdict, in small letters, says that its row does not count."""
+    verdicts, words = known()["verdicts"], re.split(r"[\s,;/|]+", cell.replace("no error", ""))
+    return not {*verdicts["words"]}.isdisjoint(words) or any(part in cell for part in verdicts["parts"])
+
+
+def _not_flagged(raw: RawBlock) -> tuple[list[Row], str]:
+    """Return the rows that the instrument does not flag in a column of verdicts, and a count of the others in words."""
+    columns = [i for i, one in enumerate(raw.headings) if plain(one.text) in known()["verdicts"]["names"]]
+    good, counts = [], Counter[str]()
+    for row in raw.rows:
+        cells = [_folded(row.cells[i]) for i in columns if i < len(row.cells)]
+        bad = [cell for cell in cells if _is_flag(cell)]
+        if bad:
+            counts[row.cells[columns[cells.index(bad[0])]].strip()] += 1
+        else:
+            good.append(row)
+    named = ", ".join(f"{word} {count}" for word, count in counts.items())
+    return good, f"{counts.total()} of {len(raw.rows)} rows are flagged by the instrument ({named})" if counts else ""
 
 
 def _column(at: int, one: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Column | None:

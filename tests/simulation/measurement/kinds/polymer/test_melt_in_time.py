@@ -32,7 +32,7 @@ def crept(time: Any, stress: float, release: float) -> Any:
 
     found = []
     start = np.zeros(2)
-    for part in (time[time < release], time[time >= release]):
+    for part in filter(len, (time[time < release], time[time >= release])):
         begin = 0.0 if part[0] < release else release
         done = solve_ivp(rates, (begin, max(part[-1], release) if begin == 0.0 else part[-1]), start, "Radau",
                          dense_output=True, rtol=1e-9, atol=1e-14)  # fmt: skip
@@ -147,3 +147,47 @@ def test_a_known_energy_is_not_fitted(tmp_path: Path) -> None:
     result = found(paths, flow_activation_energy="30 kJ/mol", reference_temperature="90 degC")
     assert "flow_activation_energy" not in result.record_values
     assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=0.01)
+
+
+def oscillated(path: Path, omega: Any, storage: Any, loss: Any, **more: Any) -> Path:
+    return csv(path, angular_frequency__rad_per_s=omega, **{"G'__Pa": storage, "G''__Pa": loss},
+               temperature__degC=np.full(len(omega), 90.0), **more)  # fmt: skip
+
+
+def test_a_modulus_that_the_instrument_cuts_off_is_left_out(tmp_path: Path) -> None:
+    omega = np.geomspace(1e-3, 100.0, 24)
+    storage, loss = (
+        sum(modulus * (omega * tau) ** power / (1.0 + (omega * tau) ** 2) for tau, modulus in MODES) for power in (2, 1)
+    )
+    cut = storage < loss / 100.0
+    result = found(oscillated(tmp_path / "s.csv", omega, np.where(cut, loss / 100.0, storage), loss))
+    assert result.fit.value("zero_shear_viscosity") == pytest.approx(VISCOSITY, rel=1e-3)
+    assert any(f"G''/G' stays at 100 in {np.sum(cut)} of 24 rows" in note for note in result.notes)
+    oil = oscillated(tmp_path / "o.csv", omega, 8e-3 * omega, 0.8 * omega)
+    with pytest.raises(InputError, match=r"Too few rows remain\. G''/omega is 0\.8 Pa\.s there"):
+        measured(oil)
+
+
+@pytest.mark.parametrize("end", [0.02, 0.5, 5.0])
+def test_no_time_lies_far_outside_what_a_creep_sees(tmp_path: Path, end: float) -> None:
+    # Up to long before the melt flows; without noise any slower mode would better the fit a little.
+    time = np.geomspace(1e-3 * end, end, 60)
+    path = csv(tmp_path / "c.csv", time__s=time, strain__1=crept(time, 40.0, 8.0), stress__Pa=np.full(60, 40.0),
+               temperature__degC=np.full(60, 90.0))  # fmt: skip
+    result = found(path, "creep")
+    times = [one.value for one in result.fit.parameters if one.name.startswith("time")]
+    assert 1e-4 * end * (1.0 - 1e-9) <= min(times)
+    assert max(times) <= 10.0 * end * (1.0 + 1e-9)
+    assert result.fit.value("plateau_modulus") == pytest.approx(20600.0, rel=1e-3)
+    assert bool(result.record_values) == (end > MODES[0][0])
+    assert any("the viscosity is extrapolated" in note for note in result.notes) == (end < MODES[0][0])
+
+
+@pytest.mark.parametrize("kind", ["", "relaxation", "creep", "melt"])
+def test_a_flow_curve_is_told_apart(tmp_path: Path, kind: str) -> None:
+    rate = np.geomspace(0.1, 100.0, 12)
+    path = csv(tmp_path / "f.csv", time__s=np.arange(12.0), shear_rate__1_per_s=rate, stress__Pa=300.0 * rate,
+               viscosity__Pa_s=np.full(12, 300.0))  # fmt: skip
+    path.write_text(path.read_text().replace("[Pa s]", "[Pa.s]"))
+    with pytest.raises(InputError, match=r"f\.csv:2: shear rate and viscosity .* are a flow curve"):
+        measured(path, kind)

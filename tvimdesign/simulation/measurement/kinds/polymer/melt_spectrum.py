@@ -34,6 +34,8 @@ _USUAL_ENERGY = 40e3
 """J/mol, to start from: in the middle of what polymers' melts have."""
 _FAR = 0.15
 """Shift factors may miss Arrhenius' law by this share of themselves and it is still of use; more, and it is not."""
+_BEYOND = 10.0
+"""Factor by which a relaxation time may lie outside the times that a test sees."""
 _SPLIT = 0.02
 """A mode that stands for two in a record is split this share above and below its time: no test could tell."""
 
@@ -65,6 +67,8 @@ class MeltTest(NamedTuple):
     """Angular frequencies, or one over the times [1/s]."""
     sizes: Array
     """Modulus at each of them [Pa], roughly."""
+    note: str = ""
+    """What was left out of it."""
 
 
 class Melt(NamedTuple):
@@ -238,7 +242,10 @@ def modes_of(values: Values, count: int) -> list[tuple[Any, Any]]:
 
 
 def _modes(melt: Melt, count: int) -> list[Parameter]:
-    """Return starts: times evenly over the range of the rates, moduli from those nearest to one over each."""
+    """Return starts: times evenly over the range of the rates, moduli from those nearest to one over each.
+
+    Times stay within the range and `_BEYOND` on either side: what relaxes faster or slower is not seen.
+    """
     shifts = [guessed_shift(test.temperature, melt.reference) for test in melt.tests]
     rates = np.concatenate([test.rates * shift for test, shift in zip(melt.tests, shifts, strict=True)])
     size = np.concatenate([test.sizes for test in melt.tests])
@@ -247,7 +254,10 @@ def _modes(melt: Melt, count: int) -> list[Parameter]:
     parameters = []
     for i, log in enumerate(logs, start=1):
         modulus = float(np.exp(np.interp(log, np.log(rates[order]), np.log(size[order]))))
-        parameters.append(Parameter(f"time_{i}", "s", "Relaxation time of a mode", float(np.exp(-log)), profiled=False))
+        parameters.append(
+            Parameter(f"time_{i}", "s", "Relaxation time of a mode", float(np.exp(-log)), profiled=False,
+                      least=float(1.0 / (_BEYOND * rates.max())), most=float(_BEYOND / rates.min()))
+        )  # fmt: skip
         parameters.append(Parameter(f"modulus_{i}", "Pa", "Modulus of that mode", modulus, profiled=False))
     return parameters
 
@@ -261,6 +271,7 @@ def _notes(tests: Sequence[MeltTest], melt: Melt, count: int, most: int) -> list
     ]
     if len(melt.tests) < len(tests):
         notes.append(f"{len(tests) - len(melt.tests)} of {len(tests)} tests lie below the least temperature: left out.")
+    notes += [test.note for test in melt.tests if test.note]
     rows = sum(len(test.rates) for test in melt.tests)
     low = min(float(test.rates.min()) for test in melt.tests)
     notes.append(f"{rows} rows from {low:.3g} rad/s on (one over the time, of tests in time); slower is not seen.")
@@ -310,11 +321,29 @@ def shift_note(found: Activation, shifts: Mapping[float, Estimate], reference: f
 
 
 def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: Sequence[str]) -> Measurement:
-    """Return the measurement of a spectrum of `count` modes, in a record of `most`."""
+    """Return the measurement of a spectrum of `count` modes, in a record of `most`.
+
+    No record follows of modes that the data leave open, or of a viscosity beyond the times that they see.
+    """
+    modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
+    own = (best[f"{name}_{i}"] for i in range(1, count + 1) for name in ("time", "modulus"))
+    left_open = [one.name for one in own if one.low is None or one.high is None]
+    if left_open:
+        viscosity = best["zero_shear_viscosity"]
+        known = "" if viscosity.low is None else (
+            f" The viscosity is known: give {viscosity.value:.3g} Pa.s as pcl_zero_shear_viscosity in a study's module."
+        )  # fmt: skip
+        return Measurement(best, (*notes, f"The data leave {', '.join(left_open)} open: no record is written.{known}"))
+    seen = next(one.most for one in best.problem.parameters if one.name == "time_1") / _BEYOND
+    if modes[0][0] > seen:
+        why = (
+            f"The slowest mode takes {modes[0][0]:.3g} s, and the tests see {seen:.3g} s: the viscosity is "
+            "extrapolated, and no record is written. Measure at lower frequencies, or for longer."
+        )
+        return Measurement(best, (*notes, why))
     values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
     if any(one.name == "flow_activation_energy" for one in best.parameters):
         values["flow_activation_energy"] = best["flow_activation_energy"]
-    modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
     table = RecordTable({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
     return Measurement(
         best, tuple(notes), values, {"melt_spectrum": table}, {"melt_reference_temperature": (reference, "degC")}

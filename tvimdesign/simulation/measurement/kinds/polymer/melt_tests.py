@@ -35,6 +35,8 @@ MELT = 70.0 + ZERO_CELSIUS
 """Least temperature [K] of a ramp unless set: polycaprolactone's melting ends at 62 to 70 degC."""
 _SAME_SWEEP = 1.5
 """Rows within so many kelvin of the first are of one sweep, where a table holds sweeps at several temperatures."""
+_CUT_OFF, _ALIKE, _IN_A_ROW = 20.0, 5e-3, 4
+"""Ratio of the moduli, its largest change from row to row and the rows in which an instrument has cut a modulus off."""
 _ALMOST = 0.99
 _UNLOADED = 0.1
 """Share of the largest stress below which the stress is off."""
@@ -61,20 +63,21 @@ def title_of(block: Block, temperature: float) -> str:
 
 def sweeps_in(block: Block, settings: Settings) -> list[MeltTest]:
     """Return the frequency sweeps of a table: one for each temperature that it holds."""
-    frequency, storage, loss, *at = _oscillation(block)
+    (frequency, storage, loss, *at), note = _oscillation(block)
     if not at:
-        return [_oscillated(block, temperature_of(block, settings), frequency, storage, loss)]
+        return [_oscillated(block, temperature_of(block, settings), frequency, storage, loss)._replace(note=note)]
     changes = np.flatnonzero(np.abs(np.diff(at[0])) > _SAME_SWEEP) + 1
-    return [
+    sweeps = [
         _oscillated(block, float(np.mean(at[0][part])), frequency[part], storage[part], loss[part])
         for part in np.split(np.arange(len(frequency)), changes)
     ]
+    return [sweeps[0]._replace(note=note), *sweeps[1:]]
 
 
 def ramps_in(block: Block, settings: Settings) -> list[MeltTest]:
     """Return the temperature ramp of a table, the rows of the melt. Raises InputError where there are too few."""
     least = settings.get("least_temperature", MELT)
-    columns = _oscillation(block)
+    columns, note = _oscillation(block)
     molten = columns[3] >= least
     if np.sum(molten) < LEAST_ROWS:
         raise InputError(
@@ -82,17 +85,45 @@ def ramps_in(block: Block, settings: Settings) -> list[MeltTest]:
             "--set least_temperature=... says otherwise"
         )
     omega, storage, loss, at = (column[molten] for column in columns)
-    return [_oscillated(block, float(np.median(at)), omega, storage, loss, at)]
+    return [_oscillated(block, float(np.median(at)), omega, storage, loss, at)._replace(note=note)]
 
 
-def _oscillation(block: Block) -> list[Array]:
-    """Return angular frequency [rad/s], G', G'' [Pa] and, where there is one, temperature [K]; rows above zero."""
+def _oscillation(block: Block) -> tuple[list[Array], str]:
+    """Return angular frequency [rad/s], G', G'' [Pa] and, where there is one, temperature [K], and a note.
+
+    Rows are above zero, and none has a modulus that the instrument has cut off. Raises InputError for too few.
+    """
     which = "angular_frequency" if "angular_frequency" in block.columns else "frequency"
     extra = ["temperature"] if block.complete(["temperature"]) else []
     frequency, storage, loss, *others = rows_of(block, [which, "storage_modulus", "loss_modulus", *extra])
     good = (frequency > 0.0) & (storage > 0.0) & (loss > 0.0)
     omega = frequency * (1.0 if which == "angular_frequency" else 2.0 * np.pi)
-    return [column[good] for column in (omega, storage, loss, *others)]
+    columns = [column[good] for column in (omega, storage, loss, *others)]
+    cut = _cut_off(columns[2] / columns[1])
+    if not np.any(cut):
+        return columns, ""
+    ratio, viscosity = (float(np.median(one[cut])) for one in (columns[2] / columns[1], columns[2] / columns[0]))
+    note = (
+        f"{block.place}: G''/G' stays at {ratio:.3g} in {np.sum(cut)} of {len(cut)} rows, which are left out: the "
+        "instrument has cut the smaller modulus off."
+    )
+    if np.sum(~cut) < LEAST_ROWS:
+        raise InputError(
+            f"{note} Too few rows remain. "
+            + (f"G''/omega is {viscosity:.3g} Pa.s there: the viscosity of a melt that only flows" if ratio > 1.0
+               else "Measure at larger strains or lower frequencies")
+        )  # fmt: skip
+    return [column[~cut] for column in columns], note
+
+
+def _cut_off(ratio: Array) -> Any:
+    """Return the rows of a run in which a large ratio of moduli, or a small one, does not change."""
+    same = (np.abs(np.diff(np.log(ratio))) < _ALIKE) & (np.abs(np.log(ratio[1:])) > np.log(_CUT_OFF))
+    cut = np.zeros(len(ratio), bool)
+    for first in range(len(ratio) - _IN_A_ROW + 1):
+        if np.all(same[first : first + _IN_A_ROW - 1]):
+            cut[first : first + _IN_A_ROW] = True
+    return cut
 
 
 def _oscillated(
