@@ -83,13 +83,13 @@ class _Condition:
     words: str
 
 
-def refuse_unequal(entrants: Sequence[Case]) -> None:
+def refuse_unequal(cases: Sequence[Case]) -> None:
     """Raise StudyError with everything in which studies differ that must be the same, each with both places."""
-    problems = [*_given_twice(entrants), *_evaluated_only(entrants)]
-    first, others = entrants[0], entrants[1:]
+    problems = [*_given_twice(cases), *_evaluated_only(cases)]
+    first, others = cases[0], cases[1:]
     for other in others:
         problems += _unequal_conditions(first, other)
-        problems += _unequal_requirements(entrants, other)
+        problems += _unequal_requirements(cases, other)
     if problems:
         raise StudyError(problems)
 
@@ -99,23 +99,23 @@ def _problem(of: Case, path: str, message: str, expected: str, hint: str = "") -
     return Mistake(of.places.file, at.line, at.column, path, message, expected, hint)
 
 
-def _given_twice(entrants: Sequence[Case]) -> Iterator[Mistake]:
+def _given_twice(cases: Sequence[Case]) -> Iterator[Mistake]:
     seen: set[Path] = set()
-    for entrant in entrants:
-        real = entrant.path.resolve()
+    for case in cases:
+        real = case.path.resolve()
         if real in seen:
-            yield Mistake(entrant.places.file, 0, 0, "", "given twice", "different studies")
+            yield Mistake(case.places.file, 0, 0, "", "given twice", "different studies")
         seen.add(real)
 
 
-def _evaluated_only(entrants: Sequence[Case]) -> Iterator[Mistake]:
+def _evaluated_only(cases: Sequence[Case]) -> Iterator[Mistake]:
     """Yield the studies that are only evaluated beside others that are optimised."""
-    optimised = [entrant for entrant in entrants if entrant.study.vary]
-    for entrant in entrants:
-        if optimised and not entrant.study.vary:
+    optimised = [case for case in cases if case.study.vary]
+    for case in cases:
+        if optimised and not case.study.vary:
             other = optimised[0].places.text("vary")
             yield _problem(
-                entrant, "vary", f"missing: this study is evaluated only, that of {other} is optimised",
+                case, "vary", f"missing: this study is evaluated only, that of {other} is optimised",
                 "`vary` and `minimize` in every study or in none", "each is to be optimised for itself",
             )  # fmt: skip
 
@@ -209,23 +209,23 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def _unequal_requirements(entrants: Sequence[Case], other: Case) -> Iterator[Mistake]:
+def _unequal_requirements(cases: Sequence[Case], other: Case) -> Iterator[Mistake]:
     """Limits of `other` against those of the first study whose mode has the output."""
     reported: set[str] = set()
-    for entrant in entrants[: entrants.index(other)]:
-        common = (entrant.study.table.by_name.keys() & other.study.table.by_name.keys()) - reported
+    for earlier in cases[: cases.index(other)]:
+        common = (earlier.study.table.by_name.keys() & other.study.table.by_name.keys()) - reported
         reported |= common
-        theirs, mine = (_limits_on(common, case) for case in (entrant, other))
+        theirs, mine = (_limits_on(common, case) for case in (earlier, other))
         for key in dict.fromkeys([*mine, *theirs]):
             if key not in mine:
-                place = entrant.places.text(f"require.{key[0]}")
+                place = earlier.places.text(f"require.{key[0]}")
                 message = f"{_limit(other, theirs[key])} is not required here, and is in {place}"
                 yield _problem(other, "require", message, _ALIKE, f"add {_line(theirs[key])}")
             elif key not in theirs:
-                message = f"{_limit(other, mine[key])} is required here, and not in {entrant.places.text('require')}"
+                message = f"{_limit(other, mine[key])} is required here, and not in {earlier.places.text('require')}"
                 yield _problem(other, f"require.{key[0]}", message, _ALIKE, f"add {_line(mine[key])} there")
             elif not _same(mine[key].limit, theirs[key].limit):
-                place = entrant.places.text(f"require.{key[0]}")
+                place = earlier.places.text(f"require.{key[0]}")
                 message = f"{_limit(other, mine[key])} here, {_limit(other, theirs[key])} in {place}"
                 yield _problem(other, f"require.{key[0]}", message, _ALIKE)
 

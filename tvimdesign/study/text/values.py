@@ -205,8 +205,8 @@ def choice(reading: Reading, node: Node, path: str, row: Choice) -> str | None:
     if word in row.options:
         return word
     if row.category:
-        chosen_record = record(reading, node, path, row.category, word)
-        return word if chosen_record else None
+        known_record = record(reading, node, path, row.category, word)
+        return word if known_record else None
     reading.problems.unknown(node, path, f"option: {quoted(word)}", word, row.options)
     return None
 
