@@ -72,6 +72,51 @@ def test_the_unit_decides_what_a_short_name_stands_for(tmp_path: Path, heading: 
     assert set(block.columns) == {"angle", quantity}
 
 
+@pytest.mark.parametrize(
+    ("heading", "quantity", "factor"),
+    [
+        ("torque_nm", "torque", 1.0), ("torque_mNm", "torque", 1e-3), ("current_A", "current", 1.0),
+        ("time_ms", "time", 1e-3), ("StorageModulus [kPa]", "storage_modulus", 1e3),
+        ("G' in Pa", "storage_modulus", 1.0),
+        ("HeatFlow(mW)", "heat_flow", 1e-3), ("Q [mW]", "heat_flow", 1e-3), ("voltage_mv", "voltage", 1e-3),
+        ("storage_modulus_pa", "storage_modulus", 1.0), ("Heatflow [W/g]", "specific_heat_flow", 1e3),
+        ("T_sample [K]", "temperature", 1.0), ("temperature_k", "temperature", 1.0),
+    ],
+)  # fmt: skip
+def test_headings_of_programs_are_read(tmp_path: Path, heading: str, quantity: str, factor: float) -> None:
+    (block,) = read(tmp_path, f"angle_deg;{heading}\n1;100\n2;200\n3;300\n").blocks
+    assert set(block.columns) == {"angle", quantity}
+    assert block.values(quantity) == pytest.approx(np.array([100.0, 200.0, 300.0]) * factor)
+
+
+DSC = ["20.0 0.0 1.5", "21.0 6.0 1.6", "22.0 12.0 1.7"]
+
+
+@pytest.mark.parametrize(
+    ("head", "separator"),
+    [
+        ("T_sample;t;HeatFlow\n/degC;/s;/mW", ";"),
+        ("T_sample [°C];time_s;Q [mW]", ";"),
+        ("Temperature (°C),Time (s),HeatFlow(mW)", ","),
+        ("Tr t Heatflow\n[°C] [s] [mW]", " "),
+        ("Sample Temperature\tTime\tHeat Flow\n°C\ts\tmW", "\t"),
+    ],
+)
+def test_layouts_of_calorimeters_are_read(tmp_path: Path, head: str, separator: str) -> None:
+    rows = "\n".join(row.replace(" ", separator) for row in DSC)
+    (block,) = read(tmp_path, f"{head}\n{rows}\n").blocks
+    assert block.values("temperature") == pytest.approx([293.15, 294.15, 295.15])
+    assert block.values("time") == pytest.approx([0.0, 6.0, 12.0])
+    assert block.values("heat_flow") == pytest.approx([1.5e-3, 1.6e-3, 1.7e-3])
+
+
+def test_a_count_of_rows_needs_no_unit_under_it(tmp_path: Path) -> None:
+    rows = "0 0.0 1.5 20.0\n1 6.0 1.6 21.0\n2 12.0 1.7 22.0\n"
+    (block,) = read(tmp_path, f"Index t Heatflow Tr\n [s] [mW] [°C]\n{rows}").blocks
+    assert block.values("temperature") == pytest.approx([293.15, 294.15, 295.15])
+    assert block.values("time") == pytest.approx([0.0, 6.0, 12.0])
+
+
 def test_every_table_of_a_file_is_a_block_with_its_lines(tmp_path: Path) -> None:
     found = read(tmp_path, f"first run\n{PLAIN}\n\nsecond run\n{PLAIN}")
     assert [block.lines for block in found.blocks] == [(3, 5), (10, 12)]

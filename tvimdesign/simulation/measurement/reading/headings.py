@@ -15,6 +15,14 @@ from tvimdesign.base.yaml_data import plain_data
 _FILE = Path(__file__).with_name("headings.yaml")
 _IN_BRACKETS = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])]")
 _AFTER_SLASH = re.compile(r"([^/]*[^/\s.])\.?\s*/\s*(\S.*)")
+_IN_WORDS = re.compile(r"(.*\S)\s+in\s+(\S+)")
+_SUFFIX = re.compile(r"(.*[^\s_])[\s_]+([A-Za-z%°µ][^\s_]*)")
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z][a-z])")
+_WRITTEN_SMALL = {
+    "nm": "N*m", "mnm": "mN*m", "degc": "degC", "c": "degC", "k": "K", "ma": "mA", "a": "A", "mv": "mV", "v": "V",
+    "w": "W", "mw": "mW", "pa": "Pa", "kpa": "kPa", "hz": "Hz", "n": "N",
+}  # fmt: skip
+"""Units as column names in programs have them."""
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _ALONE = {"-", "--", "[-]", "[1]", "[]", "()", "a.u.", "°", "1"}
 
@@ -47,7 +55,9 @@ def _by_name() -> dict[str, list[str]]:
 def plain(name: str) -> str:
     """Return a name in small letters, without accents, signs before and after it, and double blanks."""
     folded = unicodedata.normalize("NFKD", name.replace("″", '"').replace("′", "'").replace("''", '"'))
-    letters = "".join(sign for sign in folded if not unicodedata.combining(sign)).lower().replace("_", " ")
+    letters = (
+        _CAMEL.sub(" ", "".join(sign for sign in folded if not unicodedata.combining(sign))).lower().replace("_", " ")
+    )
     return " ".join(letters.strip(" #:.*/").split())
 
 
@@ -55,11 +65,21 @@ def heading(text: str, unit: str = "") -> Heading:
     """Read a heading such as `Storage Modulus`, `Time (s)`, `Temp./°C` or `G'`; `unit` is from a row of its own."""
     if unit or plain(text) in _by_name():
         return Heading(text, _quantity(text, read_unit(unit)), read_unit(unit))
-    for pattern in (_IN_BRACKETS, _AFTER_SLASH):
+    for pattern in (_IN_BRACKETS, _AFTER_SLASH, _IN_WORDS):
         match = pattern.fullmatch(text.strip().lstrip("#"))
         if match and is_unit(match[2]):
             return Heading(text, _quantity(match[1], read_unit(match[2])), read_unit(match[2]))
-    return Heading(text, "", "")
+    match = _SUFFIX.fullmatch(text.strip())
+    return (_with_suffix(text, match[1], match[2]) if match else None) or Heading(text, "", "")
+
+
+def _with_suffix(text: str, name: str, suffix: str) -> Heading | None:
+    """Read a heading such as `torque_nm`, where the name is known and the suffix is a unit of its quantity."""
+    for unit in (read_unit(suffix), _WRITTEN_SMALL.get(suffix.lower(), "")):
+        for quantity in _by_name().get(plain(name), []) if unit else []:
+            if conversion(unit, unit_of(quantity)) is not None:
+                return Heading(text, quantity, unit)
+    return None
 
 
 def _quantity(text: str, unit: str) -> str:
@@ -76,6 +96,8 @@ def read_unit(text: str) -> str:
         inner = inner[1:-1].strip()
     if not inner and text.strip():
         return "1"
+    if inner.startswith("/"):  # `/ degC` under a name, as a quantity over its unit
+        inner = inner[1:].strip()
     inner = inner.replace("�", "°") if inner.endswith("C") else inner
     inner = inner.translate(_SUPERSCRIPTS).replace("µ", "u").replace("μ", "u")
     inner = re.sub(r"(?<=[A-Za-z])-(?=[A-Za-z])", "*", inner)

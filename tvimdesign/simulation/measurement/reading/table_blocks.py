@@ -179,6 +179,8 @@ def _aligned(
         texts, given = texts[1:], given[1:] if given and not given[0] else given
     elif labelled:
         texts[0] = ""
+    if len(given) == len(texts) - 1 and plain(texts[0]) in {"index", "no", "nr", "point", "#"}:
+        given = ["1", *given]  # a count of the rows has no unit, not even an empty cell where blanks separate
     given = [unit or "1" for unit in given] + ["1" if units else ""] * (len(texts) - len(given))
     found = [heading(text, unit) for text, unit in zip(texts, given, strict=False)]
     fallback = dict(default)
