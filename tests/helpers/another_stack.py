@@ -185,7 +185,7 @@ class AnotherStack:
         self._layer_s_end()
 
     def _ledges(self, ledge: float, web: float, onto: Array, across: Array) -> None:
-        """What leads onto ledges, and how much colder their lower face is than their mean."""
+        """Return what leads onto ledges, and how much colder their lower face is than their mean."""
         k, edge = self.value("structure_conductivity"), self.edge
         # A slab of the web's depth heated evenly over a part of its face that ends free: cosines over its depth.
         waves = np.pi * np.arange(1, 2001) / web
@@ -392,7 +392,7 @@ class AnotherStack:
         return -self.window * self._flux(y[0], self.value("cold_side_coefficient")) - drawn
 
     def _outflow(self, y: Array) -> float:
-        """What the plate's outer face loses [W], at the temperature of the face itself."""
+        """Return what the plate's outer face loses [W], at the temperature of the face itself."""
         last = surface = float(y[PLATE.stop - 1])
         half = 0.5 * self.plate_cell / self.value("structure_conductivity")
         for _ in range(3):  # half a cell is a tenth of a kelvin: it converges at once

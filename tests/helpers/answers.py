@@ -12,5 +12,5 @@ from tvimdesign.study import read_study
 
 @cache
 def shipped_answer(name: str) -> StudyResult:
-    """What a study in `studies/` comes to."""
+    """Return what a study in `studies/` comes to."""
     return answer(read_study(ROOT / f"studies/{name}.yaml"))

@@ -1,4 +1,4 @@
-"""What the benchmarks have written by hand for numba, as plain Python: compiling it takes longer than all else."""
+"""Code that the benchmarks wrote by hand for numba, as plain Python: compiling it takes longer than all else."""
 
 from unittest import mock
 

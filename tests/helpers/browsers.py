@@ -16,7 +16,7 @@ MISSING = "install chromium"
 
 
 def said_of_no_browser(skipped: Sequence[pytest.TestReport]) -> str:
-    """What is to be said last of all where tests were skipped for want of a browser; else nothing."""
+    """Return what is to be said last of all where tests were skipped for want of a browser; else nothing."""
     count = sum(isinstance(one.longrepr, tuple) and MISSING in one.longrepr[-1] for one in skipped)
     return f"NO BROWSER: {count} tests of the pages were not run; {MISSING} and run them again" if count else ""
 

@@ -64,7 +64,7 @@ def by_brute_force(study: Study, reference: dict[str, float], starts: int) -> di
 
 
 def with_each_record(study: Study, reference: dict[str, float], starts: int) -> dict[tuple[str | float, ...], float]:
-    """The same for every combination of records and sizes; records come first, in the study's order."""
+    """Return the same for every combination of records and sizes; records come first, in the study's order."""
     found: dict[tuple[str | float, ...], float] = {}
     for records in discrete_records(study, study.table):
         alone = by_brute_force(with_records(study, records), reference, starts)

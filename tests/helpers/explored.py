@@ -42,7 +42,7 @@ def small_study(folder: Path, text: str = SMALL) -> Path:
 
 
 def awaited(work: Coroutine[Any, Any, Result]) -> Result:
-    """What a coroutine comes to, in a thread of its own: this one may have Playwright's event loop running."""
+    """Return what a coroutine comes to, in a thread of its own: this one may have Playwright's event loop running."""
     with ThreadPoolExecutor(1) as thread:
         return thread.submit(asyncio.run, work).result()
 

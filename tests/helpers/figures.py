@@ -1,4 +1,4 @@
-"""What must hold of every figure: nothing cut off, axes with ticks and words with units, legends beside the data."""
+"""Checks of every figure: nothing cut off, axes with ticks and words with units, legends beside the data."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _visible(patch: Any, axes: Any) -> Bbox | None:
 
 
 def _crosses(box: Bbox, line: Any) -> bool:
-    """Whether a line, as far as it is drawn, passes through a box; looked at between its points, too."""
+    """Return whether a line, as far as it is drawn, passes through a box; looked at between its points, too."""
     points = line.get_transform().transform(np.column_stack(line.get_data()).astype(float))
     points = points[np.all(np.isfinite(points), axis=1)]
     if len(points) > 1:

@@ -26,7 +26,7 @@ def measured(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> M
 
 
 def found(paths: Path | Sequence[Path], kind: str = "", **settings: str) -> Measurement:
-    """The same, with intervals of the covariance: profiles take most of the time."""
+    """Return the same, with intervals of the covariance: profiles take most of the time."""
     files = [read_data_file(path) for path in ([paths] if isinstance(paths, Path) else paths)]
     blocks = [block for file in files for block in file.blocks]
     sheet = kind_sheet(kind) if kind else next(one for one in kind_sheets().values() if one.fits(blocks[0]))

@@ -40,7 +40,7 @@ def leg(module: Numbers, angle: float) -> tuple[float, float]:
 
 
 def winding(module: Numbers, angle: float) -> float:
-    """How far a right-hand spring winds up from rest [rad]: its leg turns on counterclockwise.
+    """Return how far a right-hand spring winds up from rest [rad]: its leg turns on counterclockwise.
 
     By the paper's ratio of one it winds as far as the rotor turns.
     """
@@ -80,7 +80,7 @@ class Wire(NamedTuple):
         return moments, np.stack([-np.cos(back), -np.sin(back), 0.0 * back], axis=1)
 
     def bent(self, shares: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The same at shares of the quarter bend, from the coil's end down."""
+        """Return the same at shares of the quarter bend, from the coil's end down."""
         (last,), (begin,) = self.coil(np.array([1.0]))
         turn = 0.5 * np.pi * shares[:, None]
         way = self.bend * (np.sin(turn) * begin + (1.0 - np.cos(turn)) * DOWN)
@@ -203,7 +203,7 @@ def stiffness(module: Numbers, angle: float) -> float:
 
 
 def statics(module: Numbers) -> dict[str, float]:
-    """What the springs do over the stroke and bear, by the names of the product's outputs.
+    """Return what the springs do over the stroke and bear, by the names of the product's outputs.
 
     Windings are the extremes over the stroke, stresses those at the inner fibre at full winding. `yield_strength`,
     `tensile_strength` [Pa] and `fatigue_ratio` are the wire's.

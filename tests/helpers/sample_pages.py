@@ -101,7 +101,7 @@ def _wire() -> trimesh.Trimesh:
 
 
 def _told() -> dict[str, Any]:
-    """What assembly.json tells of the boxes."""
+    """Return what assembly.json tells of the boxes."""
     names = [*_BOXES, "spring_right_1"]
     moved = [[0.0] * 6 + [0.0, share * LEG_MOVED, 0.0] for share in (-1.0, -0.5, 0.5, 1.0)]
     return {

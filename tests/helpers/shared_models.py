@@ -24,7 +24,7 @@ _begin, _outputs = DeviceFunctions.__init__, DeviceFunctions.outputs
 
 
 def kind(model: DeviceFunctions) -> Hashable:
-    """What a model's equations hang on; tables and records are told apart by which object they are."""
+    """Return what a model's equations hang on; tables and records are told apart by which object they are."""
     words = tuple((name, word if isinstance(word, str) else id(word)) for name, word in model.words.items())
     rotor_cells = model.start[model.index["rotor_cells"]] if "rotor_cells" in model.index else None
     return id(model.table), model.points, model.cells, rotor_cells, tuple(model.names), words

@@ -1,4 +1,4 @@
-"""How long it takes to heat a block: by the flux alone, by diffusion, and in between, as its depth doubles."""
+"""Time to heat a block: by the flux alone, by diffusion, and in between, as its depth doubles."""
 
 from typing import Any
 

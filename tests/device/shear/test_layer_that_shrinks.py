@@ -1,4 +1,4 @@
-"""What shrinks, floats and creeps in a shear module, against values computed here from the drawn sizes."""
+"""Shrinkage, flow and creep in a shear module, against values computed here from the drawn sizes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ G = 9.80665
 
 
 def advised(row: str, value: float) -> bool:
-    """Whether an advice on a row is followed."""
+    """Return whether an advice on a row is followed."""
     (rule,) = TABLE.output(row).advice
     return value >= rule.value if rule.sense == ">=" else value <= rule.value
 

@@ -1,4 +1,4 @@
-"""What a liner gives sideways to the walls of its recess, in the links of a whole module."""
+"""Heat of a liner sideways to the walls of its recess, in the links of a whole module."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a lip of the rotor plate takes from the layer's edge, in the links of a whole module."""
+"""Heat of the layer's edge to a lip of the rotor plate, in the links of a whole module."""
 
 from __future__ import annotations
 

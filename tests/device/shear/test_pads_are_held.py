@@ -1,4 +1,4 @@
-"""What the adhesive under the pads has to bear while the layer freezes, and where assembly and bill say so."""
+"""Load of the adhesive under the pads while the layer freezes, and its place in assembly and bill."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What nobody has measured has a range that is data, and what has none is a decision with its reason."""
+"""Ranges of unmeasured inputs are data; an input without one is a decision with its reason."""
 
 from __future__ import annotations
 

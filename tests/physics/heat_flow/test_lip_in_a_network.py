@@ -33,7 +33,8 @@ def lips(draw: st.DrawFn) -> tuple[Lip, Array, dict[Place, float]]:
 
 
 def melting(cells: Array, pads: float) -> Any:
-    """How well a polymer conducts that conducts a fifth less once it is warmer than 330 K, as a smooth function."""
+    """Return how well a polymer conducts that conducts a fifth less once it is warmer than 330 K, as a smooth
+    function."""
 
     def at(temperature: Any) -> tuple[Any, Any]:
         mean = [0.5 * (one + temperature) for one in (cells, pads)]

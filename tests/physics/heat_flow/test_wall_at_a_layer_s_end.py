@@ -1,4 +1,4 @@
-"""What a wall takes at the end of a layer, against conduction in two dimensions by finite volumes."""
+"""Heat of a wall at the end of a layer, against conduction in two dimensions by finite volumes."""
 
 from __future__ import annotations
 

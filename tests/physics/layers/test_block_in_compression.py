@@ -27,7 +27,7 @@ SPECTRA = st.lists(
 
 
 def apparent_modulus(shear: Any, bulk: Any, shape: Any) -> Any:
-    """What the rows have of a block: its shear modes, and in series with them its change of volume."""
+    """Return what the rows have of a block: its shear modes, and in series with them its change of volume."""
     return 1.0 / (1.0 / (3.0 * shear * block.shape_stiffening(shape)) + 1.0 / block.volumetric_modulus(bulk, shape))
 
 

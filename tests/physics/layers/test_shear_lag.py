@@ -69,7 +69,7 @@ def test_a_window_of_no_width_costs_nothing() -> None:
 
 
 def lost_width(window: float, fine: int) -> float:
-    """How much less a strip of the thickness one passes on for a free stretch of its lower face, by differences.
+    """Return how much less a strip of the thickness one passes on for a free stretch of its lower face, by differences.
 
     Its upper face is moved by one, its lower one held beyond the `window`, from x = 0 where it is symmetrical.
     """

@@ -28,7 +28,7 @@ TANG, LENGTH, LEVER, POST, LEVELS, ARM = 0.25e-3, 3.5e-3, 4.392e-3, 0.3515e-3, (
 
 
 def largest_turn(arm: float, leaning: bool) -> float:
-    """How far a force at the leg's end turns a rigid spring, over all places that tang and post allow."""
+    """Return how far a force at the leg's end turns a rigid spring, over all places that tang and post allow."""
 
     def clear(moved: np.ndarray) -> np.ndarray:
         aside, ahead, turn, lean_x, lean_y = moved * 1e-3

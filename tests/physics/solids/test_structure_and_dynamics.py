@@ -129,7 +129,7 @@ def test_an_evenly_pushed_bar_keeps_a_twelfth() -> None:
 
 
 def stepped_bar(plate: float, reach: float, fine: int) -> float:
-    """How much 1/a^2 rises, times a^2, as a torque enters a plate: a core of radius one on it, by differences.
+    """Return how much 1/a^2 rises, times a^2, as a torque enters a plate: a core of radius one on it, by differences.
 
     The angle f follows from div(r^3 grad f) = 0 (Timoshenko and Goodier, torsion of round bars of varying section);
     twice the energy beyond the core's radius is T^2 ((1 + e) - 1/b^2)/(4 pi G h).

@@ -116,13 +116,13 @@ def test_floor_beside_the_pockets_is_two_strips_one_above_the_other(stack: heat.
 
 
 def taken(stack: heat.Stack, above: lumps.Place, body: int) -> float:
-    """What a place gives to a body below it a kelvin colder, and the air as cold as that [W/K]."""
+    """Return what a place gives to a body below it a kelvin colder, and the air as cold as that [W/K]."""
     below = (("around", body), ("ambient", 0))
     return float(sum(between(stack, above, place).conductance for place in below))
 
 
 def heat_into_slab(stack: heat.Stack, body: int, onto: float, across: float) -> float:
-    """The same by its two faces: 1 = onto q + across p of the upper one, p = U (0 - across q) of the lower."""
+    """Return the same by its two faces: 1 = onto q + across p of the upper one, p = U (0 - across q) of the lower."""
     surface = stack.around[body].surface
     outside = surface.area * lumps.surface_coefficient(surface, stack.ambient, stack.ambient)
     matrix = np.array([[onto, across], [outside * across, 1.0]])

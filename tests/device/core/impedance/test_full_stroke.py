@@ -1,4 +1,4 @@
-"""What happens at full stroke: torque and stiffness by statics, and what is left of gaps by walking along the leg."""
+"""Torque, stiffness and gaps at full stroke, by statics and by walking along the leg."""
 
 from typing import Any
 

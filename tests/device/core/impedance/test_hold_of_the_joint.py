@@ -1,4 +1,4 @@
-"""What a hold leaves in either mode: by hand at the ends, and the same formula with nothing that can part."""
+"""Set, backlash and relaxation after a hold in either mode: by hand at the ends, and by one formula."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What the preload of a printed and of a milled module loses, by hand and by its directions."""
+"""Preload that a printed and a milled module lose, by hand and by its directions."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What the springs are to the joint: stiffness, windings and margins against the leg's line drawn with vectors."""
+"""Stiffness, windings and margins of the springs against the leg's line drawn with vectors."""
 
 from typing import Any
 
