@@ -15,7 +15,6 @@ from tvimdesign.physics.springs import spring, transmission
 from tvimdesign.physics.springs.drawn_spring import (
     DrawnSpring,
     active_coils,
-    active_coils_by_couple,
     bend_stress_factor,
     bending_length,
     coil_stress_factor,
@@ -206,13 +205,6 @@ def test_the_closed_form_is_the_energy_along_the_wire(name: str) -> None:
     # What the closed form leaves out: the slope of the wire, and the bend's own way.
     shape = drawn(SPRINGS[name])
     assert bending_length(shape, POISSON) == pytest.approx(along_the_wire(shape, POISSON), rel=0.02)
-
-
-def test_legs_turned_by_a_couple_bend_all_along() -> None:
-    # A moment M turns a straight leg by M L/(E I), a force at its end by a third of that.
-    force, couple = spring.active_coils(4.0, 20e-3, 60e-3), active_coils_by_couple(4.0, 20e-3, 60e-3)
-    assert couple - 4.0 == pytest.approx(3.0 * (force - 4.0), rel=1e-12)
-    assert (couple - 4.0) * np.pi * 20e-3 == pytest.approx(60e-3, rel=1e-12)
 
 
 def test_symbols_give_what_floats_give() -> None:

@@ -57,15 +57,6 @@ def active_coils(spring: DrawnSpring, poissons_ratio: Any) -> Any:
     return bending_length(spring, poissons_ratio) / (np.pi * spring.coil_diameter)
 
 
-def active_coils_by_couple(body_coils: Any, coil_diameter: Any, leg_length: Any) -> Any:
-    """Return the coils that bend where both legs are clamped and turned by a couple, n_b + (L1 + L2)/(pi D) [1].
-
-    The moment is the same all along the wire, so that a leg counts with its whole length, three times what it does
-    under a force at its end [T]; `leg_length` is L1 + L2 [m].
-    """
-    return body_coils + leg_length / (np.pi * coil_diameter)
-
-
 def coil_stress_factor(spring: DrawnSpring, curvature_factor: Any) -> Any:
     """Return the largest stress in the coil over that of the moment F a in a straight wire [1].
 
