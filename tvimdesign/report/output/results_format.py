@@ -32,7 +32,7 @@ class IntervalEntry(NumberEntry):
 
 @closed
 class UnmeasuredEntry(NumberEntry):
-    """An input that nobody has measured, and the range it was moved in."""
+    """An unmeasured input, and the range it was moved in."""
 
     name: str
     status: str
@@ -58,7 +58,7 @@ class UncertaintyEntry(TypedDict):
     left_out: list[str]
     tolerances: Literal["study", "standard"]
     ranges_hold: ShareEntry | None
-    """Share of the ranges of what nobody has measured in which every limit is kept, parts as drawn."""
+    """Share of the ranges of unmeasured inputs in which every limit is satisfied, parts as drawn."""
     draws: int
     held: dict[str, float]
     """That share for each limit that is not always kept, the least first."""

@@ -208,7 +208,7 @@ def _all_finite(data: Any) -> Any:
 def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, IntervalEntry] | None = None) -> str:
     """Return the values of `results` as CSV, in the units people read, with status, range and source.
 
-    `may_be_low` to `may_be_high` are the intervals over what nobody has measured; `measure_first` carries most of one.
+    `may_be_low` to `may_be_high` are the intervals over unmeasured inputs; `measure_first` carries most of one.
     """
     stream = io.StringIO()
     columns = ["name", "value", "unit", "status", "low", "high", "source", "kind", "group", "description", "note",

@@ -1,4 +1,4 @@
-"""How sure a study's designs are, as plain data: what varies from part to part, and what nobody has measured."""
+"""The uncertainty of a design as plain data: what varies from part to part, and what is unmeasured."""
 
 from __future__ import annotations
 

@@ -26,8 +26,8 @@ def yield_of(answer: StudyResult) -> YieldReached | None:
 def reached_in_words(reached: YieldReached) -> str:
     """Return how many modules keep all limits, of how many it was asked, and what it was without margins."""
     return (
-        f"{percent(reached.together)} of {reached.modules} modules drawn keep every limit, where "
-        f"{percent(reached.asked)} are asked for and {percent(reached.nominal_together)} would without margins"
+        f"yield {percent(reached.together)} of {reached.modules} random modules (target {percent(reached.asked)}); "
+        f"without margins {percent(reached.nominal_together)}"
     )
 
 
