@@ -12,9 +12,9 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)
 _TONES: tuple[tuple[Tone, re.Pattern[str]], ...] = (
-    ("bad", re.compile(r"BROKEN|NO DESIGN FOUND|NEVER SOFT|ABOVE RATING, NOT|\bbroken\b|\bfailure\b|\bworse\b")),
-    ("warn", re.compile(r"\bBINDS\b|\bOPEN\b|\bbinds\b|\bopen\b|HISTORY DECIDES|^YIELD|\bwarning\b|partly done")),
-    ("good", re.compile(r"OPTIMAL|ALL LIMITS KEPT|^ok$|^pass$|\bbetter\b")),
+    ("bad", re.compile(r"\bviolated\b|\bbroken\b|\bfailure\b|\bworse\b")),
+    ("warn", re.compile(r"\bbinds\b|\bopen\b|\bwarning\b|partly done")),
+    ("good", re.compile(r"^ok$|^pass$|\bbetter\b")),
 )
 """Words that say how something stands, worst first."""
 
