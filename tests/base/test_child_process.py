@@ -79,7 +79,7 @@ time.sleep(600)
 """
 
 
-def test_a_child_is_told_by_a_pipe_where_the_kernel_does_not_tell_it(tmp_path: Path) -> None:
+def test_a_pipe_ends_a_child_if_the_kernel_cannot(tmp_path: Path) -> None:
     (tmp_path / "sitecustomize.py").write_text(ELSEWHERE)  # every interpreter begins with it, the child's too
     parent = started("told_child", NAMES_ITS_PIPE, tmp_path)
     assert parent.stdout is not None

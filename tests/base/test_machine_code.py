@@ -1,4 +1,4 @@
-"""Machine code: compiled once, then kept."""
+"""Machine code: compiled once, then stored."""
 
 from __future__ import annotations
 
@@ -46,52 +46,52 @@ def told(values: np.ndarray) -> float:
 
 
 @pytest.fixture
-def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path))
     return tmp_path / "code"
 
 
-def compiled_anew(values: np.ndarray) -> bool:
+def compiled_again(values: np.ndarray) -> bool:
     """Return whether the compiler was called; the sum is right either way."""
     with mock.patch.object(machine_code, "_compiled", wraps=machine_code._compiled) as compiler:
         assert told(values) == pytest.approx(3.0 * values.sum(), rel=1e-14)
     return bool(compiler.called)
 
 
-def test_code_is_compiled_once_and_what_is_damaged_is_compiled_anew(kept: Path) -> None:
+def test_code_is_compiled_once_and_again_if_damaged(stored: Path) -> None:
     values = np.arange(1.0, 9.0)
-    assert compiled_anew(values)
-    assert not compiled_anew(values)
-    (file,) = kept.iterdir()
+    assert compiled_again(values)
+    assert not compiled_again(values)
+    (file,) = stored.iterdir()
     whole = file.read_bytes()
     for damaged in (whole[:-1], b"", b"x" * len(whole), whole[:40] + bytes([whole[40] ^ 1]) + whole[41:]):
         file.write_bytes(damaged)
-        assert compiled_anew(values)
+        assert compiled_again(values)
         assert file.read_bytes() == whole
 
 
-def test_code_of_another_processor_or_compiler_is_none_of_ours(kept: Path) -> None:
+def test_code_of_another_processor_or_compiler_is_none_of_ours(stored: Path) -> None:
     values = np.arange(1.0, 9.0)
     told(values)
     with mock.patch.object(machine_code, "_processor", return_value="another"):
-        assert compiled_anew(values)
+        assert compiled_again(values)
     with mock.patch.object(machine_code.llvmlite, "__version__", "0"):
-        assert compiled_anew(values)
-    assert len(list(kept.iterdir())) == 3
+        assert compiled_again(values)
+    assert len(list(stored.iterdir())) == 3
 
 
-def test_code_runs_where_nothing_can_be_kept(kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    kept.parent.mkdir(exist_ok=True)
-    kept.write_text("a file where the folder would be")
-    assert compiled_anew(np.arange(1.0, 9.0))
+def test_code_runs_where_nothing_can_be_kept(stored: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    stored.parent.mkdir(exist_ok=True)
+    stored.write_text("a file where the folder would be")
+    assert compiled_again(np.arange(1.0, 9.0))
     monkeypatch.setenv("TVIMDESIGN_CACHE", "")
-    assert compiled_anew(np.arange(1.0, 9.0))
+    assert compiled_again(np.arange(1.0, 9.0))
 
 
-def test_of_much_code_what_was_not_used_for_longest_goes(kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_much_code_what_was_not_used_for_longest_goes(stored: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tvimdesign.base.compile_cache._MOST", 3)
     for number in range(6):
         keep_code(b"code", f"text {number}")
-        latest = max(kept.iterdir(), key=lambda path: path.stat().st_mtime)
+        latest = max(stored.iterdir(), key=lambda path: path.stat().st_mtime)
         os.utime(latest, (number, number))
     assert [find_code(f"text {number}") for number in range(6)] == [None, None, None, b"code", b"code", b"code"]

@@ -32,7 +32,7 @@ def test_a_grade_of_the_same_material_may_have_the_laws_of_another() -> None:
     assert inherited_law_warnings(Catalog().record("polymers", "pcl_50k")) == []
 
 
-def test_another_polymer_is_told_each_law_it_takes(tmp_path: Path) -> None:
+def test_another_polymer_has_a_warning_for_each_law(tmp_path: Path) -> None:
     message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA))
     assert [line.split(" are those of ")[0] for line in message] == [
         "Mine: the kinetics of freezing", "Mine: the viscosity of the melt", "Mine: the losses of the solid",
@@ -41,7 +41,7 @@ def test_another_polymer_is_told_each_law_it_takes(tmp_path: Path) -> None:
     assert "give crystallization_half_time or nucleation_constant or avrami_exponent of its own" in message[0]
 
 
-def test_a_law_of_its_own_is_not_told(tmp_path: Path) -> None:
+def test_a_law_of_its_own_has_no_warning(tmp_path: Path) -> None:
     message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA, **HALF_TIME, **VISCOSITY))
     assert len(message) == 1
     assert message[0].startswith("Mine: the losses of the solid")
@@ -78,7 +78,7 @@ def test_a_glass_needs_a_spectrum_of_its_own(tmp_path: Path) -> None:
     assert inherited_law_warnings(record(tmp_path, "pla", words, **own)) == []
 
 
-def test_a_glass_without_its_constants_is_told_what_is_missing(tmp_path: Path) -> None:
+def test_a_glass_without_its_constants_lists_what_is_missing(tmp_path: Path) -> None:
     with pytest.raises(CatalogError, match=r"values\.wlf_c1: missing; expected 1"):
         record(tmp_path, "pcl_80k", "words: {softening: glass}")
 

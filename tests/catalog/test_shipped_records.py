@@ -253,7 +253,7 @@ def test_a_screw_names_the_insert_of_its_own_thread() -> None:
     of_every(CATALOG.names("screws"), check)
 
 
-def test_what_is_assumed_is_told_with_its_range() -> None:
+def test_what_is_assumed_is_reported_with_its_range() -> None:
     def check(item: tuple[str, str]) -> None:
         record = CATALOG.record(*item)
         for name, entry in record.entries.items():

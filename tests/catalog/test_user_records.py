@@ -349,7 +349,7 @@ def test_a_spectrum_of_ones_own_says_viscosity_and_plateau(tmp_path: Path) -> No
     assert record.value("zero_shear_viscosity") == pytest.approx(3491.07, rel=1e-5)
 
 
-def test_a_folder_that_is_a_link_is_told_with_where_it_leads(tmp_path: Path) -> None:
+def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path: Path) -> None:
     (tmp_path / "kept").mkdir()
     put(tmp_path / "kept", GOOD)
     (tmp_path / "records").symlink_to(tmp_path / "kept")
@@ -367,7 +367,7 @@ def test_a_folder_that_is_a_link_is_told_with_where_it_leads(tmp_path: Path) -> 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="Windows: no folder has a numbered owner that could be another")
 @pytest.mark.parametrize("folder", [".", "peltiers"])
-def test_another_user_s_folder_is_told_and_refused_where_anybody_writes_it(
+def test_another_user_s_folder_is_reported_and_refused_where_anybody_writes_it(
     folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(tmp_path, GOOD)
@@ -387,7 +387,7 @@ def test_another_user_s_folder_is_told_and_refused_where_anybody_writes_it(
     Catalog(tmp_path)  # what is the machine's is as good as the program
 
 
-def test_the_commands_tell_of_such_a_folder_in_one_line(tmp_path: Path, tvimdesign: Command) -> None:
+def test_the_commands_report_such_a_folder_in_one_line(tmp_path: Path, tvimdesign: Command) -> None:
     (tmp_path / "kept").mkdir()
     (tmp_path / "records").symlink_to(tmp_path / "kept")
     (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: records\n")

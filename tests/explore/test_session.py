@@ -108,7 +108,7 @@ def test_an_exact_answer_gives_way_to_what_is_asked_meanwhile(tmp_path: Path) ->
 
 @pytest.mark.slow
 def test_an_infeasible_state_reports_the_conflict(tmp_path: Path) -> None:
-    async def asked() -> dict[str, Any]:
+    async def reply_of() -> dict[str, Any]:
         async with talking(small_study(tmp_path), tmp_path / "out") as page:
             await page.answer("quick")
             await page.send(kind="require", name="response_time", texts=["<= 20 s"])
@@ -116,7 +116,7 @@ def test_an_infeasible_state_reports_the_conflict(tmp_path: Path) -> None:
                 lambda item: item["kind"] == "answer" and item["number"] == 2 and item["shown"]["stage"] == "exact"
             )
 
-    shown = awaited(asked())["shown"]
+    shown = awaited(reply_of())["shown"]
     assert not shown["found"]
     assert "no design found that keeps every limit" in shown["status"]
     assert shown["values"]

@@ -135,7 +135,7 @@ def test_a_sweep_of_words_with_records_of_its_own_is_opened(tmp_path: Path, monk
     assert source.at_point(2, source.first).changes == {"spring_material": "own"}
 
 
-def test_a_page_is_told_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tmp_path: Path) -> None:
+def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tmp_path: Path) -> None:
     async def chosen() -> tuple[dict[str, Any], dict[str, Any], dict[str, Any], list[dict[str, Any]]]:
         async with talking(swept, tmp_path / "out") as page:
             points = await page.kind("points")

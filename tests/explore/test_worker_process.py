@@ -20,7 +20,7 @@ class _Counted(WorkerProcess):
 
 
 def test_a_worker_that_cannot_start_is_tried_again_per_job() -> None:
-    async def asked() -> tuple[list[tuple[int, str]], int]:
+    async def reply_of() -> tuple[list[tuple[int, str]], int]:
         reported: list[tuple[int, str]] = []
         worker = _Counted(
             "tvimdesign.no_such_module", [], lambda job, reply: reported.append((job.number, reply["words"]))
@@ -35,6 +35,6 @@ def test_a_worker_that_cannot_start_is_tried_again_per_job() -> None:
         worker.close()
         return reported, worker.starts - started
 
-    reported, starts = awaited(asked())
+    reported, starts = awaited(reply_of())
     assert reported == [(1, "given up"), (2, "given up")]
     assert starts <= 2

@@ -143,7 +143,7 @@ def read(table_of: Callable[[str], Table]) -> Callable[..., Study]:
 
 @pytest.fixture(scope="session")
 def problems(read: Callable[..., Study]) -> Callable[..., list[str]]:
-    """Read a study that is wrong and return what is said about it, a line a problem."""
+    """Read a study that is wrong and return its problems, one a line."""
 
     def refuse(text: str, **more: Any) -> list[str]:
         with pytest.raises(StudyError) as caught:

@@ -11,7 +11,7 @@ from tvimdesign.study import StudyError
 from tvimdesign.study.conditions import refuse_unequal
 
 
-def said(folder: Path, *texts: str) -> list[str]:
+def problems_of(folder: Path, *texts: str) -> list[str]:
     try:
         refuse_unequal(entrants(folder, *texts))
     except StudyError as error:
@@ -20,7 +20,7 @@ def said(folder: Path, *texts: str) -> list[str]:
 
 
 def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
-    assert said(tmp_path, SHEAR, COMPRESSION) == []
+    assert problems_of(tmp_path, SHEAR, COMPRESSION) == []
 
 
 @pytest.mark.parametrize(
@@ -52,11 +52,11 @@ def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
         ("  current: 1.5 A", "  cooling_current: 0.5 A\n  current: 1.5 A", "module.cooling_current", "0.5 A here"),
     ],
 )  # fmt: skip
-def test_a_different_task_or_condition_is_told_with_both_places(
+def test_a_different_task_or_condition_is_reported_with_both_places(
     tmp_path: Path, old: str, new: str, place: str, words: str
 ) -> None:
     assert old in COMPRESSION
-    reported = said(tmp_path, SHEAR, COMPRESSION.replace(old, new))
+    reported = problems_of(tmp_path, SHEAR, COMPRESSION.replace(old, new))
     assert len(reported) == 1
     assert place in reported[0]
     assert words in reported[0]
@@ -65,39 +65,41 @@ def test_a_different_task_or_condition_is_told_with_both_places(
 
 def test_a_range_is_not_a_fixed_current(tmp_path: Path) -> None:
     ranged = COMPRESSION.replace("vary:", "vary:\n  current: [1 A, 2 A]")
-    reported = said(tmp_path, SHEAR, ranged)
+    reported = problems_of(tmp_path, SHEAR, ranged)
     assert len(reported) == 1
     assert "vary.current: 1 A to 2 A, drawn with 1.5 A here, 1.5 A in" in reported[0]
-    assert said(tmp_path, SHEAR.replace("vary:", "vary:\n  current: [1 A, 2 A]"), ranged) == []
+    assert problems_of(tmp_path, SHEAR.replace("vary:", "vary:\n  current: [1 A, 2 A]"), ranged) == []
 
 
-def test_all_differences_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
+def test_all_differences_are_reported_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
     other = COMPRESSION.replace("current: 1.5 A", "current: 2 A").replace(">= 5 N.m/rad", ">= 4 N.m/rad")
-    reported = said(tmp_path, SHEAR, other)
+    reported = problems_of(tmp_path, SHEAR, other)
     assert ["module.current" in reported[0], "require.spring_stiffness" in reported[1]] == [True, True]
     assert len(reported) == 2
 
 
 def test_another_record_is_one_difference(tmp_path: Path) -> None:
-    reported = said(tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current"))
+    reported = problems_of(
+        tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current")
+    )
     assert len(reported) == 1
 
 
 def test_layout_springs_and_their_steel_are_each_study_s_own(tmp_path: Path) -> None:
     own = "  spring_material: stainless_302\n  floor_thickness: 5 mm\n  leg_model: ignored\n  current: 1.5 A"
-    assert said(tmp_path, SHEAR, SHEAR.replace("  current: 1.5 A", own)) == []
+    assert problems_of(tmp_path, SHEAR, SHEAR.replace("  current: 1.5 A", own)) == []
 
 
 def test_limits_on_what_one_mode_alone_has_may_differ(tmp_path: Path) -> None:
     strain = SHEAR.replace("require:", 'require:\n  layer_strain: "<= 4"')
     blocks = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.45"')
-    assert said(tmp_path, strain, blocks) == []
-    assert "layer_strain <= 4 is required here" in said(tmp_path, SHEAR, strain)[0]
+    assert problems_of(tmp_path, strain, blocks) == []
+    assert "layer_strain <= 4 is required here" in problems_of(tmp_path, SHEAR, strain)[0]
 
 
 def test_limits_are_compared_across_a_study_of_another_mode(tmp_path: Path) -> None:
     strict = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.4"')
-    reported = said(tmp_path, SHEAR, COMPRESSION, strict)
+    reported = problems_of(tmp_path, SHEAR, COMPRESSION, strict)
     assert len(reported) == 1
     assert "study_2.yaml" in reported[0]
     assert "block_strain <= 0.4 is required here" in reported[0]
@@ -106,12 +108,12 @@ def test_limits_are_compared_across_a_study_of_another_mode(tmp_path: Path) -> N
 def test_an_evaluated_study_is_not_compared_with_an_optimised_one(tmp_path: Path) -> None:
     start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
     drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
-    reported = said(tmp_path, SHEAR, drawn)
+    reported = problems_of(tmp_path, SHEAR, drawn)
     assert len(reported) == 1
     assert "vary: missing: this study is evaluated only" in reported[0]
 
 
-def test_one_study_twice_is_told(tmp_path: Path) -> None:
+def test_one_study_twice_is_reported(tmp_path: Path) -> None:
     item = entrants(tmp_path, SHEAR)
     with pytest.raises(StudyError, match=r"study_0\.yaml: given twice"):
         refuse_unequal([*item, *item])

@@ -24,7 +24,7 @@ def _plain() -> Any:
     return json.loads(design_json(shipped_design("paper_shear")))
 
 
-def test_a_design_that_lacks_an_input_is_told_to_be_of_another_version(tmp_path: Path) -> None:
+def test_a_design_that_lacks_an_input_is_of_another_version(tmp_path: Path) -> None:
     other = write_design(shipped_design("paper_shear"), tmp_path / "design.json")
     assert read_design(other).mode == "shear"
     plain = _plain()

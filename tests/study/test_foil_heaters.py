@@ -42,7 +42,7 @@ def test_a_current_that_may_be_zero_is_left_to_the_search() -> None:
     assert given(study)["peltier_seebeck"] == 0.0
 
 
-def test_a_foil_whose_record_names_no_cooling_current_is_told(tmp_path: Path) -> None:
+def test_a_foil_whose_record_names_no_cooling_current_is_reported(tmp_path: Path) -> None:
     (tmp_path / "peltiers").mkdir()
     own = "{value: 0.2, unit: A, source: forgotten, status: measured}"
     text = f"title: Mine\nbased_on: silicone_9ar_04_12v\nvalues: {{cooling_current: {own}}}\n"

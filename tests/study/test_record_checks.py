@@ -52,7 +52,7 @@ def test_a_record_without_that_rating_is_not() -> None:
     assert record_checks(study) == []
 
 
-def test_another_material_with_the_polymer_s_laws_is_told_on_the_page(tmp_path: Path) -> None:
+def test_another_material_with_the_polymer_s_laws_is_reported_on_the_page(tmp_path: Path) -> None:
     """Describe a metal by a few numbers of its own, based on a polymer."""
     folder = tmp_path / "records/polymers"
     folder.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""Which Peltier modules a study may name: rigid ones in both modes, as they are, and what is told of them."""
+"""Which Peltier modules a study may name: rigid ones in both modes, as they are, and their warnings."""
 
 import pytest
 
@@ -21,15 +21,19 @@ def test_compression_takes_them_as_they_are_too() -> None:
 
 
 def test_a_missing_pressure_limit_is_reported_under_blocks() -> None:
-    def said(mode: str, module: str) -> list[str]:
+    def reported(mode: str, module: str) -> list[str]:
         text = f"mode: {mode}\nmodule: {{{module}}}\n"
         return [line for line in record_checks(read_study_text(text, "a test")) if "pressure" in line]
 
-    (line,) = said("compression", "peltier_module: qc_17")
+    (line,) = reported("compression", "peltier_module: qc_17")
     assert line.startswith("QC-17-1.0-2.5AS: its record does not say what pressure it bears; 1.5 MPa is assumed")
-    assert said("compression", "peltier_module: qc_17, heater_pressure_limit: 1 MPa") == []
-    assert said("compression", "peltier_module: pc_072") == said("compression", "peltier_module: flexible_1600") == []
-    assert said("shear", "peltier_module: qc_17") == []
+    assert reported("compression", "peltier_module: qc_17, heater_pressure_limit: 1 MPa") == []
+    assert (
+        reported("compression", "peltier_module: pc_072")
+        == reported("compression", "peltier_module: flexible_1600")
+        == []
+    )
+    assert reported("shear", "peltier_module: qc_17") == []
 
 
 def test_the_pressure_of_a_sheet_comes_before_the_assumed_one() -> None:

@@ -100,7 +100,7 @@ def test_a_wrong_setting_is_named_as_the_place(setting: str, message: str) -> No
     assert message in line
 
 
-def test_mistakes_of_all_settings_and_of_the_file_are_told_at_once() -> None:
+def test_mistakes_of_all_settings_and_of_the_file_are_reported_at_once() -> None:
     tree = tree_of_text(TEXT.replace("1.5 A", "1.5 V"), "x.yaml", "x", Path())
     with pytest.raises(StudyError) as caught:
         read_tree(with_settings(tree, ["coil_diameter=1 s", "nothing", "solver.starts=many"]))

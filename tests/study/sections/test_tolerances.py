@@ -24,7 +24,7 @@ def test_a_tolerance_is_a_quantity_or_a_share() -> None:
     assert {item.status for item in result.values()} == {"stated"}
 
 
-def test_everything_of_a_tolerance_can_be_said() -> None:
+def test_everything_of_a_tolerance_can_be_stated() -> None:
     text = "{plus_minus: 5 deg, distribution: uniform, sigma: 2, adjustable: true, adjusted_to: 1 deg}"
     item = _read(f"tolerances: {{preload_angle: {text}}}").tolerances["preload_angle"]
     assert (item.distribution, item.sigma, item.adjustable) == ("uniform", 2.0, True)
