@@ -21,7 +21,7 @@ from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
 from tvimdesign.simulation.measurement.reading.column_map import read_column_map
-from tvimdesign.simulation.measurement.record_file import write_records
+from tvimdesign.simulation.measurement.record_file import NoRecordError, write_records
 
 _MOST_TABLES = 3
 """Tables that the screen shows; `fit.json` has all."""
@@ -40,7 +40,11 @@ def fit_files(
         measured = measure_files(paths, kind, given, column_map)
         names = ", ".join(path.name for path in paths)
         command.begin_plots([Drawing("fit", "fit_figure.fit", figure_data(measured))], names)
-        written = write_records(measured, catalog, record, based_on, overwrite=overwrite) if record else {}
+        written: dict[str, Path] = {}
+        try:
+            written = write_records(measured, catalog, record, based_on, overwrite=overwrite) if record else {}
+        except NoRecordError as error:
+            command.failures.append(error)  # its figure and residuals say why
         named = {choice: str(path) for choice, path in written.items()}
         first = next(iter(named.values()), None)
         data = fit_data(measured) | {"settings": dict(given), "record": first, "records": named}

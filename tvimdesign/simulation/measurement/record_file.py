@@ -29,12 +29,16 @@ _NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
 _DIGITS = 6
 
 
+class NoRecordError(InputError):
+    """A fit from which no record follows; the fit itself is of use."""
+
+
 def record_text(measured: Measured, name: str, based_on: str) -> str:
     """Return the kind's own record as YAML. Raises InputError where nothing follows for one."""
     found = measured.measurement
     lines = list(_value_lines(measured, found.record_values))
     if not measured.kind.category or not (lines or found.record_tables):
-        raise InputError(_nothing(measured))
+        raise NoRecordError(_nothing(measured))
     lines += _condition_lines(measured)
     text = [*_head(name, based_on), *(["values:", *lines] if lines else [])]
     for table, sheet in found.record_tables.items():
@@ -88,7 +92,7 @@ def write_record(measured: Measured, folder: Path, name: str, based_on: str = ""
 def _records(measured: Measured, name: str, based_on: str) -> list[tuple[str, str, str, str]]:
     """Return category, choice, base and text of every record that follows. Raises InputError where none does."""
     if measured.measurement.fit.misfit:
-        raise InputError(f"{measured.kind.name}: {measured.measurement.fit.misfit}")
+        raise NoRecordError(f"{measured.kind.name}: {measured.measurement.fit.misfit}")
     category, found = measured.kind.category, []
     base = based_on or BASED_ON.get(category, "")
     others = [one for one in measured.measurement.more_records if any(_value_lines(measured, one.values))]

@@ -194,6 +194,21 @@ def test_a_column_map_says_what_a_file_does_not(tmp_path: Path) -> None:
     assert degrees(read_data_file(tmp_path / "data.csv", read_column_map(path))) == [7.0, 8.0, 9.0]
 
 
+def test_a_map_by_place_reads_a_file_without_headings(tmp_path: Path) -> None:
+    text = "0;1;7\n1;2;8\n2;3;9\n"
+    with pytest.raises(InputError, match=r"time: \{column: 1, unit: s\}"):
+        read(tmp_path, text)
+    mapped = {"time": {"column": 1, "unit": "s"}, "angle": {"column": 3, "unit": "deg"}}
+    assert degrees(read(tmp_path, text, **mapped)) == [7.0, 8.0, 9.0]
+
+
+@pytest.mark.parametrize("gap", ["OPEN", "OL", "---", "#N/A", ""])
+def test_a_gap_is_counted_and_drops_no_column(tmp_path: Path, gap: str) -> None:
+    found = read(tmp_path, f"time [s];angle [deg]\n0;1\n1;{gap}\n2;3\n3;4\n")
+    assert found.blocks[0].complete(["time", "angle"]) == 3
+    assert found.shown()[-1] == "    angle: 'angle [deg]' in °, 1 to 4, 1 gap"
+
+
 @pytest.mark.parametrize(
     ("mapped", "said"),
     [

@@ -22,7 +22,9 @@ from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blo
 
 Array = NDArray[np.float64]
 _COLDEST = 1.0  # K; nothing that is measured here is as cold
-_NOTHING = {"", "-", "--", "---", "n/a", "na", "nan", "none", "nd", "no value"}
+_NOTHING = {"", "-", "--", "---", "n/a", "na", "nan", "none", "nd", "no value", "#n/a", "#nv", "#value!", "#wert!",
+            "#div/0!", "ol", "open", "****"}  # fmt: skip
+"""Cells without a value, as instruments, loggers (OL, OPEN: no thermocouple) and spreadsheets write them."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +125,12 @@ def read_data_file(path: Path, columns: ColumnMap | None = None) -> DataFile:
     columns = columns or ColumnMap()
     data = file_bytes(path)
     sheets, how = read_sheets(path, data, columns.separator, columns.decimal)
-    raw = [(sheet, block) for sheet in sheets for block in blocks_of(sheet, _place(path, sheet), path.suffix)]
+    by_place = any("column" in entry for entry in columns.columns.values())
+    raw = [
+        (sheet, block)
+        for sheet in sheets
+        for block in blocks_of(sheet, _place(path, sheet), path.suffix, by_place=by_place)
+    ]
     if not raw:
         raise InputError(f"{path}: no table of numbers under headings was found")
     blocks = tuple(_block(block, sheet, _place(path, sheet), columns) for sheet, block in raw)
@@ -226,4 +233,6 @@ def _range(column: Column) -> str:
     finite = column.values[np.isfinite(column.values)]
     low, high = ((end - found[0]) / found[1] for end in (finite.min(), finite.max()))
     unit = pretty(column.unit) or "plain number"
-    return f"{column.heading!r} in {unit}, {low:.4g} to {high:.4g}"
+    gaps = len(column.values) - len(finite)
+    counted = f", {gaps} {'gap' if gaps == 1 else 'gaps'}" if gaps else ""
+    return f"{column.heading!r} in {unit}, {low:.4g} to {high:.4g}{counted}"

@@ -29,8 +29,11 @@ class RawBlock:
     """Lines between its rows in which a single cell stands, and no number: points that an instrument calls invalid."""
 
 
-def blocks_of(sheet: Sheet, file: str, ending: str) -> list[RawBlock]:
-    """Return every table of a sheet. Raises InputError, with the line, where rows and headings do not go together."""
+def blocks_of(sheet: Sheet, file: str, ending: str, *, by_place: bool = False) -> list[RawBlock]:
+    """Return every table of a sheet; with `by_place` one may have no headings.
+
+    Raises InputError, with the line, where rows and headings do not go together.
+    """
     found: list[RawBlock] = []
     settings: dict[str, str] = {}
     titles, begin = [(0, sheet.title)], 0
@@ -41,7 +44,7 @@ def blocks_of(sheet: Sheet, file: str, ending: str) -> list[RawBlock]:
             titles += [(rows[begin].line, said)] if said else []
             begin += 1
             continue
-        headings, head_line = _headings(sheet, begin, file, ending)
+        headings, head_line = _headings(sheet, begin, file, ending, by_place=by_place)
         title = [text for line, text in titles if line < head_line][-1]
         end, skipped = _end(sheet, begin, file)
         kept = [row for row in rows[begin:end] if row.line not in skipped]
@@ -108,7 +111,7 @@ def _said(row: Row, settings: dict[str, str]) -> str:
     return text if len(cells) == 1 and re.search(r"[A-Za-z]{3}", text) and not text.startswith(("[", "#")) else ""
 
 
-def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> tuple[list[Heading], int]:
+def _headings(sheet: Sheet, begin: int, file: str, ending: str, *, by_place: bool) -> tuple[list[Heading], int]:
     """Return headings of the numbers that begin at a row, and the line where they begin.
 
     Names and units are from the rows above it, or the format's own.
@@ -123,10 +126,13 @@ def _headings(sheet: Sheet, begin: int, file: str, ending: str) -> tuple[list[He
         if not {one.quantity for one in found} >= {name for name, _ in default}:
             found = [heading(f"{name} [{unit}]") for name, unit in default]
         return found + [Heading(f"column {i}", "", "") for i in range(len(found) + 1, _MOST_COLUMNS)], line
+    if not found and by_place:
+        return [Heading(f"column {i}", "", "") for i in range(1, len(rows[begin].cells) + 1)], line
     if not found:
         raise InputError(
             f"{file}:{rows[begin].line}: numbers without a row of headings above them; write one, such as "
-            "'time [s]; angle [deg]'"
+            "'time [s]; angle [deg]', or say it by place in a file for --columns: "
+            "{time: {column: 1, unit: s}, angle: {column: 2, unit: deg}}"
         )
     if sheet.separator == "blanks" and len(found) != width:
         raise InputError(
