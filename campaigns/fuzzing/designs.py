@@ -6,10 +6,12 @@ import json
 import random
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from fuzzing.kind import ROOT, Drawn, Kind
 from fuzzing.mutations import encoded, mutated_data, mutated_text, paths
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study.design import read_design
 from tvimdesign.study.result_study import result_text
@@ -20,10 +22,20 @@ def _designs() -> list[tuple[str, list[tuple[object, ...]], list[tuple[object, .
     """Text of each released design, its places, and those that are not one of its thousand values."""
     found = []
     for path in sorted((ROOT / "cad").glob("*/design.json")):
-        text = path.read_text()
-        every = [place for place in paths(json.loads(text)) if place[0] != "solution"]
+        plain = _of_today(json.loads(path.read_text()))
+        text = json.dumps(plain, indent=2)
+        every = [place for place in paths(plain) if place[0] != "solution"]
         found.append((text, every, [place for place in every if place[0] != "values"]))
     return found
+
+
+def _of_today(plain: dict[str, Any]) -> dict[str, Any]:
+    """Give a released design a value of every quantity that is newer than it, so that it is read."""
+    table = table_for(plain["mode"])
+    values = dict.fromkeys(table.names(tuple(plain["study"]["operating_points"])), 1.0)
+    values |= {row.name: row.default for row in table.inputs if row.default is not None and not row.per_point}
+    choices = {row.name: row.default for row in table.choices}
+    return {**plain, "values": values | plain["values"], "choices": choices | plain["choices"]}
 
 
 def _design(draw: random.Random) -> Drawn:

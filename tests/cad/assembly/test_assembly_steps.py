@@ -10,7 +10,7 @@ import pytest
 from cad_designs import DRIVEN, TILES, design_of
 
 from tvimdesign.cad.assembly.assembly_figures import preload_tolerance
-from tvimdesign.cad.assembly.assembly_note import assembly_note, told, written_steps
+from tvimdesign.cad.assembly.assembly_note import all_steps, assembly_note, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
@@ -69,7 +69,9 @@ def test_every_module_says_how_it_is_opened_in_order(
 
 def test_steps_that_open_a_module_bring_no_part_into_its_place() -> None:
     opening = [
-        step for step in told() if step["text"].startswith(("To open", "Turn out", "Loosen", "Lift the link", "Wear"))
+        step
+        for step in all_steps()
+        if step["text"].startswith(("To open", "Turn out", "Loosen", "Lift the link", "Wear"))
     ]
     assert len(opening) >= 7
     assert not any("place" in step for step in opening)

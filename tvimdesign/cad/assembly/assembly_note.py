@@ -118,11 +118,13 @@ def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:
 
 def steps_of(kinds: set[str]) -> list[dict[str, Any]]:
     """Return steps of a module of these kinds of part, in order, as the data file has them."""
-    return [step for step in told() if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))]
+    return [
+        step for step in all_steps() if kinds.issuperset(step["kinds"]) and kinds.isdisjoint(step.get("without", ()))
+    ]
 
 
 @cache
-def told() -> list[dict[str, Any]]:
+def all_steps() -> list[dict[str, Any]]:
     """Return all steps of the data file."""
     written: list[dict[str, Any]] = plain_data(_STEPS.read_text("utf-8"))
     return written

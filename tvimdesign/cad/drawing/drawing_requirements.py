@@ -140,7 +140,7 @@ class DrawingRequirements:
 
 def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> DrawingRequirements:
     """Return what the drawing of a kind of part asks for, by the module's process."""
-    reported, method = told(), choices["making_method"]
+    reported, method = requirements_data(), choices["making_method"]
     seats = [
         one for one in reported["seats"].get(kind, ())
         if _is_there(one, dims) and (method == "milled" or one.get("printed"))
@@ -170,7 +170,7 @@ def drawing_requirements(kind: str, dims: Dimensions, choices: Mapping[str, Any]
 
 def _of_kind(kind: str, dims: Dimensions) -> dict[str, Any]:
     """Return the requirements of a part that the module's process does not make, or that is bought as it is."""
-    general: dict[str, Any] = told()["of_kind"].get(kind, {})
+    general: dict[str, Any] = requirements_data()["of_kind"].get(kind, {})
     whole = general.get("whole")
     return general | whole if whole and getattr(dims, whole["where"]) else general
 
@@ -198,7 +198,7 @@ def _place(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> tu
 def _remarks(kind: str, dims: Dimensions, choices: Mapping[str, Any]) -> list[str]:
     """Return further remarks on a kind of part, for the choices of its design."""
     tang_hole = figure(dims.wire_diameter + 2.0 * dims.tang_clearance)
-    written = told()["remarks"].get(kind, ())
+    written = requirements_data()["remarks"].get(kind, ())
     return [
         one["text"].format(tang_hole=tang_hole) for one in written
         if all(choices.get(name) == word for name, word in one["choices"].items())
@@ -261,7 +261,7 @@ def _thread(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> T
 
 
 @cache
-def told() -> dict[str, Any]:
+def requirements_data() -> dict[str, Any]:
     """Read the data file on the parts' drawings."""
     reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
     return reported

@@ -38,7 +38,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
         return Limits(-0.5 * width, 0.5 * width)
     if letter in ("H", "h"):
         return Limits(0.0, width) if letter == "H" else Limits(-width, 0.0)
-    off = _MICRON * _at(told()["deviations"][letter.lower()], size)
+    off = _MICRON * _at(standard_data()["deviations"][letter.lower()], size)
     if letter == "k":
         return Limits(off, off + width)
     return Limits(off - width, off) if letter == "g" else Limits(-off, -off + width)
@@ -46,7 +46,7 @@ def limit_deviations(fit: str, size: float) -> Limits:
 
 def standard_tolerance(grade: int, size: float) -> float:
     """Return standard tolerance [mm] of a grade at a size [mm]."""
-    grades = told()["grades"]
+    grades = standard_data()["grades"]
     if grade not in grades:
         raise GeometryError(f"tolerance grade IT{grade} is not in {_DATA.name}: it has {', '.join(map(str, grades))}")
     return _MICRON * _at(grades[grade], size)
@@ -54,7 +54,7 @@ def standard_tolerance(grade: int, size: float) -> float:
 
 def _at(row: Sequence[int], size: float) -> int:
     """Return the value of a row of the table at a size [mm]."""
-    ends = (0.0, *told()["up_to"])
+    ends = (0.0, *standard_data()["up_to"])
     # What is a hair off a range's end for rounding belongs to the range.
     for value, (over, up_to) in zip(row, pairwise(ends), strict=True):
         if over < size <= up_to + _HAIR:
@@ -63,7 +63,7 @@ def _at(row: Sequence[int], size: float) -> int:
 
 
 @cache
-def told() -> dict[str, Any]:
+def standard_data() -> dict[str, Any]:
     """Read the data file on ISO 286."""
     reported: dict[str, Any] = plain_data(_DATA.read_text(encoding="utf-8"))
     return reported

@@ -74,8 +74,9 @@ def warm_up(mode: str = "") -> None:
     import_module(_NEEDED)
     if mode:
         table_for(mode)
-    for read in (drawing_requirements.told, iso_286.told, assembly_note.told, ray_code.first_hits, code_digest):
-        read()
+    data = (drawing_requirements.requirements_data, iso_286.standard_data, assembly_note.all_steps)
+    for prepare in (*data, ray_code.first_hits, code_digest):
+        prepare()
     sheet = DrawingSheet(1.0)
     sheet.text(_LETTERS, (20.0, 20.0))
     sheet.pdf()
