@@ -147,7 +147,7 @@ def test_one_text_is_split_by_blanks(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_column_that_is_wrong_stops_who_needs_it_and_nobody_else(tmp_path: Path, text: str, said: str) -> None:
+def test_a_wrong_column_stops_only_a_fit_that_needs_it(tmp_path: Path, text: str, said: str) -> None:
     block = read(tmp_path, text).blocks[0]
     assert block.complete(["time"]) == 3
     with pytest.raises(InputError, match=said):
@@ -204,9 +204,9 @@ def test_a_map_by_place_reads_a_file_without_headings(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("gap", ["OPEN", "OL", "---", "#N/A", ""])
 def test_a_gap_is_counted_and_drops_no_column(tmp_path: Path, gap: str) -> None:
-    found = read(tmp_path, f"time [s];angle [deg]\n0;1\n1;{gap}\n2;3\n3;4\n")
-    assert found.blocks[0].complete(["time", "angle"]) == 3
-    assert found.shown()[-1] == "    angle: 'angle [deg]' in °, 1 to 4, 1 gap"
+    data = read(tmp_path, f"time [s];angle [deg]\n0;1\n1;{gap}\n2;3\n3;4\n")
+    assert data.blocks[0].complete(["time", "angle"]) == 3
+    assert data.shown()[-1] == "    angle: 'angle [deg]' in °, 1 to 4, 1 gap"
 
 
 @pytest.mark.parametrize(

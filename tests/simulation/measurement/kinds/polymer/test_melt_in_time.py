@@ -105,7 +105,7 @@ def strained(path: Path, law: str, noise: float, celsius: float = 100.0) -> Path
     strain, draw = np.geomspace(1e-4, 1.0, 45), np.random.default_rng(4)
     x = strain / 0.029
     moduli = 3e3 * LAWS[law](x), 9e3 * (1.0 + 0.3 * (x / 2.0) ** 2 / (1.0 + (x / 2.0) ** 4))
-    storage, loss = (one * np.exp(draw.normal(0.0, noise, 45)) for one in moduli)
+    storage, loss = (modulus * np.exp(draw.normal(0.0, noise, 45)) for modulus in moduli)
     return csv(path, **{"strain__%": 100.0 * strain, "G'__Pa": storage, "G''__Pa": loss},
                temperature__degC=np.full(45, celsius))  # fmt: skip
 
