@@ -15,7 +15,7 @@ import trimesh
 from support import ROOT, STUDIES, Command
 
 from tvimdesign.report.output.results_format import results_schema
-from tvimdesign.report.robot.rigid_bodies import make_bodies
+from tvimdesign.report.robot.joint_model import make_bodies
 from tvimdesign.study import read_study
 
 FILES = {

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import tvimdesign as tvim
-from tvimdesign.api.shown_progress import in_notebook, shown_progress
+from tvimdesign.api.notebook import in_notebook, shown_progress
 
 
 @pytest.fixture

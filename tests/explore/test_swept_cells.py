@@ -20,7 +20,7 @@ from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study import read_tree
 from tvimdesign.study.tree import tree_of_text
 from tvimdesign.sweep.plan import plan_of
-from tvimdesign.sweep.run_sweep import Where
+from tvimdesign.sweep.run_sweep import Executor
 
 STUDY = """
 name: swept
@@ -56,7 +56,7 @@ def _swept(folder: Path, text: str) -> Path:
     path = folder / "swept.yaml"
     path.write_text(text, encoding="utf-8")
     plan = plan_of(tree_of_text(text, str(path), "swept", folder))
-    where = Where(workers=1)
+    where = Executor(workers=1)
     sweep_folder(plan, folder / "out", where, lambda _: None, overwrite=False, resume=False, plots=False)
     return folder / "out"
 

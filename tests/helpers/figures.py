@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
-from tvimdesign.report.figures.theme.canvas import sign
+from tvimdesign.report.figures.theme import sign
 
 NAME = "A study's name"
 LABEL = re.compile(r"^[A-Z][^_]* \((?:[^()]+|\(.*\))\)$", re.DOTALL)

@@ -8,7 +8,7 @@ from typing import Any
 from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import SweepPlan, plan_of
-from tvimdesign.sweep.run_sweep import Where
+from tvimdesign.sweep.run_sweep import Executor
 
 SMALL = """
 mode: shear
@@ -29,7 +29,7 @@ def plan(path: Path, *settings: str) -> SweepPlan:
 def swept(path: Path, out: Path, *, resume: bool = False, **where: Any) -> dict[str, Any]:
     """Sweep a study into a folder, as the command does; returns what it tells of the work."""
     told = sweep_folder(
-        plan(path), out, Where(**where), lambda _: None, overwrite=False, resume=resume, plots=False
+        plan(path), out, Executor(**where), lambda _: None, overwrite=False, resume=resume, plots=False
     )  # fmt: skip
     found: dict[str, Any] = told["run"]
     return found

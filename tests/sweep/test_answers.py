@@ -10,13 +10,12 @@ from small_sweeps import plan
 import tvimdesign as tvim
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.chunks import CellQueue
-from tvimdesign.sweep.job import Job
-from tvimdesign.sweep.work import Cell, CellAnswer
+from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 
 
 def answers(path: Path, order: list[int], *settings: str) -> dict[int, CellAnswer]:
     asked = plan(path, *settings)
-    found = CellAnswers(Job.of(asked))
+    found = CellAnswers(SweptStudy.of(asked))
     return {number: found.answer(Cell("", asked.points.texts(number))) for number in order}
 
 
@@ -43,7 +42,7 @@ def test_optimised_cells_are_the_same_in_any_order_and_an_infeasible_one_says_wh
 def test_a_worker_stays_with_cells_of_its_kind_and_cells_of_a_dead_one_are_tried_alone(study_file: Path) -> None:
     asked = plan(study_file, "sweep.over={pcl_thickness: [1 mm, 2 mm], rate_model: [smi, bending]}")
     cells = [Cell(str(number), asked.points.texts(number)) for number in range(4)]
-    left = CellQueue(cells, Job.of(asked), workers=2)
+    left = CellQueue(cells, SweptStudy.of(asked), workers=2)
     first, other, second = left.next(1), left.next(2), left.next(1)
     assert [one.texts[1] for one in (*first, *other, *second)] == ["smi", "bending", "smi"]
     left.done(1000, 1.0)
@@ -63,6 +62,6 @@ def test_own_records_are_found_by_a_worker_that_began_in_another_folder(
     (tmp_path / "study.yaml").write_text(study)
     monkeypatch.chdir(tmp_path)
     asked = plan(Path("study.yaml"))
-    job = Job.of(asked)
+    job = SweptStudy.of(asked)
     monkeypatch.chdir("/")
     assert CellAnswers(job).answer(Cell("key", asked.points.texts(0))).status == "evaluated"

@@ -15,7 +15,7 @@ from small_sweeps import SMALL, plan, swept, tables
 from support import ROOT, environment
 
 from tvimdesign.report.sweep.sweep_study import sweep_folder
-from tvimdesign.sweep.run_sweep import Where
+from tvimdesign.sweep.run_sweep import Executor
 from tvimdesign.sweep.shards import Shards
 
 pytestmark = pytest.mark.slow
@@ -46,7 +46,7 @@ def on_cluster(path: Path, out: Path, address: str, at: dict[int, Callable[[], A
         for count in [count for count in left if number >= count]:
             left.pop(count)()
 
-    where = Where(scheduler=address)
+    where = Executor(scheduler=address)
     told = sweep_folder(plan(path), out, where, heard, overwrite=False, resume=False, plots=False)
     assert not left
     run: dict[str, Any] = told["run"]

@@ -10,10 +10,9 @@ from small_sweeps import plan
 
 from tvimdesign.sweep.chunks import CellQueue
 from tvimdesign.sweep.cluster import Cluster
-from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.run_sweep import Usage
 from tvimdesign.sweep.shards import ShardWriter
-from tvimdesign.sweep.work import Cell
+from tvimdesign.sweep.work import Cell, SweptStudy
 
 
 class _Lost:
@@ -41,11 +40,11 @@ class _Scheduler:
 
 
 @pytest.fixture
-def job(study_file: Path) -> Job:
-    return Job.of(plan(study_file))
+def job(study_file: Path) -> SweptStudy:
+    return SweptStudy.of(plan(study_file))
 
 
-def test_cells_whose_reason_does_not_come_are_left(job: Job, tmp_path: Path) -> None:
+def test_cells_whose_reason_does_not_come_are_left(job: SweptStudy, tmp_path: Path) -> None:
     cells = [Cell(f"key {number}", ("0.6 mm", "20 mm")) for number in range(4)]
     left, cluster = CellQueue(cells, job, 1), Cluster("tcp://127.0.0.1:9", job, tmp_path)
     client: Any = _Scheduler()

@@ -21,15 +21,14 @@ from support import ROOT, Command, environment
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.output.shared_folder import joined
+from tvimdesign.report.sweep.shared_folder import joined
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.gather import write_parquet
-from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.plan import plan_of
 from tvimdesign.sweep.pool import Pool
-from tvimdesign.sweep.run_sweep import Where, run_sweep
+from tvimdesign.sweep.run_sweep import Executor, run_sweep
 from tvimdesign.sweep.shards import Shards
-from tvimdesign.sweep.work import Cell
+from tvimdesign.sweep.work import Cell, SweptStudy
 
 
 def rows(out: Path) -> list[dict[str, str]]:
@@ -94,7 +93,7 @@ def test_a_sweep_whose_workers_were_killed_in_a_line_is_resumed(
 ) -> None:
     out = tmp_path / "out"
     with joined(out) as folder:
-        run_sweep(plan_of(tree_of_file(study_file)), folder, Where(2), lambda _: None)
+        run_sweep(plan_of(tree_of_file(study_file)), folder, Executor(2), lambda _: None)
     for path in (folder / "shards").iterdir():
         path.write_bytes(path.read_bytes()[:-10])
     again = swept(study_file, out, resume=True, workers=1)
@@ -120,7 +119,7 @@ def test_a_sweep_over_fewer_values_finds_its_cells_there(study_file: Path, one_p
     out = tmp_path / "out"
     out.mkdir()
     (out / "shards").symlink_to(one_process / "shards")
-    asked, where = plan(study_file, "sweep.over.pcl_thickness=[0.6 mm, 2 mm]"), Where(workers=1)
+    asked, where = plan(study_file, "sweep.over.pcl_thickness=[0.6 mm, 2 mm]"), Executor(workers=1)
     done = run_sweep(asked, out, where, lambda _: None)
     assert (done.reused, done.computed, done.whole) == (4, 0, True)
 
@@ -177,7 +176,7 @@ def test_a_cell_that_kills_its_workers_is_a_row_and_the_others_are_kept(
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{ROOT}")
     asked = plan(study_file, "sweep.over.pcl_inner_radius=[20 mm]")
     cells = [Cell(f"{number:032x}", asked.points.texts(number)) for number in range(3)]
-    spent = Pool(Job.of(asked), tmp_path, 1).answer(cells, lambda _: None)
+    spent = Pool(SweptStudy.of(asked), tmp_path, 1).answer(cells, lambda _: None)
     shards = Shards(tmp_path, asked.columns)
     found = [kept.answer for kept in shards.kept(cell.key for cell in cells)]
     assert [one.status for one in found] == ["evaluated", "evaluated", "crashed"]
@@ -199,11 +198,11 @@ if sys.argv[0] == "-m" and "tvimdesign.sweep.worker" in sys.orig_argv:
 
 
 def test_where_a_sweep_is_computed_is_read_from_words() -> None:
-    assert Where.of(2, "", "").part == (1, 1)
-    assert Where.of(0, "", "3/8").part == (3, 8)
+    assert Executor.of(2, "", "").part == (1, 1)
+    assert Executor.of(0, "", "3/8").part == (3, 8)
     for wrong in ("0/3", "4/3", "a/3", "3", "1/"):
         with pytest.raises(InputError, match="expected part/parts"):
-            Where.of(0, "", wrong)
+            Executor.of(0, "", wrong)
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tvimdesign.api.figures import drawn
+from tvimdesign.api.notebook import drawn
 from tvimdesign.api.quantity import Quantity
 from tvimdesign.base.units import from_si, pretty
 
@@ -94,7 +94,7 @@ class Fitted:
         from tvimdesign.report.fit.fit_data import figure_data
 
         names = ", ".join(file.path.name for file in self._measured.files)
-        return drawn(Drawing("fit", "fit_figure.fit", figure_data(self._measured)), names)
+        return drawn(Drawing("fit", "analysis_figures.fit", figure_data(self._measured)), names)
 
     def record(self, name: str, *, based_on: str = "", catalog: File = "my_records", overwrite: bool = False) -> Path:
         """Write what was measured as a record of this name; returns its file. Raises InputError and CatalogError."""

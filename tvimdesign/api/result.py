@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tvimdesign.api import html
+from tvimdesign.api import notebook
+from tvimdesign.api.notebook import shown_progress
 from tvimdesign.api.quantity import Quantity
-from tvimdesign.api.shown_progress import shown_progress
 from tvimdesign.api.tables import constraint_table, interval_table, value_table
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
 from tvimdesign.base.units import from_si, parse_quantity
@@ -194,7 +194,7 @@ class Result:
 
     def plot(self, name: str = "cycle") -> Figure:
         """Draw a figure by name; in a notebook it shows. Raises InputError for a name there is not."""
-        from tvimdesign.api.figures import drawn
+        from tvimdesign.api.notebook import drawn
 
         found = {drawing.file: drawing for drawing in drawings(self._answered)}
         if name not in found:
@@ -289,5 +289,5 @@ class Result:
         values = [
             (name, str(self[name])) for name in names if name in self.design.values or name in self.design.choices
         ]
-        asked = html.grid(("asked", "got", "", "margin"), rows) + html.grid(("", "value"), values)
-        return html.heading(self.name, f"{self.design.mode} mode, {self.status}") + asked
+        asked = notebook.grid(("asked", "got", "", "margin"), rows) + notebook.grid(("", "value"), values)
+        return notebook.heading(self.name, f"{self.design.mode} mode, {self.status}") + asked

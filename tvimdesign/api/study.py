@@ -8,8 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tvimdesign.api import html
-from tvimdesign.api.shown_progress import shown_progress
+from tvimdesign.api import notebook
+from tvimdesign.api.notebook import shown_progress
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity
@@ -215,7 +215,7 @@ class Study:
         kept. Raises StudyError for a value that cannot be set.
         """
         from tvimdesign.api.sweep import swept
-        from tvimdesign.sweep.run_sweep import Where
+        from tvimdesign.sweep.run_sweep import Executor
 
         if out is None and (workers or scheduler or overwrite):
             raise InputError("sweep: workers keep their cells in a folder; name it with out=")
@@ -226,7 +226,7 @@ class Study:
             tree = self._changed("sweep", "", {"sweep": given})._tree
         else:
             tree = self._changed("sweep", "sweep.", given)._tree if self._tree.section("sweep") else self._tree
-        return swept(tree, Study._of, progress, out, Where(workers, scheduler), overwrite=overwrite)
+        return swept(tree, Study._of, progress, out, Executor(workers, scheduler), overwrite=overwrite)
 
     # --- what it looks like ---
 
@@ -241,7 +241,7 @@ class Study:
         rows += [(f"vary.{name}", _range(name, study)) for name in study.vary]
         rows += [(f"require.{limit.output}", limit.text) for limit in study.require]
         rows += [("minimize", ", ".join(f"{name}: {weight:g}" for name, weight in study.minimize.items()) or "nothing")]
-        return html.heading(study.name, _task(study)) + html.grid(("", "what the study says"), rows)
+        return notebook.heading(study.name, _task(study)) + notebook.grid(("", "what the study says"), rows)
 
 
 def _task(study: ResolvedStudy) -> str:

@@ -10,9 +10,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from tvimdesign.api import html
+from tvimdesign.api import notebook
+from tvimdesign.api.notebook import shown_progress
 from tvimdesign.api.result import Result
-from tvimdesign.api.shown_progress import shown_progress
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.report.run.answered_study import answer_study
@@ -20,13 +20,12 @@ from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.gather import Value, columns, told
-from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.keys import CellKeys
 from tvimdesign.sweep.plan import SweepPlan, plan_of
-from tvimdesign.sweep.run_sweep import Where
+from tvimdesign.sweep.run_sweep import Executor
 from tvimdesign.sweep.shards import Kept, Shards
 from tvimdesign.sweep.work import Cell as AskedCell
-from tvimdesign.sweep.work import CellAnswer
+from tvimdesign.sweep.work import CellAnswer, SweptStudy
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -68,7 +67,7 @@ class Sweep(Generic[StudyT]):
     study_of: Callable[[StudyTree], StudyT]
     """Makes the study of a cell."""
     folder: Path | None = None
-    """Where it is written; None where it is not."""
+    """Where it is written; None if it is not written."""
 
     @property
     def warm_solves(self) -> int:
@@ -107,7 +106,7 @@ class Sweep(Generic[StudyT]):
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
-        from tvimdesign.api.figures import shown
+        from tvimdesign.api.notebook import shown
 
         table, (first, *others) = self.table(name), [axis.name for axis in self.plan.axes]
         figure = Figure(figsize=(6.0, 3.8), layout="constrained")
@@ -132,7 +131,7 @@ class Sweep(Generic[StudyT]):
 
     @cached_property
     def _answers(self) -> CellAnswers:
-        return CellAnswers(Job.of(self.plan))
+        return CellAnswers(SweptStudy.of(self.plan))
 
     def __len__(self) -> int:
         """Count of cells."""
@@ -154,7 +153,7 @@ class Sweep(Generic[StudyT]):
                  for name in table.columns]  # fmt: skip
         rows = [[f"{value:.4g}" if isinstance(value, float) else str(value) for value in row]
                 for row in table.itertuples(index=False)]  # fmt: skip
-        return html.heading("Sweep", f"{len(self)} cells") + html.grid(heads, rows)
+        return notebook.heading("Sweep", f"{len(self)} cells") + notebook.grid(heads, rows)
 
 
 def _or_nan(value: Value) -> Value:
@@ -168,7 +167,7 @@ def _label(name: str, unit: str) -> str:
 
 def swept(
     tree: StudyTree, study_of: Callable[[StudyTree], StudyT], progress: bool, out: str | os.PathLike[str] | None,
-    where: Where, *, overwrite: bool,
+    where: Executor, *, overwrite: bool,
 ) -> Sweep[StudyT]:  # fmt: skip
     """Answer a study at every cell of its sweep: here, or by workers that keep what they find in the folder `out`.
 
@@ -185,7 +184,7 @@ def swept(
 
 
 def _here(plan: SweepPlan, say: Any) -> list[Kept]:
-    answers, found = CellAnswers(Job.of(plan)), list[Kept]()
+    answers, found = CellAnswers(SweptStudy.of(plan)), list[Kept]()
     known: dict[tuple[str, ...], CellAnswer] = {}
     for number in range(plan.count):
         say(f"cell {number + 1} of {plan.count}")

@@ -139,10 +139,10 @@ def sweep(
 ) -> None:
     """Answer every cell of a study's `sweep:` and gather them to a table, into results/<study>-sweep."""
     from tvimdesign.report.sweep.sweep_study import sweep_study
-    from tvimdesign.sweep.run_sweep import Where
+    from tvimdesign.sweep.run_sweep import Executor
 
     sweep_study(
-        study, out or Path("results") / f"{name_of(study)}-sweep", Where.of(workers, scheduler, shard),
+        study, out or Path("results") / f"{name_of(study)}-sweep", Executor.of(workers, scheduler, shard),
         overwrite=overwrite, resume=resume, parquet=parquet, plots=plots, as_json=json,
         settings=[*(settings or ()), *([f"solver.time_limit={time_limit}"] if time_limit else [])],
     )  # fmt: skip

@@ -15,11 +15,12 @@ from rich.markup import escape
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.page.blocks import Page
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.progress import progress_output, wide_console
+from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 
 PARTLY_DONE = "partly done"
 """Status in a manifest."""
+_AGAIN = "repeat the command with --overwrite"
 
 
 class Command:
@@ -30,12 +31,15 @@ class Command:
 
     def __init__(
         self, out: Path, *, overwrite: bool = False, as_json: bool = False, plots: bool = False, resume: bool = False,
-        keep: str = PROGRESS,
+        keep: str = PROGRESS, progress: Progress | None = None,
     ) -> None:  # fmt: skip
-        """Note what was asked; `keep` names the folder that a resumed command continues from."""
-        self.out, self.as_json = out, as_json
+        """Note what was asked.
+
+        `keep` names the folder that a resumed command continues from; `progress` replaces lines on standard error.
+        """
+        self.out, self.as_json, self.resume = out, as_json, resume
         self.failures: list[TvimError] = []
-        self._claim, self._plots = (overwrite, resume, keep), plots
+        self._claim, self._plots, self._progress = (overwrite, resume, keep), plots, progress
         self._plotter: PlotProcess | None = None
         self._drawn = False
         self._stack = ExitStack()
@@ -44,7 +48,7 @@ class Command:
         """Claim the folder and start what draws. Raises InputError."""
         with ExitStack() as stack:
             self.folder = stack.enter_context(ResultsFolder(self.out, *self._claim))
-            self.progress = stack.enter_context(progress_output())
+            self.progress = self._progress or stack.enter_context(progress_output())
             self._stack = stack.pop_all()
         if self._plots:
             self.start_plotter()
@@ -56,20 +60,22 @@ class Command:
 
     def start_plotter(self) -> None:
         """Start the process that draws, so that it is ready when there is something to draw."""
-        self._plotter = self._stack.enter_context(PlotProcess())
+        self._plotter = self._plotter or self._stack.enter_context(PlotProcess())
 
-    def begin_plots(self, drawings: Sequence[Drawing], study: str) -> None:
-        """Start to draw plots, signed with the study's name, unless no plots are asked for."""
+    def begin_plots(self, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
+        """Start to draw plots, signed with the study's name, if a plotter was started."""
         self._drawn = bool(drawings)
         if self._plotter and drawings:
-            self._plotter.begin(self.folder.path, drawings, study)
+            self._plotter.begin(self.folder.path, drawings, study, vector=vector)
 
-    def finish_plots(self, what: str = "drawing the figure") -> None:
-        """Wait for the plots; a failure is noted."""
+    def finish_plots(
+        self, what: str = "drawing the figure", again: str = "repeat the command with --overwrite"
+    ) -> None:
+        """Wait for the plots. A failure is noted; its message says how to draw them `again`."""
         if self._plotter and self._drawn:
             self.progress(what)
             with noting(self.failures):
-                self._plotter.finish()
+                self._plotter.finish(again)
 
     def finish(
         self, status: str, inputs: dict[str, Path], study: dict[str, Any], timing: dict[str, float] | None = None,

@@ -6,7 +6,7 @@ import time
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
 
-from tvimdesign.sweep.work import Cell, CellAnswer, Work
+from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 
 CHUNK = 0.5
 """Seconds that a chunk is to take."""
@@ -17,9 +17,11 @@ MOST = 1000
 class ChunkAnswers:
     """Answers chunks of some work, and says what each cell took."""
 
-    def __init__(self, job: Work) -> None:
+    def __init__(self, job: SweptStudy) -> None:
         """Nothing is compiled yet."""
-        self._answers = job.answers()
+        from tvimdesign.sweep.answers import CellAnswers  # loads CasADi, which only workers need
+
+        self._answers = CellAnswers(job)
 
     def answer(self, chunk: Sequence[tuple[str, Sequence[str]]]) -> list[tuple[str, CellAnswer, float]]:
         """Each cell's key, answer, and seconds of the processor; a cell comes as a pair, as JSON has it."""
@@ -34,7 +36,7 @@ class ChunkAnswers:
 class CellQueue:
     """The cells that are left, by kind: a worker stays with the kind it has compiled a module or a problem for."""
 
-    def __init__(self, cells: Iterable[Cell], job: Work, workers: int) -> None:
+    def __init__(self, cells: Iterable[Cell], job: SweptStudy, workers: int) -> None:
         """Sort the cells by the words they are set to."""
         self._groups: dict[Hashable, deque[Cell]] = {}
         self._numbers, self._workers = job.numbers, max(workers, 1)

@@ -17,7 +17,7 @@ from tvimdesign.base.extras import require_extra
 from tvimdesign.sweep.chunks import CellQueue, ChunkAnswers
 from tvimdesign.sweep.pool import Heard, Usage
 from tvimdesign.sweep.shards import ShardWriter
-from tvimdesign.sweep.work import Cell, CellAnswer, Work
+from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -63,7 +63,7 @@ def answer_chunk(job: bytes, cells: Sequence[Cell], version: str) -> dict[str, A
 class Cluster:
     """A dask scheduler by its address, and what is asked of it."""
 
-    def __init__(self, address: str, job: Work, folder: Path, gone: float = GONE) -> None:
+    def __init__(self, address: str, job: SweptStudy, folder: Path, gone: float = GONE) -> None:
         """Nothing is asked yet; a scheduler that ends is waited for `gone` seconds. Raises InputError."""
         require_extra("cluster", f"--scheduler {address}")
         import distributed

@@ -17,7 +17,7 @@ from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import OutputError, TvimError
 from tvimdesign.sweep.chunks import CellQueue
 from tvimdesign.sweep.shards import Shards, ShardWriter
-from tvimdesign.sweep.work import Cell, CellAnswer, Work
+from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 from tvimdesign.sweep.worker import packed
 
 Heard = Callable[["Usage"], None]
@@ -59,7 +59,7 @@ class _Worker:
 class Pool:
     """Some worker processes on one job, which keep their cells in shards of a folder."""
 
-    def __init__(self, job: Work, folder: Path, workers: int) -> None:
+    def __init__(self, job: SweptStudy, folder: Path, workers: int) -> None:
         """No process is started yet."""
         self._job, self._folder, self._count = job, folder, workers
         self._said: queue.Queue[tuple[int, str | None]] = queue.Queue()

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.sweep.job import Job
 from tvimdesign.sweep.keys import CellKeys
 from tvimdesign.sweep.plan import SweepPlan
-from tvimdesign.sweep.points import Texts
 from tvimdesign.sweep.pool import Pool, Usage
 from tvimdesign.sweep.shards import Shards
-from tvimdesign.sweep.work import Cell, Work
+from tvimdesign.sweep.work import Cell, SweptStudy
 
 Say = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Where:
+class Executor:
     """Who computes the cells: processes here, the workers of a scheduler, or this job of a batch system's array."""
 
     workers: int = 0
@@ -41,7 +39,7 @@ class Where:
         return bool(self.scheduler) or not self.alone
 
     @classmethod
-    def of(cls, workers: int, scheduler: str, shard: str) -> Where:
+    def of(cls, workers: int, scheduler: str, shard: str) -> Executor:
         """From the words of the command line; raises InputError for a shard that is none."""
         first, slash, last = shard.partition("/")
         if not shard:
@@ -72,41 +70,30 @@ class SweepDone:
         return not self.missing
 
 
-def run_sweep(plan: SweepPlan, folder: Path, where: Where, say: Say) -> SweepDone:
+def run_sweep(plan: SweepPlan, folder: Path, executor: Executor, say: Say) -> SweepDone:
     """Compute every cell of this part that the store in the folder does not have. Raises OutputError, TvimError."""
     say("looking for cells that are there")
-    keys, points = CellKeys(plan), plan.points
-    return run_cells(
-        Job.of(plan), [keys.key(points.texts(number)) for number in range(plan.count)], points.texts, folder, where, say
-    )  # fmt: skip
-
-
-def run_cells(
-    work: Work, keys: Sequence[str], texts: Callable[[int], Texts], folder: Path, where: Where, say: Say
-) -> SweepDone:  # fmt: skip
-    """Do every cell of this part that the store in the folder does not have; `texts` says what a cell is set to.
-
-    Raises OutputError, TvimError.
-    """
-    first, parts = where.part
+    cell_keys, points = CellKeys(plan), plan.points
+    work, keys = SweptStudy.of(plan), [cell_keys.key(points.texts(number)) for number in range(plan.count)]
+    first, parts = executor.part
     known, own = Shards(folder, work.columns), range(first - 1, len(keys), parts)
-    waiting = {keys[number]: Cell(keys[number], texts(number)) for number in own if keys[number] not in known}
+    waiting = {keys[number]: Cell(keys[number], points.texts(number)) for number in own if keys[number] not in known}
     reused = len(own) - sum(keys[number] in waiting for number in own)
     spent, there = Usage(), known
     if waiting:
-        spent = _answered(work, list(waiting.values()), folder, where, say)
+        spent = _answered(work, list(waiting.values()), folder, executor, say)
         there = Shards(folder, work.columns)
     missing = sum(key not in there for key in keys)
     return SweepDone(len(keys), reused, len(own) - reused, missing, spent, () if missing else tuple(keys))
 
 
-def _answered(work: Work, cells: list[Cell], folder: Path, where: Where, say: Say) -> Usage:
+def _answered(work: SweptStudy, cells: list[Cell], folder: Path, executor: Executor, say: Say) -> Usage:
     def heard(spent: Usage) -> None:
         say(f"cell {min(spent.cells + 1, len(cells))} of {len(cells)}")
 
     heard(Usage())
-    if where.scheduler:
+    if executor.scheduler:
         from tvimdesign.sweep.cluster import Cluster
 
-        return Cluster(where.scheduler, work, folder).answer(cells, heard)
-    return Pool(work, folder, where.workers or os.cpu_count() or 1).answer(cells, heard)
+        return Cluster(executor.scheduler, work, folder).answer(cells, heard)
+    return Pool(work, folder, executor.workers or os.cpu_count() or 1).answer(cells, heard)

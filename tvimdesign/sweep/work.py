@@ -1,15 +1,12 @@
-"""What a worker needs to answer cells: plain data that goes to another process or machine.
-
-A sweep is one kind of work. `compare`, `tolerate` and the parts of chosen cells are others: each says what is kept of
-its cells and who answers them, and goes the same way to processes, batch jobs and clusters.
-"""
+"""Plain data that a worker needs to answer the cells of a sweep, and what it answers."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from tvimdesign.study.tree import StudyTree
+from tvimdesign.sweep.plan import SweepPlan
 from tvimdesign.sweep.points import Texts
 
 
@@ -21,7 +18,7 @@ class Cell(NamedTuple):
 
 
 class CellAnswer(NamedTuple):
-    """What a cell came to."""
+    """The answer of a cell."""
 
     status: str
     """`evaluated`, `optimal`, `above_rating`, ... or `infeasible`, `refused`, `crashed`."""
@@ -37,31 +34,9 @@ class CellAnswer(NamedTuple):
     """Whether the search began at another cell's optimum and found this one's."""
 
 
-class Answers(Protocol):
-    """Answers cells one after another, in a process of its own or not."""
-
-    def answer(self, cell: Cell) -> CellAnswer:
-        """What a cell comes to, whatever was answered before."""
-
-
-class Work(Protocol):
-    """The same for every cell: plain data that can be pickled."""
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the values that are kept of a cell."""
-
-    @property
-    def numbers(self) -> tuple[bool, ...]:
-        """For each text of a cell: whether what was prepared for another one serves whatever it says."""
-
-    def answers(self) -> Answers:
-        """Who answers the cells; called where they are answered."""
-
-
 @dataclass(frozen=True)
 class SweptStudy:
-    """A study, and what is set in each of its cells."""
+    """A study, and what is set in each of its cells; it can be pickled."""
 
     tree: StudyTree
     names: tuple[str, ...]
@@ -71,7 +46,11 @@ class SweptStudy:
     columns: tuple[str, ...]
     evaluate: bool
 
-
-def with_absolute_paths(tree: StudyTree) -> StudyTree:
-    """The tree with its folder's whole path: a worker may have begun in another one."""
-    return replace(tree, folder=tree.folder.resolve())
+    @classmethod
+    def of(cls, plan: SweepPlan) -> SweptStudy:
+        """Return the work of a plan; its folder is a whole path, since a worker may start in another one."""
+        axes = plan.axes
+        return cls(
+            replace(plan.tree, folder=plan.tree.folder.resolve()), tuple(axis.name for axis in axes),
+            tuple(axis.number for axis in axes), plan.columns, plan.task == "evaluate",
+        )  # fmt: skip

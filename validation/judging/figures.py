@@ -11,8 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 
 from judging.outcome import Compared, Outcome
-from tvimdesign.report.figures.theme.canvas import new_figure, place
-from tvimdesign.report.figures.theme.style import BAND, COLOURS, LIMIT, MARKERS, style_of
+from tvimdesign.report.figures.theme import BAND, COLOURS, LIMIT, MARKERS, new_figure, place, style_of
 
 _WIDTH, _HEIGHT = 3.4, 2.1
 _WIDE = 30.0

@@ -9,7 +9,7 @@ from comparable import COARSE, COMPRESSION, entrants, written
 
 from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.compare.comparison_job import ComparisonJob
-from tvimdesign.report.compare.comparison_plot_data import drawings
+from tvimdesign.report.compare.comparison_page import drawings
 from tvimdesign.report.compare.comparison_summary import summary_text
 from tvimdesign.study.tree import tree_of_file
 

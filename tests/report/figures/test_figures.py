@@ -17,7 +17,7 @@ from PIL import Image
 from tests.helpers.figures import faults, signed
 from tvimdesign.device import table_for
 from tvimdesign.report.figures import plot_process
-from tvimdesign.report.figures.theme.canvas import as_file, png
+from tvimdesign.report.figures.theme import as_file, png
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -67,14 +67,14 @@ def test_an_editor_finds_no_fault(name: str, found: StudyResult) -> None:
 def test_bounds_have_room_for_any_number_of_limits(count: int, data: dict[str, Any]) -> None:
     groups = data["bounds"]["margins"]
     many = [group | {"rows": (group["rows"] * (count // len(group["rows"]) + 1))[:count]} for group in groups]
-    figure = drawn("bounds_figure.bounds", data["bounds"] | {"margins": many if count else []})
+    figure = drawn("design_figures.bounds", data["bounds"] | {"margins": many if count else []})
     assert faults(signed(figure)) == []
 
 
 def test_a_margin_beyond_the_scale_ends_in_an_arrow_and_has_its_number() -> None:
     row = {"name": "free angle ≤ 1", "margin": -2315.0, "finite": True, "kind": "broken", "text": "−23.2"}
     group = {"unit": "%", "title": "What must hold", "label": "Margin, of the limit (%)", "rows": [row]}
-    (axes,) = drawn("bounds_figure.bounds", {"free": [], "margins": [group]}).axes
+    (axes,) = drawn("design_figures.bounds", {"free": [], "margins": [group]}).axes
     (bar,) = axes.patches
     assert bar.get_width() == -100.0
     assert [line.get_marker() for line in axes.lines if line.get_marker() in "<>"] == ["<"]

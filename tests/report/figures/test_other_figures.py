@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.figures import faults, signed
-from tvimdesign.report.figures import comparison_figures, front_figure, paper_figures, tolerance_figure
+from tvimdesign.report.figures import analysis_figures, comparison_figures, design_figures, paper_figures
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.simulate_study import figure_data
 from tvimdesign.report.virtual_tests import TESTS, find_test
@@ -69,7 +69,7 @@ LABELS = ["Response time (s)", "Module mass (g)", "Envelope volume (cm³)"]
 def test_an_editor_finds_no_fault_with_a_front(outputs: int) -> None:
     points = [[100.0 + i, 110.0 - i, 240.0 - 3.0 * i][:outputs] for i in range(8)]
     data = {"labels": LABELS[:outputs], "points": points, "optimum": points[4], "knee": 6}
-    assert faults(signed(front_figure.front(data))) == []
+    assert faults(signed(design_figures.front(data))) == []
 
 
 def test_an_editor_finds_no_fault_with_a_comparison() -> None:
@@ -91,7 +91,7 @@ def test_an_editor_finds_no_fault_with_a_spread() -> None:
              "edges": [4.8, 5.0, 5.2, 5.4, 5.6], "limits": [5.2], "as_drawn": 5.2}  # fmt: skip
     for count in (1, 3, 4, 6):
         data = {"outputs": names, "parts": parts, "panels": [panel] * count}
-        assert faults(signed(tolerance_figure.spread(data))) == []
+        assert faults(signed(analysis_figures.spread(data))) == []
 
 
 def test_an_editor_finds_no_fault_with_the_paper_s_case() -> None:

@@ -14,10 +14,19 @@ from fontTools.ttLib import TTFont
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tvimdesign.report.figures.swings import drawn
-from tvimdesign.report.figures.theme.axes import log_ticks, plain
-from tvimdesign.report.figures.theme.canvas import as_file, new_figure, place
-from tvimdesign.report.figures.theme.style import BROKEN, COLOURS, LINE_STYLES, luminance, style_of
+from tvimdesign.report.figures.theme import (
+    BROKEN,
+    COLOURS,
+    LINE_STYLES,
+    as_file,
+    log_ticks,
+    luminance,
+    new_figure,
+    place,
+    plain,
+    style_of,
+)
+from tvimdesign.report.figures.virtual_test_figures import drawn
 from tvimdesign.report.output.axis_labels import axis_label, name_in_words
 
 OKABE_ITO = {"#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7"}

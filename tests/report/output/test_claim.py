@@ -8,7 +8,6 @@ import platform
 import subprocess
 import sys
 import time
-from contextlib import ExitStack
 from pathlib import Path
 
 import psutil
@@ -20,7 +19,8 @@ from tvimdesign.base.errors import FolderInUseError
 from tvimdesign.base.journal import RUN, UNFINISHED
 from tvimdesign.report.output.claim import FORMAT
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.shared_folder import gatherer, joined
+from tvimdesign.report.sweep.shared_folder import joined
+from tvimdesign.sweep.shards import SHARDS
 
 
 def test_a_folder_another_run_is_writing_is_refused(tmp_path: Path) -> None:
@@ -99,17 +99,13 @@ def test_jobs_share_a_folder_and_one_of_them_gathers(tmp_path: Path) -> None:
         atomic_write(first / "shards/00001.jsonl", b"cells")
         with pytest.raises(FolderInUseError):
             ResultsFolder(tmp_path, overwrite=True)
-        with ExitStack() as stack:
-            assert gatherer(stack, tmp_path) is None
-    with ExitStack() as stack:
-        folder = gatherer(stack, tmp_path)
-        assert folder is not None
+        with pytest.raises(FolderInUseError):
+            ResultsFolder(tmp_path, resume=True, progress=SHARDS)
+    with ResultsFolder(tmp_path, resume=True, progress=SHARDS) as folder:
         folder.finish("swept", {}, {})
     assert texts(tmp_path) == {"shards/00001.jsonl": "cells"}
     with joined(tmp_path) as again:  # cells that are there are used again
         assert (again / "shards/00001.jsonl").read_text() == "cells"
-    with ExitStack() as stack:
-        folder = gatherer(stack, tmp_path)
-        assert folder is not None
+    with ResultsFolder(tmp_path, resume=True, progress=SHARDS) as folder:
         folder.finish("swept", {}, {})
     assert texts(tmp_path) == {"shards/00001.jsonl": "cells"}

@@ -11,7 +11,7 @@ import pytest
 from robot_models import model_of, module_of
 
 from tvimdesign.report.robot.joint_model import JointModel
-from tvimdesign.report.robot.mjcf import mjcf
+from tvimdesign.report.robot.model_files import mjcf
 from tvimdesign.simulation.joint_tests.release import release
 from tvimdesign.simulation.trial import Trial
 

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from cad_designs import CASES, design_of, whole
 
-from tvimdesign.report.robot.rigid_bodies import make_bodies
+from tvimdesign.report.robot.joint_model import make_bodies
 from tvimdesign.study.design import write_design
 
 

@@ -7,7 +7,7 @@ from robot_models import model_of, module_of
 from urdf_parser_py import xml_reflection
 from urdf_parser_py.urdf import URDF
 
-from tvimdesign.report.robot.urdf import urdf
+from tvimdesign.report.robot.model_files import urdf
 
 
 def _refuse(message: str) -> None:

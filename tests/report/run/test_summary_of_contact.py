@@ -7,7 +7,7 @@ import pytest
 from comparable import COMPRESSION, SHEAR
 from stiff_when_warm import LOSSLESS
 
-from tvimdesign.report.compare.comparison_plot_data import _from_where_it_moves
+from tvimdesign.report.compare.comparison_page import _from_where_it_moves
 from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.solve.result import answer
 from tvimdesign.study import drawn, read_study_text

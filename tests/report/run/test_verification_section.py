@@ -18,7 +18,7 @@ from tvimdesign.report.run.verification_section import (
     verification_sections,
 )
 from tvimdesign.report.verify.comparison import Compared
-from tvimdesign.report.verify.verify_tables import verified
+from tvimdesign.report.verify.verify_report import verified
 
 ROWS = [Compared("hub", "N*m/rad", "frozen joint", model=400.0, fe=505.0, coarse=500.0)]
 

@@ -9,10 +9,9 @@ from typing import Any
 import pytest
 from small_sweeps import SMALL, plan
 
-from tvimdesign.report.sweep import sweep_drawing
-from tvimdesign.report.sweep.sweep_drawing import DRAWN_FROM, KeptFigure, kept_figure
-from tvimdesign.report.sweep.sweep_study import sweep_folder
-from tvimdesign.sweep.run_sweep import Where
+from tvimdesign.report import command
+from tvimdesign.report.sweep.sweep_study import DRAWN_FROM, KeptFigure, kept_figure, sweep_folder
+from tvimdesign.sweep.run_sweep import Executor
 
 pytestmark = pytest.mark.slow
 
@@ -20,7 +19,7 @@ pytestmark = pytest.mark.slow
 def _swept(folder: Path, *, resume: bool) -> None:
     study = folder / "small.yaml"
     study.write_text(SMALL)
-    sweep_folder(plan(study), folder / "out", Where(workers=1), lambda _: None, overwrite=False, resume=resume)
+    sweep_folder(plan(study), folder / "out", Executor(workers=1), lambda _: None, overwrite=False, resume=resume)
 
 
 def test_the_figure_of_a_finished_sweep_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -33,7 +32,7 @@ def test_the_figure_of_a_finished_sweep_stays(tmp_path: Path, monkeypatch: pytes
         raise AssertionError("nothing is to be drawn")
 
     with monkeypatch.context() as patched:
-        patched.setattr(sweep_drawing, "PlotProcess", none)
+        patched.setattr(command, "PlotProcess", none)
         _swept(tmp_path, resume=True)
     assert {path.name: path.read_bytes() for path in out.glob("sweep.*")} == before
     assert set(json.loads((out / "manifest.json").read_text())["files"]) >= set(before)

@@ -14,7 +14,7 @@ from support import ROOT
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cad.fe.run_solvers import Solved
-from tvimdesign.report.verify import comparison, verify_design, verify_tables
+from tvimdesign.report.verify import comparison, verify_design, verify_report
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
@@ -118,11 +118,11 @@ def test_a_time_that_one_of_the_two_has_not_is_left_out(tmp_path: Any) -> None:
 def test_the_worst_comes_first_and_is_named(tmp_path: Any) -> None:
     rows = comparison.compared(MODULE, solved(tmp_path, factor=3.0), TIMES)
     assert [abs(math.log(row.ratio)) for row in rows] == sorted((abs(math.log(r.ratio)) for r in rows), reverse=True)
-    assert "hub" in verify_tables.summary(rows)
-    page = verify_tables.page("x", rows, solved(tmp_path), pictures=True)
+    assert "hub" in verify_report.summary(rows)
+    page = verify_report.page("x", rows, solved(tmp_path), pictures=True)
     assert page.count("\n| ") == 2 + len(rows) + 5
     assert "![joint](joint.png)" in page
-    table = verify_tables.table_csv(rows).splitlines()
+    table = verify_report.table_csv(rows).splitlines()
     assert len(table) == 1 + len(rows)
 
 
@@ -146,7 +146,7 @@ def test_rigid_modules_are_refused_in_a_vane_alone(study: str, drawn: bool) -> N
 def test_a_time_that_did_not_come_is_told_as_none() -> None:
     # `machined_compression` is not soft by FE: JSON has no word for infinity.
     heat = Solved({"softening_time": math.inf, "mean_time": 3.0}, {"softening_time": math.inf}, Path())
-    told = json.loads(json.dumps(verify_tables.verified([], {"heat": heat}), allow_nan=False))
+    told = json.loads(json.dumps(verify_report.verified([], {"heat": heat}), allow_nan=False))
     assert told["solved"]["heat"] == {
         "fine": {"softening_time": None, "mean_time": 3.0},
         "coarse": {"softening_time": None},

@@ -8,8 +8,7 @@ from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.page_file import page_html
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.verify.comparison import Compared
-from tvimdesign.report.verify.verify_page import verify_page
-from tvimdesign.report.verify.verify_tables import far
+from tvimdesign.report.verify.verify_report import far, verify_page
 
 PIXEL = bytes.fromhex(
     "89504e470d0a1a0a0000000d4948445200000001000000010806000000"

@@ -13,8 +13,7 @@ from tvimdesign.report.command import Command, design_file, done_in_part
 from tvimdesign.report.compare.children import Asked, answers
 from tvimdesign.report.compare.compared_design import finished_run, nothing_found
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
-from tvimdesign.report.compare.comparison_page import comparison_page
-from tvimdesign.report.compare.comparison_plot_data import drawings
+from tvimdesign.report.compare.comparison_page import comparison_page, drawings
 from tvimdesign.report.compare.comparison_summary import print_comparison, summary_text
 from tvimdesign.report.compare.comparison_table import compare_csv
 from tvimdesign.report.output.results_folder import ResultsFolder

@@ -1,16 +1,104 @@
-"""The page of a comparison: what follows first, then the studies side by side, their fronts and curves."""
+"""The page of a comparison, and what its figures are drawn from."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
+from tvimdesign.base.units import from_si
 from tvimdesign.page.blocks import Block, Drawn, Folded, Listing, Page, Points, Section, Warned, Words
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
-from tvimdesign.report.compare.comparison_plot_data import drawings
 from tvimdesign.report.compare.comparison_summary import side_by_side, told_rows, warnings_of
+from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.output.page_sections import made_by_words, there, tone_of, versions_section
 from tvimdesign.report.output.results_folder import ResultsFolder
+
+_STILL = 1e-3
+"""Share of its angle by which a released link has moved where its curve begins: the axis of time is logarithmic."""
+
+
+def drawings(outcome: Outcome) -> list[Drawing]:
+    """Every picture there is something for."""
+    found = []
+    if outcome.fronts:
+        found.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
+    if any(outcome.which in answer["release"] for answer in outcome.found.values()):
+        found.append(Drawing("release", "virtual_test_figures.trial", _release(outcome)))
+    if any(outcome.which in answer["heat"] for answer in outcome.found.values()):
+        found.append(Drawing("heat", "comparison_figures.heat", _heat(outcome)))
+    return found
+
+
+def _title(outcome: Outcome, of: str) -> str:
+    return f"{of}, {COMPARISONS[outcome.which]}"
+
+
+def _fronts(outcome: Outcome) -> dict[str, Any]:
+    panels = []
+    for (first, second), fronts in outcome.fronts.items():
+        units = {name: outcome.unit(name) for name in (first, second)}
+
+        def shown(name: str, values: Any, units: dict[str, str] = units) -> float:
+            return from_si(values[name], units[name])
+
+        lines = []
+        for label, front in fronts.items():
+            points = sorted((shown(second, p["values"]), shown(first, p["values"])) for p in front["points"])
+            optimum = outcome.designs["optimised"][label].values
+            lines.append({
+                "label": label, "x": [x for x, _ in points], "y": [y for _, y in points],
+                "optimum": [[shown(second, optimum)], [shown(first, optimum)]],
+            })  # fmt: skip
+        axes = {f"{axis}_label": axis_label(name, units[name]) for axis, name in (("x", second), ("y", first))}
+        panels.append({"lines": lines, **axes})
+    return {"title": "Fronts; filled: each study's optimum", "panels": panels}
+
+
+def _release(outcome: Outcome) -> dict[str, Any]:
+    """A panel for each operating point, a colour for each study."""
+    panels: dict[str, dict[str, Any]] = {}
+    for label, found in outcome.found.items():
+        release = found["release"].get(outcome.which, {})
+        for line in release.get("lines", ()):
+            point, _, rest = line["label"].partition(", ")
+            temperature, _, history = rest.partition(", ")
+            panel = panels.setdefault(point, {
+                "title": f"{point}, {temperature}", "x_label": release["x_label"],
+                "y_label": release["y_label"], "log_x": True, "log_y": False, "lines": [],
+            })  # fmt: skip
+            panel["lines"].append({**line, "label": f"{label}, {history}" if history else label})
+    for panel in panels.values():
+        panel["lines"] = _from_where_it_moves(panel["lines"])
+    return {"title": _title(outcome, "Released from the same angle"), "panels": list(panels.values())}
+
+
+def _from_where_it_moves(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Lines of a panel from the time on at which the first of them has left where it began by a thousandth."""
+    start = min(_begins_to_move(line["x"], line["y"]) for line in lines)
+    found = []
+    for line in lines:
+        kept = [pair for pair in zip(line["x"], line["y"], strict=True) if pair[0] >= start]
+        found.append({**line, "x": [x for x, _ in kept], "y": [y for _, y in kept]})
+    return found
+
+
+def _begins_to_move(times: list[float], angles: list[float]) -> float:
+    still = _STILL * abs(angles[0])
+    return next((x for x, y in zip(times, angles, strict=True) if abs(y - angles[0]) > still), times[-1])
+
+
+def _heat(outcome: Outcome) -> dict[str, Any]:
+    which = outcome.which
+    studies = [
+        {"label": label, **found["heat"][which]} for label, found in outcome.found.items() if which in found["heat"]
+    ]
+    every = [value for one in studies for row in one["temperature"] for value in row]
+    design = outcome.designs[which][studies[0]["label"]]
+    melting = [from_si(design.value(name), "degC") for name in ("pcl_melting_start", "pcl_melting_end")]
+    title = _title(outcome, "Heat through the PCL until the switch ends (lines: melting range)")
+    return {"title": title, "studies": studies, "coldest": min(every), "hottest": max(every), "melting": melting}
+
 
 _FILES = {"summary.txt": "all of this as text", "compare.csv": "every output", "fronts.csv": "the fronts"}
 _LINES = {

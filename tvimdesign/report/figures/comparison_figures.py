@@ -8,9 +8,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.theme.axes import TICKS, heading
-from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
-from tvimdesign.report.figures.theme.style import MARKERS, WIDTH, style_of
+from tvimdesign.report.figures.theme import MARKERS, TICKS, WIDTH, caption, heading, new_figure, place, style_of
 
 _LEFT, _GAP = 0.62, 0.65  # inches
 

@@ -8,9 +8,21 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.theme.axes import TICKS, heading, legend_above, legend_beside, log_ticks
-from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
-from tvimdesign.report.figures.theme.style import BAND, LIMIT, SEQUENCE, SMALL, style_of
+from tvimdesign.report.figures.theme import (
+    BAND,
+    LIMIT,
+    SEQUENCE,
+    SMALL,
+    TICKS,
+    caption,
+    heading,
+    legend_above,
+    legend_beside,
+    log_ticks,
+    new_figure,
+    place,
+    style_of,
+)
 
 _PHASES = (
     ("softening", "heating"),

@@ -6,9 +6,21 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from tvimdesign.report.figures.theme.axes import TICKS, heading, legend_above, log_ticks
-from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
-from tvimdesign.report.figures.theme.style import BAND, COLOURS, LIMIT, SMALL, WIDTH, style_of
+from tvimdesign.report.figures.theme import (
+    BAND,
+    COLOURS,
+    LIMIT,
+    SMALL,
+    TICKS,
+    WIDTH,
+    caption,
+    heading,
+    legend_above,
+    log_ticks,
+    new_figure,
+    place,
+    style_of,
+)
 
 
 def impedance(data: dict[str, Any]) -> Figure:

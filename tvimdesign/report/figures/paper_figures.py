@@ -10,9 +10,19 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tvimdesign.report.figures.theme.axes import TICKS, log_ticks, row_texts
-from tvimdesign.report.figures.theme.canvas import caption, new_figure, place
-from tvimdesign.report.figures.theme.style import COLOURS, HATCHES, MARKERS, SMALL, style_of
+from tvimdesign.report.figures.theme import (
+    COLOURS,
+    HATCHES,
+    MARKERS,
+    SMALL,
+    TICKS,
+    caption,
+    log_ticks,
+    new_figure,
+    place,
+    row_texts,
+    style_of,
+)
 
 _LETTERS = 36
 """Of a line of a label below a panel."""

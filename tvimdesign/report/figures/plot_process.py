@@ -99,9 +99,7 @@ def main() -> None:
     follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
-    from tvimdesign.report.figures.warm_up import warm_up
-
-    warm_up()
+    _warm_up()
     request = json.load(sys.stdin)
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
@@ -120,9 +118,26 @@ def main() -> None:
     raise SystemExit(1)
 
 
+def _warm_up() -> None:
+    """Load the figures of every run and draw on every kind of axes, so that fonts and caches are ready."""
+    from tvimdesign.report.figures.theme import log_ticks, new_figure, place, png
+
+    for name in ("design_figures", "cycle_figures", "module_figures"):
+        import_module(f"tvimdesign.report.figures.{name}")
+    figure = new_figure(3.0)
+    linear, logarithmic = place(figure, 0.5, 0.5, 2.0, 2.0), place(figure, 4.0, 0.5, 2.0, 2.0)
+    linear.plot([0.0, 1.0], label="°")
+    linear.barh([0.0], [1.0], hatch="//")
+    linear.legend(title="text")
+    logarithmic.semilogy([1.0, 1e3])
+    log_ticks(logarithmic.yaxis)
+    png(figure)
+    import_module("fontTools.subset")  # what cuts a PDF's fonts
+
+
 def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
     """Write every plot in the first ending, which people look at, before any in another."""
-    from tvimdesign.report.figures.theme.canvas import as_file, sign
+    from tvimdesign.report.figures.theme import as_file, sign
 
     figures = {}
     first, *others = request["endings"]

@@ -39,7 +39,7 @@ def fit_files(
         command.progress("fitting")
         measured = measure_files(paths, kind, given, column_map)
         names = ", ".join(path.name for path in paths)
-        command.begin_plots([Drawing("fit", "fit_figure.fit", figure_data(measured))], names)
+        command.begin_plots([Drawing("fit", "analysis_figures.fit", figure_data(measured))], names)
         written: dict[str, Path] = {}
         try:
             written = write_records(measured, catalog, record, based_on, overwrite=overwrite) if record else {}

@@ -23,8 +23,7 @@ from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.paper import paper_case
-from tvimdesign.report.paper.paper_claims import from_paper
-from tvimdesign.report.paper.published_module import published_model
+from tvimdesign.report.paper.published_module import from_paper, published_model
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, level_set
 

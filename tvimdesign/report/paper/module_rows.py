@@ -8,8 +8,8 @@ from collections.abc import Callable
 from tvimdesign.base.units import from_si
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.springs import transmission
-from tvimdesign.report.paper.paper_claims import from_paper
 from tvimdesign.report.paper.published_module import (
+    from_paper,
     published_model,
     published_module,
     published_rate,

@@ -19,7 +19,7 @@ from tvimdesign.base.record import Entry, Record
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Input, table_for
-from tvimdesign.report.paper.paper_claims import from_paper
+from tvimdesign.report.paper.published_module import from_paper
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.ratio_sensitivity import Array, Influence, Pair, Span, ratio
 from tvimdesign.study import given, read_study_text

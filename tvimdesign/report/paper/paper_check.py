@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 from functools import cache
 
 from tvimdesign.report.paper import module_rows, rheometer_rows, spring_rows
-from tvimdesign.report.paper.paper_claims import claims
+from tvimdesign.report.paper.published_module import claims
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,13 @@ from tvimdesign.base.units import from_si, to_si
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.springs import spring, transmission
-from tvimdesign.report.paper.paper_claims import from_paper
-from tvimdesign.report.paper.published_module import published_module, published_rate, published_values, spring_rate
+from tvimdesign.report.paper.published_module import (
+    from_paper,
+    published_module,
+    published_rate,
+    published_values,
+    spring_rate,
+)
 
 OTHER_PIN = 38e-3
 """A pin elsewhere than the ratio of one asks [m]."""

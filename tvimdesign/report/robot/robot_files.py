@@ -1,4 +1,4 @@
-"""A design's joint for robot simulators, from its file to a finished folder and what the terminal says."""
+"""The command robot, from a design to a finished folder: models, tables, FMU, and what the terminal shows."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.report.command import Command, design_file
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.page_sections import grid
@@ -15,15 +16,65 @@ from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import curves_csv, number
 from tvimdesign.report.output.terminal import print_grid
-from tvimdesign.report.robot import state_tables
 from tvimdesign.report.robot.fmu.fmu_file import WrittenFmu, write_fmu
-from tvimdesign.report.robot.joint_model import JointModel, joint_model, refuse_step
-from tvimdesign.report.robot.mjcf import mjcf
-from tvimdesign.report.robot.rigid_bodies import make_bodies
-from tvimdesign.report.robot.urdf import urdf
+from tvimdesign.report.robot.joint_model import JointModel, joint_model, make_bodies, refuse_step
+from tvimdesign.report.robot.model_files import mjcf, urdf
 from tvimdesign.report.run.parts_of_design import refuse_failed
-from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.simulation.working_cycle.curves import impedance_sweep
+from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design, write_design
+
+Columns = dict[str, list[float]]
+UNITS = {
+    "temperature": "degC", "frequency": "Hz", "stiffness": "N*m/rad", "damping": "N*m*s/rad", "springs": "N*m/rad",
+    "friction": "N*m", "relaxation_time": "s", "joint_stiffness": "N*m/rad", "joint_damping": "N*m*s/rad",
+}  # fmt: skip
+"""Of the columns; what is not here has none."""
+
+
+def unit_of(column: str) -> str:
+    """Unit of a column, also of the least and the largest value of one."""
+    return UNITS.get(column.removesuffix("_low").removesuffix("_high"), "1")
+
+
+def states(model: JointModel) -> Columns:
+    """A row for each state: at which frequency the whole joint has which stiffness and damping, and its friction."""
+    return {
+        "temperature": [state.temperature - ZERO_CELSIUS for state in model.states],
+        "frequency": [state.frequency for state in model.states],
+        "stiffness": [state.stiffness for state in model.states],
+        "damping": [state.damping for state in model.states],
+        "springs": [state.springs for state in model.states],
+        "friction": [state.friction for state in model.states],
+    }
+
+
+def elements(model: JointModel) -> Columns:
+    """A row for each Maxwell element of each state, beside the springs: all of the joint's linear behaviour."""
+    rows = [(state.temperature, time, k) for state in model.states for time, k in state.modes]
+    temperatures, times, stiffnesses = (list(column) for column in zip(*rows, strict=True))
+    return {
+        "temperature": [value - ZERO_CELSIUS for value in temperatures],
+        "relaxation_time": times,
+        "stiffness": stiffnesses,
+    }
+
+
+def over_temperature(resolved: ResolvedModule, model: JointModel) -> Columns:
+    """Stiffness and damping of the joint against temperature, at the hot point's frequency, as heated.
+
+    `..._low` and `..._high` are the least and the largest over what the PCL's history allows.
+    """
+    swept = impedance_sweep(resolved)
+    kept = [name for name in swept if name.startswith(("joint_", "solid_fraction"))]
+    frequency = float(resolved.quantity("frequency@hot"))
+    count = len(swept["temperature"])
+    return {
+        "temperature": swept["temperature"],
+        "frequency": [frequency] * count,
+        **{name: swept[name] for name in kept},
+        "springs": [model.states[0].springs] * count,
+    }
 
 
 def write_robot(path: Path, out: Path, step: float | None, *, overwrite: bool, as_json: bool) -> None:
@@ -52,12 +103,12 @@ def write_models(
         folder.write(f"joint_{state.point}.xml", mjcf(model, state))
         folder.write(f"joint_{state.point}.urdf", urdf(model, state))
     tables = {
-        "states": state_tables.states(model),
-        "elements": state_tables.elements(model),
-        "temperatures": state_tables.over_temperature(resolved, model),
+        "states": states(model),
+        "elements": elements(model),
+        "temperatures": over_temperature(resolved, model),
     }
     for name, columns in tables.items():
-        units = {column: state_tables.unit_of(column) for column in columns}
+        units = {column: unit_of(column) for column in columns}
         folder.write(f"{name}.csv", curves_csv(columns, units, "1"))
     progress("FMU")
     fmu = write_fmu(resolved, folder.path / "joint.fmu")
@@ -95,7 +146,7 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
 def _print_model(model: JointModel, fmu: WrittenFmu, console: Console) -> None:
     console.print(f"[bold]{escape(model.name)}[/bold]: joint for simulators, time step {number(1e3 * model.step)} ms")
     rows = []
-    for row, state in zip(zip(*state_tables.states(model).values(), strict=True), model.states, strict=True):
+    for row, state in zip(zip(*states(model).values(), strict=True), model.states, strict=True):
         temperature, frequency, stiffness, damping = row[:4]
         rows.append((state.point, *map(number, (temperature, stiffness, damping, frequency))))
     heads = ("state", "°C", "stiffness N·m/rad", "damping N·m·s/rad", "at Hz")

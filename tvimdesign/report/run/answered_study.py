@@ -164,5 +164,5 @@ def drawings(answered: AnsweredStudy) -> list[Drawing]:
         return []
     found = run_plot_data.drawings(answered.result, answered.study.table)
     if answered.heat_map.get("values"):
-        found.append(Drawing("sensitivities", "sensitivity_figure.sensitivities", answered.heat_map))
+        found.append(Drawing("sensitivities", "design_figures.sensitivities", answered.heat_map))
     return found + answered.front.drawings()

@@ -98,7 +98,7 @@ class FrontOfRun:
         """Return its figure, where it has points."""
         if self.front is None or self.optimum is None or not self.front.points:
             return []
-        return [Drawing("front", "front_figure.front", figure_data(self.front, self.optimum, self.table))]
+        return [Drawing("front", "design_figures.front", figure_data(self.front, self.optimum, self.table))]
 
 
 def of_ratings(point: Point, study: Mapping[str, Any], table: Table) -> dict[str, Any]:

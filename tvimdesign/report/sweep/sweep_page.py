@@ -1,29 +1,141 @@
-"""The page of a sweep: what was swept and how, its figures, the cells, those without an answer, and how to open one."""
+"""The page of a sweep: what was swept and how, figures, cells as tables, and the commands that open a cell."""
 
 from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
+import shlex
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from tvimdesign import __version__
-from tvimdesign.base.units import pretty
-from tvimdesign.page.blocks import Block, Facts, Folded, Listing, Page, Section, Words
+from tvimdesign.base.units import from_si, pretty
+from tvimdesign.device import Choice
+from tvimdesign.page.blocks import Block, Cell, Facts, Folded, Grid, Head, Listing, Page, Section, Tone, Words
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
-from tvimdesign.report.sweep.cell_commands import CellCommands
-from tvimdesign.report.sweep.cell_grids import cells_grid, failed_grid
 from tvimdesign.report.sweep.cell_table import CellTable
-from tvimdesign.report.sweep.sweep_page_figures import figures
-from tvimdesign.report.sweep.sweep_plot_data import figure_data
+from tvimdesign.report.sweep.sweep_figures import figure_data, figures
+from tvimdesign.study import given
 from tvimdesign.study.tree import study_file
+from tvimdesign.sweep.gather import Column, Value, columns
 from tvimdesign.sweep.plan import SweepPlan
 from tvimdesign.sweep.points import written
+
+_DIGITS = 12
+_PLAIN = frozenset('"$`\\!')
+"""Characters that double quotes do not keep as they are."""
+
+
+class CellCommands:
+    """Writes the commands of a sweep's cells; `out` is its folder."""
+
+    def __init__(self, plan: SweepPlan, out: Path) -> None:
+        """Find what every command has: the study, and what a run of it is to leave out."""
+        self._plan, self._out = plan, out
+        path = plan.tree.path
+        changed = path is None or bool(plan.written.changes)
+        study = str(out / "study.yaml" if path is None or changed else path)
+        self._study = shlex.quote(study)
+        folder = plan.study.catalog_folder
+        self._always = [f"catalog={Path(folder).resolve()}"] if changed and folder else []
+        self._always += ["front="] if plan.written.section("front") else []
+        self._always += _starts(plan) if plan.task == "evaluate" else []
+
+    def run(self, cell: int) -> str:
+        """Do the cell, by its number from 1, as a study of its own."""
+        return f"tvimdesign run {self._study} {self._settings(cell)} --out {shlex.quote(f'{self._out}-cell-{cell}')}"
+
+    def explore(self, cell: int) -> str:
+        """Open the cell in the explorer."""
+        out = shlex.quote(f"{self._out}-cell-{cell}-explore")
+        return f"tvimdesign explore {self._study} {self._settings(cell)} --out {out}"
+
+    def _settings(self, cell: int) -> str:
+        texts = self._plan.points.texts(cell - 1)
+        here = [f"{axis.name}={text}" for axis, text in zip(self._plan.axes, texts, strict=True)]
+        return " ".join(f"--set {_quoted(setting)}" for setting in [*here, *self._always])
+
+
+def _starts(plan: SweepPlan) -> list[str]:
+    """What a cell that is only evaluated has where the study varies something: its start, which a run would leave."""
+    numbers, settings = given(plan.first), []
+    for name in plan.first.vary:
+        value, row = numbers[name], plan.study.table.by_name[name]
+        if isinstance(row, Choice):
+            settings.append(f"{name}={getattr(value, 'name', value)}")
+            continue
+        unit = plan.unit(name)
+        settings.append(f"{name}={from_si(float(value), unit):.{_DIGITS}g}{'' if unit == '1' else f' {unit}'}")
+    return settings
+
+
+def _quoted(setting: str) -> str:
+    """A setting as shells of all systems take it."""
+    return shlex.quote(setting) if _PLAIN & set(setting) else f'"{setting}"'
+
+
+MOST_OUTPUTS = 12
+"""Outputs of the page's table; `cells.csv` has all."""
+_TONES: dict[str, Tone] = {"infeasible": "bad", "refused": "bad", "crashed": "bad", "above_rating": "warn"}
+_NEVER = 1e300
+
+
+def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
+    """A row a cell; of many cells every second, third, ... and of many outputs the first."""
+    every = columns(plan)
+    outputs = [column for column in every if column.kind == "output"]
+    shown = [column for column in every if column.kind in {"cell", "axis"} or column.name in {"status", "broken"}]
+    shown += outputs[:MOST_OUTPUTS]
+    return Grid("Cells", _heads(shown), [_row(row, shown) for row in seen.listed], _left_out(plan, seen, len(outputs)))
+
+
+def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
+    """The cells that have no answer, with the reason of each."""
+    told = {"status", "reason"}
+    shown = [column for column in columns(plan) if column.kind in {"cell", "axis"} or column.name in told]
+    left = seen.failures - len(seen.failed)
+    note = f"The first {len(seen.failed)} of {seen.failures}; `reason` in cells.csv has all." if left else ""
+    return Grid("Cells without an answer", _heads(shown), [_row(row, shown) for row in seen.failed], note)
+
+
+def _left_out(plan: SweepPlan, seen: CellTable, outputs: int) -> str:
+    """What the table does not show, and where that is."""
+    said = []
+    if seen.every_listed > 1:
+        said.append(f"{len(seen.listed)} of {plan.count} cells are in this table, one in {seen.every_listed}")
+    if outputs > MOST_OUTPUTS:
+        said.append(f"the first {MOST_OUTPUTS} of {outputs} outputs are in it")
+    return f"{'; '.join(said)}. cells.csv and cells.sqlite have all.".capitalize() if said else ""
+
+
+def _heads(shown: list[Column]) -> list[Head]:
+    return [Head(f"{one.name} [{pretty(one.unit)}]" if pretty(one.unit) not in {"", "1"} else one.name, bool(one.unit))
+            for one in shown]  # fmt: skip
+
+
+def _row(row: dict[str, Value], shown: list[Column]) -> list[Cell]:
+    return [_cell(row[column.name], column) for column in shown]
+
+
+def _cell(value: Value, column: Column) -> Cell:
+    if value is None:
+        return Cell("")
+    if isinstance(value, str):
+        return Cell(value.replace("_", " ") if column.name == "status" else value, tone=_tone(value, column))
+    if column.name in {"cell", "broken"}:
+        return Cell(str(int(value)), value, "warn" if column.name == "broken" and value else "")
+    return Cell(number(value), value if math.isfinite(value) else math.copysign(_NEVER, value))
+
+
+def _tone(value: str, column: Column) -> Tone:
+    return _TONES.get(value, "") if column.name == "status" else ""
+
 
 _FILES = {
     "cells.csv": "every cell as CSV", "cells.sqlite": "as SQLite", "cells.parquet": "as Parquet",

@@ -1,91 +1,140 @@
-"""The command `sweep`, from a study file to a finished folder: the order of things, and what is written."""
+"""The command sweep, from a study file to a finished folder: the order of things, what is written and shown."""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.errors import TvimError
-from tvimdesign.report.command import PARTLY_DONE, done_in_part, not_done, noting
+from rich.console import Console
+from rich.markup import escape
+
+from tvimdesign import __version__
+from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import pretty
+from tvimdesign.page.page_file import FILE
+from tvimdesign.report.command import Command, not_done
+from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.progress import Progress, progress_output, wide_console
-from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.shared_folder import gatherer, joined, say_part
+from tvimdesign.report.output.progress import Progress, duration, progress_output, wide_console
+from tvimdesign.report.output.tables import number
 from tvimdesign.report.sweep.cell_table import CellTable
-from tvimdesign.report.sweep.sweep_drawing import DRAWN_FROM, KeptFigure, SweepDrawing, kept_figure
+from tvimdesign.report.sweep.shared_folder import joined, say_part
+from tvimdesign.report.sweep.sweep_figures import figure_data
 from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
-from tvimdesign.report.sweep.sweep_screen import print_sweep
 from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
 from tvimdesign.sweep.plan import SweepPlan, plan_of
-from tvimdesign.sweep.run_sweep import SweepDone, Where, run_sweep
+from tvimdesign.sweep.run_sweep import Executor, SweepDone, run_sweep
 from tvimdesign.sweep.shards import SHARDS, Shards
+
+DRAWN_FROM = "drawn_from"
+"""Name of the figure's mark in sweep.json."""
+
+
+def print_sweep(told: dict[str, Any], plan: SweepPlan, console: Console) -> None:
+    """Print how the cells ended, the best of them, and where to look first."""
+    run = told["run"]
+    done = "evaluated" if told["task"] == "evaluate" else "optimised"
+    console.print(f"[bold]{escape(told['study'])}[/bold]: {told['cells']} cells {done} ({told['method']})")
+    ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in told["statuses"].items())
+    console.print(f"  {escape(ended)}", soft_wrap=True)
+    console.print(f"  {run['reused']} reused, {run['computed']} computed in {duration(run['seconds'])}{_work(run)}")
+    for name, best in told["best"].items():
+        console.print(f"  least {name}: {_best(best, plan)}", soft_wrap=True)
+    if not told["best"]:
+        console.print("  no cell keeps every limit: `reason` in the table says which limits each breaks")
+
+
+def _work(run: dict[str, Any]) -> str:
+    if not run["computed"]:
+        return ""
+    each = f", {1e3 * run['cells_s'] / max(run['cells'], 1):.0f} ms of the processor a cell"
+    died = f", {run['died']} workers died and were replaced" if run["died"] else ""
+    return each + died
+
+
+def _best(best: dict[str, Any], plan: SweepPlan) -> str:
+    texts = plan.points.texts(int(best["cell"]) - 1)
+    at = ", ".join(f"{axis.name} {text}" for axis, text in zip(plan.axes, texts, strict=True))
+    unit = pretty(best["unit"])
+    return escape(f"{number(best['value'])}{f' {unit}' if unit else ''} in cell {best['cell']:g} ({at})")
 
 
 def sweep_study(
-    path: Path, out: Path, where: Where, *, overwrite: bool, resume: bool, parquet: bool, plots: bool, as_json: bool,
-    settings: Sequence[str] = (),
+    path: Path, out: Path, executor: Executor, *, overwrite: bool, resume: bool, parquet: bool, plots: bool,
+    as_json: bool, settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
     """Sweep a study and write its folder. Raises InputError, OutputError, and TvimError for a cluster that is gone."""
     if parquet:
         parquet_library()
     plan = plan_of(tree_of_file(path, settings))
-    if not where.alone:
-        _part(plan, out, where, overwrite=overwrite, parquet=parquet, plots=plots, as_json=as_json)
-        return
-    with progress_output() as progress:
-        told = sweep_folder(
-            plan, out, where, progress, overwrite=overwrite, resume=resume, parquet=parquet, plots=plots
-        )
-    _say(told, plan, out, as_json=as_json)
+    options = {"parquet": parquet, "plots": plots}
+    if executor.alone:
+        command = Command(out, overwrite=overwrite, as_json=as_json, resume=resume, keep=SHARDS)
+        told = _swept(plan, executor, command, **options)
+    else:
+        command = Command(out, as_json=as_json, resume=True, keep=SHARDS)
+        part = _part(plan, executor, command, overwrite=overwrite, **options)
+        if part is None:
+            return
+        told = part
+    command.report(told, lambda console: print_sweep(told, plan, console), f"{FILE} and the tables are")
 
 
 def sweep_folder(
-    plan: SweepPlan, out: Path, where: Where, progress: Progress, *, overwrite: bool, resume: bool,
-    parquet: bool = False, plots: bool = True,
+    plan: SweepPlan, out: Path, executor: Executor, progress: Progress, *, overwrite: bool, resume: bool,
+    plots: bool = True,
 ) -> dict[str, Any]:  # fmt: skip
-    """Answer every cell into a folder with tables, figure and page; returns what is told. Raises as `sweep_study`."""
-    with ExitStack() as stack:
-        kept = kept_figure(out) if resume else KeptFigure()
-        page = kept_page(out) if resume else b""
-        figure = SweepDrawing(stack, kept) if plots and plan.study.write.plots else None
-        folder = stack.enter_context(ResultsFolder(out, overwrite, resume, SHARDS))
-        if figure:
-            figure.expect()
+    """Answer every cell into a folder with tables, figure and page; return what is in sweep.json, and the run's times.
+
+    Raises as `sweep_study`.
+    """
+    command = Command(out, overwrite=overwrite, resume=resume, keep=SHARDS, progress=progress)
+    return _swept(plan, executor, command, parquet=False, plots=plots)
+
+
+def _swept(plan: SweepPlan, executor: Executor, command: Command, *, parquet: bool, plots: bool) -> dict[str, Any]:
+    resume = command.resume
+    kept = (kept_figure(command.out), kept_page(command.out)) if resume else (KeptFigure(), b"")
+    with command:
+        if plots and plan.study.write.plots and not kept[0].mark:
+            command.start_plotter()  # while the cells are computed
         began = time.perf_counter()
-        done = run_sweep(plan, folder.path, where, progress)
-        return _gathered(plan, folder, done, progress, figure, page, parquet=parquet, began=began)
+        done = run_sweep(plan, command.folder.path, executor, command.progress)
+        return _gathered(plan, command, done, kept, parquet=parquet, plots=plots, began=began)
 
 
 def _part(
-    plan: SweepPlan, out: Path, where: Where, *, overwrite: bool, parquet: bool, plots: bool, as_json: bool
-) -> None:
-    """One job of an array: its cells alone; the job after which every cell is there gathers them."""
+    plan: SweepPlan, executor: Executor, command: Command, *, overwrite: bool, parquet: bool, plots: bool
+) -> dict[str, Any] | None:
+    """Compute the cells of one job of an array; gather all cells if none is missing then, else return None."""
+    began = time.perf_counter()
+    with joined(command.out, overwrite=overwrite) as shared, progress_output() as progress:
+        done = run_sweep(plan, shared, executor, progress)
     with ExitStack() as stack:
-        progress = stack.enter_context(progress_output())
-        began = time.perf_counter()
-        with joined(out, overwrite=overwrite) as shared:
-            done = run_sweep(plan, shared, where, progress)
-        folder = gatherer(stack, out) if done.whole else None
-        if folder is None:
-            say_part(done, where, out, wide_console(), as_json=as_json)
-            return
-        figure = SweepDrawing(stack, KeptFigure()) if plots and plan.study.write.plots else None
-        told = _gathered(plan, folder, done, progress, figure, parquet=parquet, began=began)
-    _say(told, plan, out, as_json=as_json)
+        try:
+            gatherer = stack.enter_context(command) if done.whole else None
+        except InputError:  # another job, which ended at the same time, gathers
+            gatherer = None
+        if gatherer:
+            return _gathered(plan, command, done, (KeptFigure(), b""), parquet=parquet, plots=plots, began=began)
+    say_part(done, executor, command.out, wide_console(), as_json=command.as_json)
+    return None
 
 
 def _gathered(
-    plan: SweepPlan, folder: ResultsFolder, done: SweepDone, progress: Progress, figure: SweepDrawing | None,
-    kept: bytes = b"", *, parquet: bool, began: float,
+    plan: SweepPlan, command: Command, done: SweepDone, kept: tuple[KeptFigure, bytes], *, parquet: bool, plots: bool,
+    began: float,
 ) -> dict[str, Any]:  # fmt: skip
-    """Write the tables, the figure, the page and the manifest; returns what is told. `kept` is the page of before."""
-    progress("gathering the cells")
+    """Write the tables, the figure, the page and the manifest; `kept` are figure and page of an earlier sweep."""
+    folder = command.folder
+    command.progress("gathering the cells")
     seen = CellTable(plan)
     every = seen.seeing(rows(plan, done.keys, Shards(folder.path, plan.columns)))
     write_tables(plan, every, folder.path)
@@ -96,32 +145,58 @@ def _gathered(
         "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
         "columns": [column._asdict() for column in columns(plan)],
     }  # fmt: skip
-    if plan.study.catalog_folder:  # the explorer reads study.yaml, whose own word for it is as seen from elsewhere
+    if plan.study.catalog_folder:  # the explorer reads study.yaml, whose own path is relative to another folder
         found["catalog"] = str(Path(plan.study.catalog_folder).resolve())
     folder.write("study.yaml", study_file(plan.written))
     folder.write_json("sweep.json", found)
-    failures: list[TvimError] = []
-    if figure:
-        with noting(failures):
-            found[DRAWN_FROM] = figure.draw(plan, seen, folder)
+    if plots and plan.study.write.plots:
+        mark = _draw(plan, command, figure_data(plan, seen), kept[0])
+        if not command.failures:
+            found[DRAWN_FROM] = mark
             folder.write_json("sweep.json", found)
-    write_sweep_page(plan, seen, folder, kept)
+    write_sweep_page(plan, seen, folder, kept[1])
     spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
     seconds = time.perf_counter() - began
     timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}
-    status = PARTLY_DONE if failures else "swept"
-    folder.finish(
-        status, {"study": plan.tree.path} if plan.tree.path else {}, {"solver": {"seed": plan.block.seed}}, timing
-    )
-    progress("")
-    return {**found, "run": timing, "folder": str(folder.out), **not_done(failures)}
+    inputs = {"study": plan.tree.path} if plan.tree.path else {}
+    command.finish("swept", inputs, {"solver": {"seed": plan.block.seed}}, timing)
+    return {**found, "run": timing, "folder": str(folder.out), **not_done(command.failures)}
 
 
-def _say(told: dict[str, Any], plan: SweepPlan, out: Path, *, as_json: bool) -> None:
-    """Print the results. Raises TvimError if the figure is missing."""
-    if as_json:
-        print(json.dumps(told, indent=2, allow_nan=False))
-    else:
-        print_sweep(told, plan, out, wide_console())
-    if told["not_done"]:
-        raise done_in_part([TvimError(text) for text in told["not_done"]])
+@dataclass(frozen=True)
+class KeptFigure:
+    """Files of a figure, and the mark of what it was drawn from; both empty where there is none."""
+
+    mark: str = ""
+    files: dict[str, bytes] = field(default_factory=dict)
+
+
+def mark_of(data: dict[str, Any], *, vector: bool) -> str:
+    """Mark of a figure: of its data, its forms, and the version that draws it."""
+    text = json.dumps([__version__, vector, data], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def kept_figure(folder: Path) -> KeptFigure:
+    """The figure that a folder has; its files are read, as a sweep that is resumed clears them away."""
+    try:
+        mark = json.loads((folder / "sweep.json").read_bytes()).get(DRAWN_FROM, "")
+        files = {path.name: path.read_bytes() for path in folder.glob("sweep.*") if path.suffix != ".json"}
+    except (OSError, ValueError, AttributeError):
+        return KeptFigure()
+    return KeptFigure(mark, files) if mark and files else KeptFigure()
+
+
+def _draw(plan: SweepPlan, command: Command, data: dict[str, Any], kept: KeptFigure) -> str:
+    """Draw the figure, or restore an earlier one that was drawn from the same; return its mark."""
+    vector, folder = plan.study.write.vector, command.folder
+    mark = mark_of(data, vector=vector)
+    if mark == kept.mark:
+        for name, content in kept.files.items():
+            folder.write(name, content)
+        return mark
+    command.start_plotter()
+    command.begin_plots([Drawing("sweep", "analysis_figures.sweep", data)], plan.study.name, vector=vector)
+    folder.look_up_versions()
+    command.finish_plots(again="repeat the command with --resume")
+    return mark

@@ -12,7 +12,7 @@ from typing import Any
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.sweep.cell_table import MOST_LISTED
-from tvimdesign.report.sweep.sweep_page_figures import CELL_WORDS, cell_points
+from tvimdesign.report.sweep.sweep_figures import CELL_WORDS, cell_points
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.tree import StudyTree, tree_of_file, without_section
 from tvimdesign.sweep.gather import Value

@@ -16,17 +16,19 @@ from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.tolerate.tolerance_page import tolerance_page
-from tvimdesign.report.tolerate.tolerance_plot_data import figure_data
-from tvimdesign.report.tolerate.tolerance_screen import print_tolerances
-from tvimdesign.report.tolerate.tolerance_tables import (
+from tvimdesign.report.tolerate.tolerance_data import (
     as_csv,
     contributor_rows,
+    epistemic_uncertainty,
+    figure_data,
     limit_rows,
     output_rows,
     reported,
+    unknown_data,
+    unknown_rows,
+    unknown_sentences,
 )
-from tvimdesign.report.tolerate.unknown import epistemic_uncertainty, unknown_data, unknown_rows, unknown_sentences
+from tvimdesign.report.tolerate.tolerance_report import print_tolerances, tolerance_page
 from tvimdesign.report.tolerate.words import sentences
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import power_of_two
@@ -78,7 +80,7 @@ def tolerate_study(
             before, _ = _analysed(analyses[1], count)
             data["cost_of_robustness"] = _price(before, found, table, study)
         _write(folder, source, subject, data, found, table)
-        command.begin_plots([Drawing("spread", "tolerance_figure.spread", figure_data(found, table))], study.name)
+        command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(found, table))], study.name)
         command.finish_plots()
         page = tolerance_page(folder, study.name, found, data, table, source.read_text("utf-8"))
         command.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"), page=page)

@@ -19,8 +19,7 @@ from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.verification_section import put_on_page
 from tvimdesign.report.verify.comparison import HEAT, SOLVERS, TIMES, Compared, compared
-from tvimdesign.report.verify.verify_page import verify_page
-from tvimdesign.report.verify.verify_tables import page, print_rows, table_csv, verified
+from tvimdesign.report.verify.verify_report import page, print_rows, table_csv, verified, verify_page
 from tvimdesign.report.verify.warm_joint import WarmJoint, softening_time
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
 from tvimdesign.study.design import Design, read_design

@@ -1,16 +1,32 @@
-"""The figure of a design between its bounds, and of the margin to every limit, in the limit's own unit."""
+"""Figures of an optimum: ends of ranges and limits, sensitivities, and the front."""
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tvimdesign.report.figures.theme.axes import TICKS, heading, row_texts
-from tvimdesign.report.figures.theme.canvas import new_figure, place
-from tvimdesign.report.figures.theme.style import BROKEN, COLOURS, FAINT, NAME_STRIP
+from tvimdesign.report.figures.theme import (
+    BROKEN,
+    COLOURS,
+    FAINT,
+    NAME_STRIP,
+    SEQUENCE,
+    TICKS,
+    WIDTH,
+    caption,
+    heading,
+    new_figure,
+    place,
+    row_texts,
+    style_of,
+)
 
 _ROW = 0.155  # inches
 _LEFT, _WIDE = 2.75, 3.0  # inches: names stand left of the axes, numbers right of them
@@ -92,3 +108,67 @@ def _legend(figure: Figure, data: dict[str, Any]) -> None:
         marks.append(Line2D([], [], marker=">", color="black", linestyle="", markersize=3.0, label="beyond the scale"))
     if marks:
         figure.legend(handles=marks, loc="lower center", ncols=len(marks))
+
+
+_STRONGEST = 3.0
+"""Elasticity from which on colours are the same: a few fourth powers would leave all else pale."""
+_DARK = 0.6
+_WRITTEN = 0.05
+_LEFT, _BELOW = 2.3, 1.4  # inches
+
+
+def sensitivities(data: dict[str, Any]) -> Figure:
+    """Outputs down, variables across; red rises with the variable, blue falls, and the number says which."""
+    values = np.array(data["values"])
+    down, across = values.shape
+    width, high = max(WIDTH, _LEFT + 0.35 * across + 0.2), 0.18 * down
+    figure = new_figure(high + _BELOW + 0.6, width)
+    axes = place(figure, _LEFT, _BELOW, width - _LEFT - 0.2, high)
+    axes.imshow(values, aspect="auto", cmap="RdBu_r", norm=Normalize(-_STRONGEST, _STRONGEST))
+    for (i, j), value in np.ndenumerate(values):
+        if abs(value) >= _WRITTEN:
+            colour = "white" if abs(value) > _DARK * _STRONGEST else "black"
+            axes.text(j, i, f"{value:+.2g}", ha="center", va="center", fontsize=5.5, color=colour)
+    axes.set(xticks=range(across), yticks=range(down))
+    axes.set_xticklabels(data["variables"], rotation=45, ha="right", rotation_mode="anchor")
+    axes.set_yticklabels(data["outputs"])
+    axes.grid(visible=False)
+    caption(figure, "Change of the output (%) for 1 % more of the variable")
+    return figure
+
+
+def front(data: dict[str, Any]) -> Figure:
+    """Points of a front, the knee and the weighted optimum; of three outputs the first is the colour of the points."""
+    labels, points = data["labels"], data["points"]
+    pairs = list(itertools.combinations(range(len(labels)), 2))
+    key = 0.62 if len(labels) > 2 else 0.0  # inches below the panels: the scale of colours
+    figure = new_figure(2.85 + key)
+    gap, left = 0.65, 0.62
+    wide = min((WIDTH - left - 0.15 - gap * (len(pairs) - 1)) / len(pairs), 4.5)
+    scale = Normalize(min(point[0] for point in points), max(point[0] for point in points))
+    for i, (x, y) in enumerate(pairs):
+        axes = place(figure, left + i * (wide + gap), 0.45 + key, wide, 1.85)
+        across, up = [point[x] for point in points], [point[y] for point in points]
+        if len(labels) == 2:
+            axes.plot(across, up, marker="o", label="front", **style_of(0))
+        else:
+            axes.scatter(across, up, c=[point[0] for point in points], cmap=SEQUENCE, norm=scale, s=16, label="front")
+        _marks(axes, data, x, y)
+        axes.set(xlabel=labels[x], ylabel=labels[y])
+        axes.locator_params(nbins=TICKS)
+    figure.legend(*axes.get_legend_handles_labels(), loc="upper right", ncols=3)
+    if key:
+        colours = place(figure, 1.8, 0.4, 3.5, 0.1)
+        figure.colorbar(ScalarMappable(scale, SEQUENCE), cax=colours, orientation="horizontal", label=labels[0])
+    return figure
+
+
+def _marks(axes: Any, data: dict[str, Any], x: int, y: int) -> None:
+    if data["knee"] is not None:
+        knee = data["points"][data["knee"]]
+        axes.plot(
+            knee[x], knee[y], linestyle="", marker="D", color=BROKEN, markersize=8, fillstyle="none", label="knee"
+        )
+    optimum = data["optimum"]
+    axes.plot(optimum[x], optimum[y], linestyle="", marker="*", color=COLOURS[1], markeredgecolor="black",
+              markeredgewidth=0.5, markersize=9, label="weighted optimum")  # fmt: skip

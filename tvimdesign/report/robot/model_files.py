@@ -1,19 +1,34 @@
-"""The joint in MuJoCo's format (MJCF): a hinge with its springs, and the PCL as hinges behind springs.
-
-A hinge is a `joint` of a body that carries nothing, a spring a fixed tendon over the difference of two angles. PCL that
-freezes at an angle therefore holds the link there, and the angle of a hinge is the state of its element.
-Source of what the words mean: MuJoCo documentation, XML reference (joint, tendon/fixed, keyframe).
-"""
+"""The joint as MJCF and URDF files, and how their XML is written."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
 from xml.etree import ElementTree as Xml
 
-from tvimdesign.report.robot.joint_model import JointModel, header
+from tvimdesign.report.robot.joint_model import JointModel, RigidBody, header
 from tvimdesign.report.robot.joint_state import JointState
 from tvimdesign.report.robot.maxwell_hinges import JOINT, Hinge, MaxwellHinges, Spring, held_angles, maxwell_hinges
-from tvimdesign.report.robot.rigid_bodies import RigidBody
-from tvimdesign.report.robot.xml_text import comment, document, numbers
+
+
+def numbers(*values: float) -> str:
+    """Numbers as an attribute has them, to ten digits."""
+    return " ".join(f"{value:.10g}" for value in values)
+
+
+def comment(lines: Sequence[str]) -> Xml.Element[Any]:
+    """Lines as a comment; two hyphens, which XML does not allow in one, become one."""
+    text = "\n".join(lines)
+    while "--" in text:
+        text = text.replace("--", "-")
+    return Xml.Comment(f"\n{text}\n")
+
+
+def document(root: Xml.Element) -> str:
+    """The whole file."""
+    Xml.indent(root)
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + Xml.tostring(root, encoding="unicode") + "\n"
+
 
 _NEARLY_NOTHING = 1e-14
 """Inertia of a body that only carries a hinge [kg*m^2], a little above MuJoCo's least."""
@@ -108,3 +123,43 @@ def _load(parent: Xml.Element, inertia: float) -> None:
         load, "inertial", pos="0 0 0", mass=numbers(_NEARLY_NOTHING),
         diaginertia=numbers(_ACROSS * inertia, _ACROSS * inertia, inertia),
     )  # fmt: skip
+
+
+_NO_STIFFNESS = (
+    "URDF has no stiffness of a joint: the file has the damping and friction of the state; the stiffness is in "
+    "states.csv."
+)
+
+
+def urdf(model: JointModel, state: JointState) -> str:
+    """One state of the joint as a URDF file."""
+    root = Xml.Element("robot", name=f"{model.slug}_{state.point}")
+    root.append(comment([*header(model, state), _NO_STIFFNESS]))
+    for body in (model.base, model.moving):
+        _link(root, body)
+    joint = Xml.SubElement(root, "joint", name=JOINT, type="revolute")
+    Xml.SubElement(joint, "origin", xyz="0 0 0", rpy="0 0 0")
+    Xml.SubElement(joint, "parent", link=model.base.name)
+    Xml.SubElement(joint, "child", link=model.moving.name)
+    Xml.SubElement(joint, "axis", xyz="0 0 1")
+    Xml.SubElement(
+        joint, "limit", lower=numbers(-model.stroke), upper=numbers(model.stroke),
+        effort=numbers(model.holding_torque), velocity=numbers(model.quickest),
+    )  # fmt: skip
+    Xml.SubElement(joint, "dynamics", damping=numbers(state.damping), friction=numbers(state.friction))
+    return document(root)
+
+
+def _link(root: Xml.Element, body: RigidBody) -> None:
+    link = Xml.SubElement(root, "link", name=body.name)
+    inertial = Xml.SubElement(link, "inertial")
+    Xml.SubElement(inertial, "origin", xyz=numbers(*body.centre), rpy="0 0 0")
+    Xml.SubElement(inertial, "mass", value=numbers(body.mass))
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = body.inertia
+    Xml.SubElement(
+        inertial, "inertia", ixx=numbers(xx), ixy=numbers(xy), ixz=numbers(xz), iyy=numbers(yy), iyz=numbers(yz),
+        izz=numbers(zz),
+    )  # fmt: skip
+    visual = Xml.SubElement(link, "visual")
+    Xml.SubElement(visual, "origin", xyz="0 0 0", rpy="0 0 0")
+    Xml.SubElement(Xml.SubElement(visual, "geometry"), "mesh", filename=body.mesh)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 
 from rich.console import Console
@@ -15,8 +15,8 @@ from tvimdesign.base.errors import FolderInUseError, InputError
 from tvimdesign.base.journal import recorded
 from tvimdesign.report.output.claim import IN_PARTS, Claim
 from tvimdesign.report.output.replace_results import seed
-from tvimdesign.report.output.results_folder import ResultsFolder, prepare, recovered, say
-from tvimdesign.sweep.run_sweep import SweepDone, Where
+from tvimdesign.report.output.results_folder import prepare, recovered, say
+from tvimdesign.sweep.run_sweep import Executor, SweepDone
 from tvimdesign.sweep.shards import SHARDS
 
 
@@ -54,23 +54,15 @@ def _prepare_jobs(out: Path) -> None:
         claim.release(remove=False)
 
 
-def gatherer(stack: ExitStack, out: Path) -> ResultsFolder | None:
-    """Return the folder for the job that gathers; None where another one, which ended at the same time, does."""
-    try:
-        return stack.enter_context(ResultsFolder(out, resume=True, progress=SHARDS))
-    except InputError:
-        return None
-
-
-def say_part(done: SweepDone, where: Where, out: Path, console: Console, *, as_json: bool) -> None:
+def say_part(done: SweepDone, executor: Executor, out: Path, console: Console, *, as_json: bool) -> None:
     """Print what one job of an array has done."""
     told = {"cells": done.cells, "reused": done.reused, "computed": done.computed, "missing": done.missing}
     if as_json:
-        print(json.dumps({**told, "shard": list(where.part), "process": os.getpid(), "folder": str(out)}, indent=2))
+        print(json.dumps({**told, "shard": list(executor.part), "process": os.getpid(), "folder": str(out)}, indent=2))
         return
     others = f"{done.missing} of {done.cells} cells are still with other parts"
     console.print(
-        f"Part {where.part[0]} of {where.part[1]}: {done.reused} cells reused, {done.computed} computed; "
+        f"Part {executor.part[0]} of {executor.part[1]}: {done.reused} cells reused, {done.computed} computed; "
         f"{others if done.missing else 'all cells are there'}. The part that ends last gathers them in "
         f"[bold]{escape(str(out))}[/bold]",
         soft_wrap=True,

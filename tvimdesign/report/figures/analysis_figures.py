@@ -1,0 +1,177 @@
+"""Figures of a tolerance analysis, a fit and a sweep."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from tvimdesign.report.figures.theme import (
+    BROKEN,
+    COLOURS,
+    FAINT,
+    HATCHES,
+    LIMIT,
+    NAME_STRIP,
+    SEQUENCE,
+    SMALL,
+    TICKS,
+    WIDTH,
+    caption,
+    heading,
+    log_ticks,
+    new_figure,
+    place,
+    row_texts,
+    style_of,
+)
+
+_ACROSS = 3
+
+
+def spread(data: dict[str, Any]) -> Figure:
+    """Bars of contributors above, histograms with limits below."""
+    panels, outputs = data["panels"], data["outputs"]
+    down = -(-len(panels) // _ACROSS)
+    bars_high, row = 0.17 * len(outputs) + 0.1, 1.85
+    keys = 0.14 * -(-len(data["parts"]) // 4) + 0.1
+    figure = new_figure(NAME_STRIP + keys + bars_high + 0.5 + row * down + 0.3)
+    top = figure.get_figheight() - NAME_STRIP - keys
+    _contributors(place(figure, 2.0, top - bars_high, 4.9, bars_high), data)
+    for i, panel in enumerate(panels):
+        bottom = top - bars_high - 0.5 - row * (i // _ACROSS + 1) + 0.5
+        _histogram(place(figure, 0.6 + (i % _ACROSS) * 2.28, bottom, 1.75, 1.0), panel)
+    marks = [Line2D([], [], color=BROKEN, linewidth=1.5, label="limit"), Line2D([], [], label="as drawn", **LIMIT)]
+    figure.legend(handles=marks, loc="lower center", ncols=2)
+    return figure
+
+
+def _contributors(axes: Any, data: dict[str, Any]) -> None:
+    rows = range(len(data["outputs"]))
+    left = [0.0] * len(rows)
+    for i, part in enumerate(data["parts"]):
+        colour = COLOURS[i] if i < len(COLOURS) else FAINT
+        axes.barh(rows, part["shares"], left=left, facecolor=colour, hatch=HATCHES[i % len(HATCHES)],
+                  edgecolor="white", linewidth=0.3, label=part["name"])  # fmt: skip
+        left = [a + b for a, b in zip(left, part["shares"], strict=True)]
+    axes.set(xlabel="Share of the variance (%)", xlim=(0.0, 100.0), ylim=(len(rows) - 0.4, -0.6))
+    axes.grid(visible=False)
+    row_texts(axes, data["outputs"], [])
+    axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def _histogram(axes: Any, panel: dict[str, Any]) -> None:
+    axes.stairs(panel["counts"], panel["edges"], fill=True, color=COLOURS[0], alpha=0.5)
+    for limit in panel["limits"]:
+        axes.axvline(limit, color=BROKEN, linewidth=1.5)
+    axes.axvline(panel["as_drawn"], **LIMIT)
+    axes.set(xlabel=panel["label"], ylabel="Modules (count)")
+    axes.locator_params(nbins=4)
+    axes.grid(visible=False)
+    heading(axes, panel["title"])
+
+
+_PANELS_ACROSS = 2
+_LEFT, _GAP, _HIGH, _LOW, _ABOVE, _BELOW = 0.65, 0.75, 1.5, 0.5, 0.3, 0.5  # inches
+_LONGEST = 84  # letters of the titles in a row
+
+
+def fit(data: dict[str, Any]) -> Figure:
+    """Two panels in a row at most."""
+    panels = data["panels"]
+    down, across = -(-len(panels) // _PANELS_ACROSS), min(len(panels), _PANELS_ACROSS)
+    row = _HIGH + _LOW + _ABOVE + _BELOW + 0.08
+    figure = new_figure(NAME_STRIP + 0.22 + row * down)
+    caption(figure, data["title"])
+    wide = (WIDTH - _LEFT - 0.15 - _GAP * (across - 1)) / across
+    for i, panel in enumerate(panels):
+        left = _LEFT + (i % across) * (wide + _GAP)
+        bottom = _BELOW + row * (down - 1 - i // across)
+        below = place(figure, left, bottom, wide, _LOW)
+        above = place(figure, left, bottom + _LOW + 0.08, wide, _HIGH)
+        _fit_panel(above, below, panel, _LONGEST // across)
+    return figure
+
+
+def _fit_panel(above: Any, below: Any, panel: dict[str, Any], longest: int) -> None:
+    title = panel["title"]
+    heading(above, title if len(title) <= longest else "… " + title[-longest:])
+    order = sorted(range(len(panel["x"])), key=panel["x"].__getitem__) if panel["log_x"] else range(len(panel["x"]))
+    above.plot(panel["x"], panel["measured"], "o", color=COLOURS[0], markersize=2.5, label="measured")
+    above.plot([panel["x"][i] for i in order], [panel["fitted"][i] for i in order], color=COLOURS[1], label="fitted")
+    below.plot(panel["x"], panel["residual"], "o", color=COLOURS[0], markersize=2.0)
+    below.axhline(0.0, color="0.5", linewidth=0.6)
+    above.set_ylabel(panel["y_label"])
+    below.set_ylabel("residual / σ")
+    below.set_xlabel(panel["x_label"])
+    above.set_xticklabels([])
+    for axes in (above, below):
+        axes.locator_params(nbins=TICKS)
+        if panel["log_x"]:
+            axes.set_xscale("log")
+            log_ticks(axes.xaxis)
+    if panel["log_y"]:
+        above.set_yscale("log")
+        log_ticks(above.yaxis)
+    above.set_xticklabels([])
+    above.legend(loc="best", fontsize=6)
+
+
+_EACH = 2.0
+"""Inches of a panel."""
+
+
+def sweep(data: dict[str, Any]) -> Figure:
+    """Draw each output; cells that break a limit are hollow."""
+    panels, cloud = data["panels"], bool(data["y"])
+    labelled = any(series["label"] for panel in panels for series in panel["series"])
+    height = 0.75 + len(panels) * (_EACH + 0.3)
+    figure = new_figure(height)
+    wide = WIDTH - (1.9 if cloud or labelled else 0.9)
+    for number, panel in enumerate(panels):
+        bottom = 0.55 + (len(panels) - 1 - number) * (_EACH + 0.3)
+        axes = place(figure, 0.75, bottom, wide, _EACH)
+        last = number == len(panels) - 1
+        if cloud:
+            _cloud(figure, axes, panel, place(figure, 0.75 + wide + 0.12, bottom, 0.1, _EACH))
+        else:
+            _lines(axes, panel, joined=data["joined"])
+        axes.set(xlabel=data["x"] if last else "", ylabel=data["y"] if cloud else panel["label"])
+        axes.locator_params(nbins=TICKS)
+        if labelled and not cloud and number == 0:
+            figure.legend(
+                *axes.get_legend_handles_labels(), loc="upper right", title=data["legend"], title_fontsize=SMALL
+            )
+    if any(not all(series["kept"]) for panel in panels for series in panel["series"]):
+        caption(figure, "Hollow: a limit is broken.")
+    return figure
+
+
+def _lines(axes: Any, panel: dict[str, Any], *, joined: bool) -> None:
+    for number, series in enumerate(panel["series"]):
+        style = style_of(number)
+        if not joined:
+            style = {**style, "linestyle": ""}
+        axes.plot(series["x"], series["y"], marker="o", markersize=3.5, label=series["label"] or None, **style)
+        broken = [(x, y) for x, y, kept in zip(series["x"], series["y"], series["kept"], strict=True) if not kept]
+        if broken:
+            axes.plot(*zip(*broken, strict=True), linestyle="", marker="o", markersize=3.5, color=BROKEN,
+                      markerfacecolor="white")  # fmt: skip
+
+
+def _cloud(figure: Figure, axes: Any, panel: dict[str, Any], scale: Any) -> None:
+    (series,) = panel["series"]
+    points = list(zip(series["x"], series["y"], series["colour"], series["kept"], strict=True))
+    if not points:
+        return
+    kept, broken = ([point for point in points if point[3] == which] for which in (True, False))
+    ends = {"vmin": min(series["colour"]), "vmax": max(series["colour"])}
+    for some, size in ((broken, 5), (kept, 14)):
+        if some:
+            x, y, colour, _ = zip(*some, strict=True)
+            hollow = {"marker": "o", "linewidths": 0.0} if some is kept else {"marker": "."}
+            axes.scatter(x, y, c=colour, cmap=SEQUENCE, s=size, **hollow, **ends)
+    figure.colorbar(ScalarMappable(Normalize(**ends), SEQUENCE), cax=scale, label=panel["label"])
