@@ -71,7 +71,7 @@ class Fitted:
         return fit_data(self._measured)
 
     def __getitem__(self, name: str) -> Quantity:
-        """A parameter, or what follows. Raises KeyError."""
+        """Return a parameter, or what follows. Raises KeyError."""
         found = next((one for one in self._estimates() if one.name == name), None)
         if found is None:
             raise KeyError(f"{name!r}; there are {', '.join(one.name for one in self._estimates())}")

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 
 def heading(title: str, more: str) -> str:
-    """A title in bold, and a line about it."""
+    """Return a title in bold, and a line about it."""
     return f"<p><b>{escape(title)}</b> &middot; {escape(more)}</p>"
 
 
 def grid(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table; nothing where it has no rows."""
+    """Return a table; nothing where it has no rows."""
     lines = [_line("td", row) for row in rows]
     return f"<table><thead>{_line('th', columns)}</thead><tbody>{''.join(lines)}</tbody></table>" if lines else ""
 
@@ -56,7 +56,7 @@ def drawn(drawing: Drawing, study: str) -> Figure:
 
 
 def shown(figure: Figure) -> Figure:
-    """The figure, of a size for screens, with the picture that a notebook asks for."""
+    """Return the figure, of a size for screens, with the picture that a notebook asks for."""
     figure.set_dpi(_RESOLUTION)
     noted: Any = figure
     noted._repr_png_ = lambda: _png(figure)
@@ -82,13 +82,13 @@ def shown_progress(wanted: bool) -> Iterator[Progress]:
 
 
 def in_notebook() -> bool:
-    """Whether this runs in the kernel of a notebook."""
+    """Return whether this runs in the kernel of a notebook."""
     ipython: Any = sys.modules.get("IPython")
     return ipython is not None and hasattr(ipython.get_ipython(), "kernel")
 
 
 def _notebook_line() -> Iterator[Progress]:
-    """A line below the cell that changes with each thing said, and is empty in the end."""
+    """Yield a line below the cell that changes with each thing said, and is empty in the end."""
     show: Any = import_module("IPython.display").display
     line = show({"text/plain": "..."}, raw=True, display_id=True)
 

@@ -45,15 +45,15 @@ class Quantity:
         return Quantity(from_si(self.si, unit), unit)
 
     def __float__(self) -> float:
-        """The value in its own unit."""
+        """Return the value in its own unit."""
         return self.value
 
     def __format__(self, form: str) -> str:
-        """The value in a format for numbers, then the unit: `f"{q:.3g}"` is "66.5 g"."""
+        """Return the value in a format for numbers, then the unit: `f"{q:.3g}"` is "66.5 g"."""
         return f"{self.value:{form or '.4g'}} {pretty(self.unit)}".rstrip()
 
     def __str__(self) -> str:
-        """The value to four digits, and the unit."""
+        """Return the value to four digits, and the unit."""
         return f"{self}"
 
 

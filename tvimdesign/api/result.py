@@ -54,7 +54,7 @@ class Reasons:
         )
 
     def __str__(self) -> str:
-        """The sentences, one a line."""
+        """Return the sentences, one a line."""
         return "\n".join(self.sentences) or "Nothing binds: the study was evaluated, or every limit has some margin."
 
     def _repr_html_(self) -> str:
@@ -70,7 +70,7 @@ class Parts:
     checks: tuple[dict[str, Any], ...]
 
     def table(self) -> pd.DataFrame:
-        """Every check on the solids: level, what was measured, limit."""
+        """Return every check on the solids: level, what was measured, limit."""
         import pandas as pd
 
         return pd.DataFrame(list(self.checks))
@@ -89,7 +89,7 @@ class Result:
 
     @classmethod
     def of(cls, answered: AnsweredStudy) -> Result:
-        """The result of an answer. Raises NoDesignError where there is no design."""
+        """Return the result of an answer. Raises NoDesignError where there is no design."""
         result = cls(answered)
         if not answered.result.found:
             raise NoDesignError(complaint(answered.result, answered.study.table), result)
@@ -150,7 +150,7 @@ class Result:
         return Quantity(from_si(design.values[name], unit), unit)
 
     def table(self, match: str = "") -> pd.DataFrame:
-        """Every value by name: value, unit, meaning, status, low and high where history leaves it open, group.
+        """Return every value by name: value, unit, meaning, status, low and high where history leaves it open, group.
 
         Only those with `match` in their name or meaning, where it is given.
         """
@@ -173,7 +173,7 @@ class Result:
         return self.data["uncertainty"]
 
     def intervals(self) -> pd.DataFrame:
-        """What headlines and requirements may be, given what nobody has measured, and what to measure first.
+        """Return what headlines and requirements may be, given what nobody has measured, and what to measure first.
 
         Columns: value; low and high with all unmeasured inputs anywhere in their ranges (95 %); the same with one at a
         time; unit; the input that carries most of it and its share; which to measure for half the width.
@@ -181,7 +181,7 @@ class Result:
         return interval_table(self.uncertainty()["intervals"])
 
     def why(self) -> Reasons:
-        """What holds the design back, and what easing it would buy."""
+        """Return what holds the design back, and what easing it would buy."""
         found, table = self._answered.result, self._answered.study.table
         return Reasons(tuple(sentences(found)), tuple(why_rows(found, table)))
 

@@ -118,26 +118,26 @@ class Study:
     # --- changed copies ---
 
     def set(self, values: Values | None = None, /, **more: Any) -> Study:
-        """A copy with inputs and choices of the module fixed, which are varied no longer; None takes one away.
+        """Return a copy with inputs and choices of the module fixed, which are varied no longer; None takes one away.
 
         A path such as "operating_points.hot.temperature" or "solver.starts" sets what stands there.
         """
         return self._changed("set", "", {**(values or {}), **more})
 
     def vary(self, values: Values | None = None, /, **more: Any) -> Study:
-        """A copy in which these may change too, or in other ranges; None fixes one at its value."""
+        """Return a copy in which these may change too, or in other ranges; None fixes one at its value."""
         return self._changed("vary", "vary.", {**(values or {}), **more})
 
     def require(self, values: Values | None = None, /, **more: Any) -> Study:
-        """A copy with these limits in place of earlier ones on the same outputs; None takes them away."""
+        """Return a copy with these limits in place of earlier ones on the same outputs; None takes them away."""
         return self._changed("require", "require.", {**(values or {}), **more})
 
     def accept(self, *ratings: str) -> Study:
-        """A copy whose design may be beyond these ratings, by the quantity's name, and beyond no others."""
+        """Return a copy whose design may be beyond these ratings, by the quantity's name, and beyond no others."""
         return self._changed("accept", "", {"accept": list(ratings) or None})
 
     def minimize(self, output: str | Values | None = None, /, **weights: float) -> Study:
-        """A copy that minimises this output, or these with their weights, and no others."""
+        """Return a copy that minimises this output, or these with their weights, and no others."""
         goal = output if isinstance(output, str) else {**(output or {}), **weights}
         return self._changed("minimize", "", {"minimize": goal})
 

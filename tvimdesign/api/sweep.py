@@ -75,7 +75,7 @@ class Sweep(Generic[StudyT]):
         return sum(one.answer.warm for one in self.kept)
 
     def table(self, *names: str) -> pd.DataFrame:
-        """A row a cell: where it stands, how it ended, and the named outputs; else those the study asks about.
+        """Return a row a cell: where it stands, how it ended, and the named outputs; else those the study asks about.
 
         Numbers are in the units of `tvimdesign rows`, which `table.attrs["units"]` has by column. Raises InputError
         for an output that the sweep did not keep.
@@ -138,13 +138,13 @@ class Sweep(Generic[StudyT]):
         return len(self.kept)
 
     def __getitem__(self, number: int) -> Cell[StudyT]:
-        """A cell by its number, from 0."""
+        """Return a cell by its number, from 0."""
         answer, texts = self.kept[number].answer, self.plan.points.texts(range(len(self))[number])
         names = [axis.name for axis in self.plan.axes]
         return Cell(dict(zip(names, texts, strict=True)), answer.status, answer.reason, self, texts)
 
     def __iter__(self) -> Iterator[Cell[StudyT]]:
-        """Every cell."""
+        """Yield every cell."""
         return (self[number] for number in range(len(self)))
 
     def _repr_html_(self) -> str:

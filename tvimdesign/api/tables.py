@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
-    """Every value by full name, with unit, meaning and status; infinite where something never happens."""
+    """Return every value by full name, with unit, meaning and status; infinite where something never happens."""
     import pandas as pd
 
     design, study = answered.result.design, answered.study
@@ -49,7 +49,7 @@ def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
 
 
 def interval_table(intervals: Mapping[str, IntervalEntry]) -> pd.DataFrame:
-    """What each output may be, by name: all together and one at a time; infinite where it may never happen."""
+    """Return what each output may be, by name: all together and one at a time; infinite where it may never happen."""
     import pandas as pd
 
     def ends(entry: NumberEntry, before: str = "") -> dict[str, float]:
@@ -73,7 +73,7 @@ def _never(number: float | None) -> float:
 
 
 def _stands(answered: AnsweredStudy) -> dict[str, str]:
-    """How each output stands that the study limits: `broken`, `binds` or `kept`, the worst of its limits."""
+    """Return how each output stands that the study limits: `broken`, `binds` or `kept`, the worst of its limits."""
     order = ("kept", "binds", "broken")
     found: dict[str, str] = {}
     for check in answered.result.checks:
@@ -94,7 +94,7 @@ def _all_of(name: str, study: Study) -> list[str]:
 
 
 def _status(name: str, design: Design, study: Study) -> str:
-    """What a value is: found by the optimiser, set by the study, a default, or computed."""
+    """Return what a value is: found by the optimiser, set by the study, a default, or computed."""
     base, _, point = name.partition("@")
     if not any(row.name == base for row in study.table.inputs):
         return "computed"

@@ -58,7 +58,7 @@ TESTS: dict[str, VirtualTest] = {
 
 
 def listing() -> str:
-    """Every test with what it shows, a line each."""
+    """Return every test with what it shows, a line each."""
     width = max(map(len, TESTS))
     return "\n".join(f"  {name:<{width}}  {test.shows}" for name, test in TESTS.items())
 

@@ -73,7 +73,7 @@ class CellAnswers:
         return self._told("evaluated", study, {**stated, **values}, {**numbers, **model.words})
 
     def _simulator(self, study: Study, numbers: dict[str, Any]) -> Simulator:
-        """The compiled module: one of the same words and conditions serves every number."""
+        """Return the compiled module: one of the same words and conditions serves every number."""
         words = tuple(getattr(numbers[row.name], "name", numbers[row.name]) for row in study.table.choices)
         shapes = tuple(numbers[row.name] for row in study.table.inputs if row.integer)
         key = (words, shapes, tuple(study.operating_points), study.solver.cells)
@@ -121,7 +121,7 @@ def _value(name: str, study: Study, values: dict[str, float], chosen: dict[str, 
 
 
 def _number(value: float) -> float | None:
-    """What is no number is nothing; what never happens stays infinite."""
+    """Return what is no number is nothing; what never happens stays infinite."""
     return None if math.isnan(value) else float(value)
 
 

@@ -24,7 +24,7 @@ class ChunkAnswers:
         self._answers = CellAnswers(job)
 
     def answer(self, chunk: Sequence[tuple[str, Sequence[str]]]) -> list[tuple[str, CellAnswer, float]]:
-        """Each cell's key, answer, and seconds of the processor; a cell comes as a pair, as JSON has it."""
+        """Return each cell's key, answer, and seconds of the processor; a cell comes as a pair, as JSON has it."""
         told = []
         for key, texts in chunk:
             began = time.process_time()
@@ -52,7 +52,7 @@ class CellQueue:
         return sum(map(len, self._groups.values()))
 
     def next(self, worker: int) -> list[Cell]:
-        """The next chunk of a worker, by its number; empty where none is left."""
+        """Return the next chunk of a worker, by its number; empty where none is left."""
         kind = self._kind_for(worker)
         if kind is None:
             return []

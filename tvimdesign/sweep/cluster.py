@@ -87,7 +87,7 @@ class Cluster:
         return spent
 
     def _connected(self, seconds: float) -> Client:
-        """A client of the scheduler, which may come up only now."""
+        """Return a client of the scheduler, which may come up only now."""
         end = time.monotonic() + seconds
         while True:
             try:
@@ -141,7 +141,7 @@ class Cluster:
 
     @staticmethod
     def _ended(futures: list[Future]) -> list[Future]:
-        """Those that have ended, however; a moment is waited for the first."""
+        """Return those that have ended, however; a moment is waited for the first."""
         time.sleep(LOOK)
         return [future for future in futures if future.status not in {"pending", "processing"}]
 

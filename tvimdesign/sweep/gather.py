@@ -34,7 +34,7 @@ class Column(NamedTuple):
 
 
 def columns(plan: SweepPlan) -> list[Column]:
-    """Every column of a sweep's table."""
+    """Return every column of a sweep's table."""
     axes = [Column(one.name, "" if is_words(one) else one.unit, "axis", _meaning(plan, one)) for one in plan.axes]
     about = {
         "status": "evaluated, optimal, above_rating, infeasible, refused, ...",
@@ -48,7 +48,7 @@ def columns(plan: SweepPlan) -> list[Column]:
 
 
 def _apart(name: str, plan: SweepPlan) -> str:
-    """A column of its own where an axis has the name already."""
+    """Return a column of its own where an axis has the name already."""
     return f"{name}_found" if name in {axis.name for axis in plan.axes} else name
 
 
@@ -63,14 +63,14 @@ def _about(plan: SweepPlan, name: str) -> str:
 
 
 def rows(plan: SweepPlan, keys: Iterable[str], shards: Shards) -> Iterator[list[Value]]:
-    """Every cell as a row of the table, in order, numbers in the units of the columns."""
+    """Yield every cell as a row of the table, in order, numbers in the units of the columns."""
     units = [plan.unit(name) for name in plan.columns]
     for number, kept in enumerate(shards.kept(iter(keys))):
         yield [number + 1, *plan.axis_values(number), *told(kept, units)]
 
 
 def told(kept: Kept, units: Sequence[str]) -> list[Value]:
-    """What a cell came to, in the units of the columns."""
+    """Return what a cell came to, in the units of the columns."""
     answer = kept.answer
     values = [_in_unit(value, unit) for value, unit in zip(answer.values, units, strict=True)]
     margin = None if answer.margin is None else rounded(answer.margin)

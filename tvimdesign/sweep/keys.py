@@ -40,18 +40,18 @@ class CellKeys:
         self._from = {"task": plan.task, "from": _plain(whole), "tvimdesign": __version__}
 
     def key(self, texts: Texts) -> str:
-        """The key of the cell that these values make."""
+        """Return the key of the cell that these values make."""
         return key_of({"study": _plain(self.leaves(texts)), "records": self._records_of(texts), **self._from})
 
     def leaves(self, texts: Texts) -> Leaves:
-        """The resolved study of a cell as its single values, without reading it."""
+        """Return the resolved study of a cell as its single values, without reading it."""
         leaves = dict(self._leaves)
         for place, text in enumerate(texts):
             leaves |= self._change(place, text)
         return leaves
 
     def _change(self, place: int, text: str) -> Leaves:
-        """What a value changes in the resolved study of the first cell."""
+        """Return what a value changes in the resolved study of the first cell."""
         number, words = self._ends[place]
         if number is not None:
             axis = self._plan.axes[place]
@@ -94,12 +94,12 @@ _NOTHING = object()
 
 
 def key_of(said: Any) -> str:
-    """The key of what is said: plain data."""
+    """Return the key of what is said: plain data."""
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:_LENGTH]
 
 
 def leaves_of(study: Study) -> Leaves:
-    """A resolved study as its single values by where they stand."""
+    """Return a resolved study as its single values by where they stand."""
     return dict(_walk(study.model_dump(mode="json", exclude=_NOT_OF_THE_DESIGN), ()))
 
 
@@ -127,7 +127,7 @@ def records_hash(study: Study) -> str:
 
 
 def _one_by_one(study: Study) -> Iterator[Study]:
-    """The study, and with each word alone that it may choose: others that come along with it are seen then."""
+    """Yield the study, and with each word alone that it may choose: others that come along with it are seen then."""
     yield study
     for name, allowed in study.vary.items():
         if isinstance(allowed, Options) and isinstance(allowed.values[0], str):
@@ -137,7 +137,7 @@ def _one_by_one(study: Study) -> Iterator[Study]:
 
 
 def _said(record: Record) -> Any:
-    """All of a record but its file's path, which differs from machine to machine."""
+    """Return all of a record but its file's path, which differs from machine to machine."""
     entries = {name: astuple(entry) for name, entry in record.entries.items()}
     tables = {name: [dict(table.columns), table.rows, table.source, table.status, table.range]
               for name, table in record.tables.items()}  # fmt: skip

@@ -62,7 +62,7 @@ class SweepPlan:
         return [axis_value(axis, text) for axis, text in zip(self.axes, self.points.texts(cell), strict=True)]
 
     def cell_tree(self, texts: Texts) -> StudyTree:
-        """The study of a cell, as it would be written."""
+        """Return the study of a cell, as it would be written."""
         return set_in(self.tree, [axis.name for axis in self.axes], texts)
 
     @cached_property
@@ -91,7 +91,7 @@ class SweepPlan:
 
 
 def set_in(tree: StudyTree, names: Sequence[str], texts: Sequence[str]) -> StudyTree:
-    """The study's tree with values set, as `--set` does it. Raises StudyError."""
+    """Return the study's tree with values set, as `--set` does it. Raises StudyError."""
     for name, text in zip(names, texts, strict=True):
         tree = _with(tree, name, Text(0, 0, text, plain=False, file=f"{name} = {text}"))
     return tree
@@ -123,7 +123,7 @@ def plan_of(tree: StudyTree) -> SweepPlan:
 
 
 def swept_cells(tree: StudyTree) -> int:
-    """How many cells a study asks to be swept; 0 where none. Raises as `plan_of` does."""
+    """Return how many cells a study asks to be swept; 0 where none. Raises as `plan_of` does."""
     return plan_of(tree).count if read_swept(tree)[1] else 0
 
 

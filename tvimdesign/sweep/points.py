@@ -19,21 +19,21 @@ _DIGITS = 12
 
 
 def written(axis: SweptAxis, value: float) -> str:
-    """A number of an axis (SI) as a study would write it: `>= 12.5 N*m`."""
+    """Return a number of an axis (SI) as a study would write it: `>= 12.5 N*m`."""
     text = f"{from_si(value, axis.unit):.{_DIGITS}g}"
     unit = "" if axis.unit == "1" else f" {axis.unit}"
     return f"{axis.sense} {text}{unit}".strip()
 
 
 def axis_value(axis: SweptAxis, text: str) -> float | str:
-    """A number of an axis in its unit, of a limit as well; a word as it is written."""
+    """Return a number of an axis in its unit, of a limit as well; a word as it is written."""
     if is_words(axis):
         return text
     return rounded(from_si(parse_quantity(text.lstrip("<>= "), axis.unit), axis.unit))
 
 
 def is_words(axis: SweptAxis) -> bool:
-    """Whether an axis has no one number: words, settings, limits in both senses."""
+    """Return whether an axis has no one number: words, settings, limits in both senses."""
     return not axis.unit or len(senses(axis)) > 1
 
 
@@ -63,7 +63,7 @@ class CellPoints:
         return self.block.count or math.prod(_length(axis) for axis in self.block.axes)
 
     def texts(self, cell: int) -> Texts:
-        """What each axis is set to in a cell, by its number from 0."""
+        """Return what each axis is set to in a cell, by its number from 0."""
         axes = self.block.axes
         if self.block.method == "list":
             return tuple(text.value for text in self.block.rows[cell])
@@ -89,7 +89,7 @@ class CellPoints:
         return qmc.LatinHypercube(axes, rng=seed).random(count)
 
     def __getstate__(self) -> dict[str, SweepBlock]:
-        """What a pickle holds; a sample is drawn again where it is read."""
+        """Return what a pickle holds; a sample is drawn again where it is read."""
         return {"block": self.block}
 
 
@@ -98,14 +98,14 @@ def _length(axis: SweptAxis) -> int:
 
 
 def _nth(axis: SweptAxis, place: int) -> str:
-    """A value of a grid: one of the list, or evenly between the ends."""
+    """Return a value of a grid: one of the list, or evenly between the ends."""
     if axis.range is None:
         return axis.values[place].value
     return written(axis, _between(axis.range, place / (axis.range.count - 1) if axis.range.count > 1 else 0.0))
 
 
 def _at_share(axis: SweptAxis, share: float) -> str:
-    """A value of a sample: each of a list, or each whole number, as often as the others."""
+    """Return a value of a sample: each of a list, or each whole number, as often as the others."""
     span = axis.range
     if span is None:
         return axis.values[int(share * len(axis.values))].value

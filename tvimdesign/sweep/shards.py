@@ -109,7 +109,7 @@ class Shards:
             self._look_through(path, columns)
 
     def __contains__(self, key: str) -> bool:
-        """Whether a cell is there."""
+        """Return whether a cell is there."""
         return key in self._places
 
     def __len__(self) -> int:
@@ -117,7 +117,7 @@ class Shards:
         return len(self._places)
 
     def kept(self, keys: Iterator[str]) -> Iterator[Kept]:
-        """The cells of some keys, in their order. Raises KeyError for one that is not there."""
+        """Yield the cells of some keys, in their order. Raises KeyError for one that is not there."""
         opened = [path.open("rb") for path, _ in self._files]
         try:
             for key in keys:
@@ -148,7 +148,7 @@ def _line(key: str, answer: CellAnswer, seconds: float) -> str:
 
 
 def _columns_of(head: bytes) -> list[str] | None:
-    """The columns that a shard's first line names; None where it is none."""
+    """Return the columns that a shard's first line names; None where it is none."""
     try:
         said = json.loads(head) if head.endswith(b"\n") else {}
     except ValueError:

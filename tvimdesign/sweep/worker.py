@@ -22,7 +22,7 @@ from tvimdesign.base.one_thread import NAMES
 
 
 def packed(job: Any, folder: Path) -> str:
-    """The line that a worker begins with."""
+    """Return the line that a worker begins with."""
     return base64.b64encode(pickle.dumps((job, str(folder)))).decode()
 
 

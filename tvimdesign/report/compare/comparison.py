@@ -98,7 +98,7 @@ class Outcome:
         return found
 
     def fronts_plain(self) -> dict[str, Any]:
-        """Every front, its points in their units; null is never."""
+        """Return every front, its points in their units; null is never."""
         names = {name for _, _, point in self._points() for name in point["values"]}
         return {
             **head(),
@@ -114,7 +114,7 @@ class Outcome:
         }  # fmt: skip
 
     def fronts_csv(self) -> str:
-        """A line for each point of each front, every input and output of its design in a column."""
+        """Return a line for each point of each front, every input and output of its design in a column."""
         names = list(dict.fromkeys(name for _, _, point in self._points() for name in point["values"]))
         stream = io.StringIO()
         writer = csv.writer(stream, lineterminator="\n")
@@ -187,7 +187,7 @@ class Outcome:
         return list(asked) or list(_SAID_FIRST)
 
     def plain(self) -> dict[str, Any]:
-        """Everything a script wants to know."""
+        """Return everything a script wants to know."""
         return {
             **head(),
             "sentence": self.sentence,

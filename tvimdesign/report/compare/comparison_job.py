@@ -135,7 +135,7 @@ class ComparisonJob:
 
     @staticmethod
     def _plain(front: Front, optimum: Point) -> dict[str, Any]:
-        """A front in SI, with the study's own optimum where it is on it; null where something never happens."""
+        """Return a front in SI, with the study's own optimum where it is on it; null where something never happens."""
         first, second = front.outputs
         points = sorted(undominated([*front.points, optimum], front.outputs), key=lambda point: point.values[first])
         reported = {

@@ -19,7 +19,7 @@ _STILL = 1e-3
 
 
 def drawings(outcome: Outcome) -> list[Drawing]:
-    """Every picture there is something for."""
+    """Return every picture there is something for."""
     found = []
     if outcome.fronts:
         found.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
@@ -56,7 +56,7 @@ def _fronts(outcome: Outcome) -> dict[str, Any]:
 
 
 def _release(outcome: Outcome) -> dict[str, Any]:
-    """A panel for each operating point, a colour for each study."""
+    """Return a panel for each operating point, a colour for each study."""
     panels: dict[str, dict[str, Any]] = {}
     for label, found in outcome.found.items():
         release = found["release"].get(outcome.which, {})

@@ -76,7 +76,7 @@ def side_by_side(title: str, rows: Sequence[Row]) -> Grid:
 
 
 def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
-    """A value for people; low to high where history leaves it open."""
+    """Return a value for people; low to high where history leaves it open."""
     if label in row.ends:
         return " to ".join(number(from_si(end, row.unit), 2) for end in row.ends[label])
     value = row.values[label]
@@ -125,7 +125,7 @@ def accepted(outcome: Outcome) -> Iterator[tuple[str, list[str]]]:
 
 
 def warnings_of(outcome: Outcome) -> Iterator[str]:
-    """The advice that the designs held against each other do not follow."""
+    """Yield the advice that the designs held against each other do not follow."""
     for label, found in outcome.found.items():
         for warning in found.get(outcome.which, {"warnings": []})["warnings"]:
             value = math.inf if warning["value"] is None else warning["value"]

@@ -47,7 +47,7 @@ class Row:
         return mine / theirs if sizes else None
 
     def verdict(self, label: str) -> Verdict:
-        """Whether a study does better than the first: nothing where that depends on what the module is for."""
+        """Return whether a study does better than the first: nothing where that depends on what the module is for."""
         mine, theirs = self.values[label], self.values[self.first]
         if self.better is None or math.isnan(mine) or math.isnan(theirs):
             return ""
@@ -58,7 +58,7 @@ class Row:
         return "better" if (mine < theirs) == (self.better == "less") else "worse"
 
     def _open(self, label: str) -> bool:
-        """Whether history decides: what it leaves of the two overlaps."""
+        """Return whether history decides: what it leaves of the two overlaps."""
         (low, high), (other_low, other_high) = (
             self.ends.get(name, (self.values[name],) * 2) for name in (label, self.first)
         )
@@ -66,7 +66,7 @@ class Row:
 
 
 def common_rows(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> list[Row]:
-    """Every output that all designs have, in the order of the first one's table."""
+    """Return every output that all designs have, in the order of the first one's table."""
     first = next(iter(designs))
     names = [name for name in _outputs(designs[first], tables[first])
              if all(name in _outputs(designs[label], tables[label]) for label in designs)]  # fmt: skip
@@ -101,7 +101,7 @@ def _row(name: str, designs: Mapping[str, Design], table: Table) -> Row:
 
 
 def plain(row: Row) -> dict[str, Any]:
-    """A row as plain data, in its unit; null is never, or nothing to say."""
+    """Return a row as plain data, in its unit; null is never, or nothing to say."""
     others = [label for label in row.values if label != row.first]
     return {
         "name": row.name,
@@ -121,7 +121,7 @@ def _shown(value: float, unit: str) -> float | None:
 
 
 def compare_csv(rows: Mapping[str, Sequence[Row]], alone: Mapping[str, Sequence[tuple[str, Row]]]) -> str:
-    """All rows of both comparisons, `as drawn` and `optimised`, as CSV; outputs of one mode have no ratio."""
+    """Return all rows of both comparisons, `as drawn` and `optimised`, as CSV; outputs of one mode have no ratio."""
     labels = list(dict.fromkeys(label for each in rows.values() for row in each for label in row.values))
     heads = ["comparison", "output", "unit", *labels]
     heads += [f"{what} {label}" for label in labels[1:] for what in ("ratio", "verdict")]

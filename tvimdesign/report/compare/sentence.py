@@ -68,7 +68,7 @@ def conditions(entrants: Mapping[str, Case]) -> list[str]:
 
 
 def against(label: str, first: str, rows: Sequence[Row], names: Sequence[str]) -> str:
-    """How a study stands against the first: `compression is 2.1 times slower (...) than shear`."""
+    """Return how a study stands against the first: `compression is 2.1 times slower (...) than shear`."""
     found = [text for row in rows if row.name in names for text in [_difference(row, label)] if text]
     return f"{label} is {_listed(found)} than {first}" if found else f"{label} and {first} do not differ"
 

@@ -35,7 +35,7 @@ _LEFT, _WIDE = 0.62, 3.4  # inches: where panels over time begin, and how wide t
 
 
 def cycle(data: dict[str, Any]) -> Figure:
-    """The working cycle: temperatures, current and impedance over time, and temperatures through the layer."""
+    """Return the working cycle: temperatures, current and impedance over time, and temperatures through the layer."""
     figure = new_figure(5.85)
     over_time = place(figure, _LEFT, 3.55, _WIDE, 1.6)
     current = place(figure, _LEFT, 2.72, _WIDE, 0.62, sharex=over_time)
@@ -81,7 +81,7 @@ def stiffness_and_damping(data: dict[str, Any]) -> Figure:
 
 
 def power_and_energy(data: dict[str, Any]) -> Figure:
-    """What the supply gives through the cycle, and what that adds up to."""
+    """Return what the supply gives through the cycle, and what that adds up to."""
     figure = new_figure(4.6)
     power = place(figure, _LEFT, 2.42, 6.1, 1.72)
     energy = place(figure, _LEFT, 0.42, 6.1, 1.72, sharex=power)

@@ -43,7 +43,7 @@ _MEANING = {"kept": "holds", "broken": "does not hold", "advice": "advice that t
 
 
 def bounds(data: dict[str, Any]) -> Figure:
-    """A block of what varies, then one of limits for each unit their margins are read in."""
+    """Return a block of what varies, then one of limits for each unit their margins are read in."""
     blocks = [len(data["free"])] * bool(data["free"]) + [len(group["rows"]) for group in data["margins"]]
     inches = NAME_STRIP + _KEYS + sum(_ROW * (rows + 1) + _ABOVE + _BELOW for rows in blocks)
     figure = new_figure(max(inches, 1.0))

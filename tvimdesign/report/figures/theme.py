@@ -72,7 +72,7 @@ def style_of(number: int) -> dict[str, Any]:
 
 
 def luminance(colour: str) -> float:
-    """How light a colour `#rrggbb` prints in grey, from 0 to 1 (ITU-R BT.601)."""
+    """Return how light a colour `#rrggbb` prints in grey, from 0 to 1 (ITU-R BT.601)."""
     red, green, blue = (int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
     return 0.299 * red + 0.587 * green + 0.114 * blue
 
@@ -103,7 +103,7 @@ def _log_values(low: float, high: float) -> list[float]:
 
 
 def plain(value: float) -> str:
-    """A tick's number for people: 0.5, 200, 10⁶."""
+    """Return a tick's number for people: 0.5, 200, 10⁶."""
     if value == 0.0 or 1e-3 <= abs(value) < 1e5:
         return f"{value:.6g}"
     mantissa, _, power = f"{value:.3e}".partition("e")
@@ -146,7 +146,7 @@ _NOT_NEEDED = ("GDEF", "GPOS", "GSUB", "kern", "MATH", "post")
 
 
 def new_figure(height: float, width: float = WIDTH) -> Figure:
-    """An empty figure of a size in inches. Who draws places its axes: layouts take half of the drawing time."""
+    """Return an empty figure of a size in inches. Who draws places its axes: layouts take half of the drawing time."""
     figure = Figure(figsize=(width, height))
     FigureCanvasAgg(figure)
     return figure
@@ -182,7 +182,7 @@ def png(figure: Figure) -> bytes:
 
 
 def as_file(figure: Figure, ending: str) -> bytes:
-    """A figure as a file: `png`, or with lines and letters as such, `pdf` and `svg`."""
+    """Return a figure as a file: `png`, or with lines and letters as such, `pdf` and `svg`."""
     if ending == "png":
         return png(figure)
     stream = io.BytesIO()

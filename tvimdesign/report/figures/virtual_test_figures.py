@@ -81,7 +81,7 @@ _MANY = "band: swings too close to be drawn one by one"
 
 
 def trial(data: dict[str, Any]) -> Figure:
-    """The panels of a virtual test, at most three in a row; a line looks the same on each of them."""
+    """Return the panels of a virtual test, at most three in a row; a line looks the same on each of them."""
     panels = data["panels"]
     down = -(-len(panels) // _ACROSS)
     across = -(-len(panels) // down)

@@ -81,7 +81,7 @@ def _figure_data(sets: list[LevelSet], model: DeviceFunctions, wanted: float) ->
 
 
 def _panel(one: LevelSet, model: DeviceFunctions) -> dict[str, Any]:
-    """One parameter's lines, a gap being None, and the module as assumed here."""
+    """Return one parameter's lines, a gap being None, and the module as assumed here."""
     row, unit = model.table.quantity(one.parameter), model.table.unit(one.parameter)
     start = {name: float(model.start[model.index[name]]) for name in (one.parameter, "pcl_thickness")}
     return {
@@ -117,7 +117,7 @@ def _in_cells(rows: Iterable[dict[str, str | float]]) -> Iterable[dict[str, str]
 
 
 def _cell(value: float) -> str:
-    """A number, or nothing where there is none."""
+    """Return a number, or nothing where there is none."""
     return f"{value:.6g}" if math.isfinite(value) else ""
 
 

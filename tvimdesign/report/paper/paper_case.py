@@ -37,7 +37,7 @@ class Alternative:
 
 @cache
 def case() -> dict[str, Any]:
-    """The pair, the ranges and the choices as they stand in the file."""
+    """Return the pair, the ranges and the choices as they stand in the file."""
     text = resources.files("tvimdesign.report.paper").joinpath("paper_case.yaml").read_text(encoding="utf-8")
     loaded: dict[str, Any] = plain_data(text)
     return loaded
@@ -87,7 +87,7 @@ def _entry(said: dict[str, Any]) -> dict[str, Any]:
 
 @cache
 def influences() -> tuple[Influence, ...]:
-    """What each assumed input does to both times through its range; first what moves their ratio most."""
+    """Return what each assumed input does to both times through its range; first what moves their ratio most."""
     spans = (Span(name, float(entry.low or 0.0), float(entry.high or 0.0)) for name, entry in ranges().items())
     found = [pair().influence(case()["event"], span) for span in spans]
     # What only freezing asks for is assumed too, and changes nothing here.
@@ -97,7 +97,7 @@ def influences() -> tuple[Influence, ...]:
 
 @cache
 def alternatives() -> tuple[Alternative, ...]:
-    """The pair with its thermometer elsewhere, and made of something else."""
+    """Return the pair with its thermometer elsewhere, and made of something else."""
     places = [Alternative(f"a thermometer at the {_place(name)}", pair().times(name)) for name in case()["places"]]
     others = [pair(structure_material=name) for name in case()["materials"]]
     materials = [
@@ -112,7 +112,7 @@ def _place(event: str) -> str:
 
 
 def sentence() -> str:
-    """The row of the paper check: what the pair takes, what else it could be read as, what carries the ratio."""
+    """Return the row of the paper check: what the pair takes, what else it could be read as, what carries the ratio."""
     event = case()["event"]
     times = pair().times(event)
     others = "; ".join(f"with {one.label}: {_both(one.times)}" for one in alternatives())
@@ -139,7 +139,7 @@ def _through(ends: tuple[float, float]) -> str:
 
 
 def table_rows() -> Iterator[dict[str, str | float]]:
-    """Every assumed input with its range, both times and their ratio at its ends, and the elasticities."""
+    """Yield every assumed input with its range, both times and their ratio at its ends, and the elasticities."""
     event = case()["event"]
     for influence in influences():
         name = influence.span.name
@@ -158,7 +158,7 @@ def table_rows() -> Iterator[dict[str, str | float]]:
 
 
 def alternative_rows() -> Iterator[dict[str, str | float]]:
-    """The pair as calibrated, and with each other choice."""
+    """Yield the pair as calibrated, and with each other choice."""
     event = case()["event"]
     for one in (Alternative(f"as calibrated: {_place(event)} of the PCL", pair().times(event)), *alternatives()):
         yield {"choice": one.label, "shear time [s]": one.times[0], "compression time [s]": one.times[1],
@@ -174,7 +174,7 @@ def figure_data() -> dict[str, Any]:
 
 
 def _bar(influence: Influence) -> dict[str, Any]:
-    """One input's bar: the ratio at either end, and what the ends are."""
+    """Return one input's bar: the ratio at either end, and what the ends are."""
     row, span = _row(influence.span.name), influence.span
     label = re.split("[,:]", row.description)[0]
     return {

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @cache
 def claims() -> dict[str, Any]:
-    """What the paper states: values with units, and the places."""
+    """Return what the paper states: values with units, and the places."""
     text = resources.files("tvimdesign.report.paper").joinpath("paper_claims.yaml").read_text(encoding="utf-8")
     loaded: dict[str, Any] = plain_data(text)
     return loaded
@@ -42,7 +42,7 @@ class Instrument:
 
 
 def instrument(name: str) -> Instrument:
-    """A limit of the paper's rheometer [SI]."""
+    """Return a limit of the paper's rheometer [SI]."""
     entry = claims()["instrument"][name]
     value, low, high = (to_si(float(entry[key]), entry["unit"]) for key in ("value", "low", "high"))
     return Instrument(value, low, high, entry["status"], entry["source"])
@@ -56,7 +56,7 @@ def _study() -> Study:
 
 @cache
 def published_model() -> DeviceFunctions:
-    """The module, compiled."""
+    """Return the module, compiled."""
     from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
     from tvimdesign.study import given
 
@@ -66,7 +66,7 @@ def published_model() -> DeviceFunctions:
 
 @cache
 def published_module() -> ResolvedModule:
-    """The module with a value for every input, and the records it chose."""
+    """Return the module with a value for every input, and the records it chose."""
     from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 
     return resolve_study(_study())

@@ -116,7 +116,7 @@ def _premelt() -> str:
 
 
 def _pascal(modulus: float) -> str:
-    """A modulus in the unit in which it has one to three digits before the point."""
+    """Return a modulus in the unit in which it has one to three digits before the point."""
     for size, unit in ((1e6, "MPa"), (1e3, "kPa")):
         if modulus >= size:
             return f"{modulus / size:.3g} {unit}"

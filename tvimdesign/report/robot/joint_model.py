@@ -127,7 +127,7 @@ def refuse_step(step: float | None) -> None:
 
 
 def _left_out(resolved: ResolvedModule) -> tuple[str, ...]:
-    """What the models leave out, and how much that is."""
+    """Return what the models leave out, and how much that is."""
     middle, end = (float(resolved.quantity(name)) for name in ("spring_stiffness", "spring_stiffness_full_stroke"))
     holds = float(resolved.quantity("holding_torque"))
     return (
@@ -142,7 +142,7 @@ def _left_out(resolved: ResolvedModule) -> tuple[str, ...]:
 
 
 def header(model: JointModel, state: JointState) -> list[str]:
-    """What a file of a state says of itself, line by line."""
+    """Return what a file of a state says of itself, line by line."""
     return [
         f"{model.name}, {state.point}: {state.temperature - ZERO_CELSIUS:.4g} degC. Written by tvimdesign robot.",
         "SI units: m, kg, s, rad, N. The joint's axis is z; a positive angle turns counter-clockwise seen from +z.",

@@ -51,7 +51,7 @@ class JointState:
 
 
 def joint_states(resolved: ResolvedModule) -> list[JointState]:
-    """The joint at every operating point, its PCL come there on heating where history matters."""
+    """Return the joint at every operating point, its PCL come there on heating where history matters."""
     found = [case for case in cases(resolved) if case.history.name in ("", "nominal") and case.history.shown]
     return [_state(resolved, case) for case in found]
 

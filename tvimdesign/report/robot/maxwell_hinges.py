@@ -72,7 +72,7 @@ class MaxwellHinges:
 
 
 def maxwell_hinges(state: JointState, count: int, step: float) -> MaxwellHinges:
-    """The PCL of a state for a time step [s]; `count` elements, so that every state has the same hinges."""
+    """Return the PCL of a state for a time step [s]; `count` elements, so that every state has the same hinges."""
     armature = ARMATURE_SHARE * state.inertia
     if not state.one_sided:
         hinges, springs, damping, merged = _elements(state.modes, count, step, armature, (JOINT, "pcl", 1.0))

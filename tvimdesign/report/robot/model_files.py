@@ -25,7 +25,7 @@ def comment(lines: Sequence[str]) -> Xml.Element[Any]:
 
 
 def document(root: Xml.Element) -> str:
-    """The whole file."""
+    """Return the whole file."""
     Xml.indent(root)
     return '<?xml version="1.0" encoding="utf-8"?>\n' + Xml.tostring(root, encoding="unicode") + "\n"
 
@@ -40,7 +40,7 @@ _STIFF_FRICTION = "0.9999 0.9999 0.001 0.5 2"
 
 
 def mjcf(model: JointModel, state: JointState) -> str:
-    """One state of the joint as an MJCF file."""
+    """Return one state of the joint as an MJCF file."""
     made = maxwell_hinges(state, model.count, model.step)
     root = Xml.Element("mujoco", model=f"{model.slug}_{state.point}")
     root.append(comment([*header(model, state), *_merged(model, state, made)]))
@@ -70,7 +70,7 @@ def mjcf(model: JointModel, state: JointState) -> str:
 
 
 def _merged(model: JointModel, state: JointState, made: MaxwellHinges) -> list[str]:
-    """What of the PCL the time step leaves, and what the keyframe is."""
+    """Return what of the PCL the time step leaves, and what the keyframe is."""
     return [
         f"With this time step {made.merged} of {len(state.modes)} elements are plain damping: they relax within two "
         "steps. Write the files again with --timestep for another one.",
@@ -79,7 +79,7 @@ def _merged(model: JointModel, state: JointState, made: MaxwellHinges) -> list[s
 
 
 def _body(parent: Xml.Element, body: RigidBody) -> Xml.Element:
-    """A body with its mass properties; its mesh is only to be seen."""
+    """Return a body with its mass properties; its mesh is only to be seen."""
     element = Xml.SubElement(parent, "body", name=body.name)
     tensor = body.inertia
     order = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
@@ -132,7 +132,7 @@ _NO_STIFFNESS = (
 
 
 def urdf(model: JointModel, state: JointState) -> str:
-    """One state of the joint as a URDF file."""
+    """Return one state of the joint as a URDF file."""
     root = Xml.Element("robot", name=f"{model.slug}_{state.point}")
     root.append(comment([*header(model, state), _NO_STIFFNESS]))
     for body in (model.base, model.moving):

@@ -50,7 +50,7 @@ def states(model: JointModel) -> Columns:
 
 
 def elements(model: JointModel) -> Columns:
-    """A row for each Maxwell element of each state, beside the springs: all of the joint's linear behaviour."""
+    """Return a row for each Maxwell element of each state, beside the springs: all of the joint's linear behaviour."""
     rows = [(state.temperature, time, k) for state in model.states for time, k in state.modes]
     temperatures, times, stiffnesses = (list(column) for column in zip(*rows, strict=True))
     return {
@@ -117,7 +117,7 @@ def write_models(
 
 
 def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
-    """What the models say, as plain data in SI."""
+    """Return what the models say, as plain data in SI."""
     return {
         **head(),
         "name": model.name,

@@ -48,12 +48,12 @@ def figure_data(plan: SweepPlan, seen: CellTable, rows: list[dict[str, Value]] |
 
 
 def axis_words(column: Column) -> str:
-    """What stands at an axis that is swept."""
+    """Return what stands at an axis that is swept."""
     return axis_label(column.name.replace("require.", "limit on ").replace(".", " "), column.unit)
 
 
 def _label(row: dict[str, Value], others: list[Column]) -> str:
-    """The other axes' values, as a legend says them."""
+    """Return the other axes' values, as a legend says them."""
     return ", ".join(f"{row[c.name]:.4g} {c.unit}".strip() if isinstance(row[c.name], float) else str(row[c.name])
                      for c in others)  # fmt: skip
 
@@ -81,7 +81,7 @@ def figures(plan: SweepPlan, seen: CellTable, data: dict[str, Any]) -> tuple[Dra
 
 
 def cell_points(plan: SweepPlan, listed: Iterable[dict[str, Value]]) -> dict[str, Any] | None:
-    """What `front.js` draws: every cell with an answer by its axes and its first outputs that have numbers.
+    """Return what `front.js` draws: every cell with an answer by its axes and its first outputs that have numbers.
 
     Where words alone are swept the cells lie by their numbers. None where no output has a number.
     """
@@ -104,7 +104,7 @@ def cell_points(plan: SweepPlan, listed: Iterable[dict[str, Value]]) -> dict[str
 
 
 def _lines(data: dict[str, Any]) -> Drawn | None:
-    """A panel an output; none of cells that are scattered over two axes."""
+    """Return a panel an output; none of cells that are scattered over two axes."""
     there = {series["label"] for panel in data["panels"] for series in panel["series"] if series["y"]}
     panels = [_panel(panel, data, there) for panel in data["panels"] if any(series["y"] for series in panel["series"])]
     if data["y"] or not panels:
@@ -116,7 +116,7 @@ def _lines(data: dict[str, Any]) -> Drawn | None:
 
 
 def _panel(panel: dict[str, Any], data: dict[str, Any], there: set[str]) -> dict[str, Any]:
-    """A panel with the lines that are somewhere `there`, so that each has one colour in all panels."""
+    """Return a panel with the lines that are somewhere `there`, so that each has one colour in all panels."""
     return {
         "x_label": data["x"], "y_label": panel["label"],
         "lines": [
@@ -131,7 +131,7 @@ def _panel(panel: dict[str, Any], data: dict[str, Any], there: set[str]) -> dict
 
 
 def _brushed(plan: SweepPlan, seen: CellTable) -> Drawn | None:
-    """The cells, to be brushed."""
+    """Return the cells, to be brushed."""
     data = cell_points(plan, seen.listed)
     if data is None:
         return None
@@ -143,5 +143,5 @@ def _brushed(plan: SweepPlan, seen: CellTable) -> Drawn | None:
 
 
 def _finite(value: Value) -> float | None:
-    """A number that can be drawn."""
+    """Return a number that can be drawn."""
     return float(value) if isinstance(value, int | float) and math.isfinite(value) else None

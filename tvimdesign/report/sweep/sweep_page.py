@@ -76,7 +76,7 @@ def _starts(plan: SweepPlan) -> list[str]:
 
 
 def _quoted(setting: str) -> str:
-    """A setting as shells of all systems take it."""
+    """Return a setting as shells of all systems take it."""
     return shlex.quote(setting) if _PLAIN & set(setting) else f'"{setting}"'
 
 
@@ -87,7 +87,7 @@ _NEVER = 1e300
 
 
 def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
-    """A row a cell; of many cells every second, third, ... and of many outputs the first."""
+    """Return a row a cell; of many cells every second, third, ... and of many outputs the first."""
     every = columns(plan)
     outputs = [column for column in every if column.kind == "output"]
     shown = [column for column in every if column.kind in {"cell", "axis"} or column.name in {"status", "broken"}]
@@ -96,7 +96,7 @@ def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
 
 
 def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
-    """The cells that have no answer, with the reason of each."""
+    """Return the cells that have no answer, with the reason of each."""
     told = {"status", "reason"}
     shown = [column for column in columns(plan) if column.kind in {"cell", "axis"} or column.name in told]
     left = seen.failures - len(seen.failed)
@@ -105,7 +105,7 @@ def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
 
 
 def _left_out(plan: SweepPlan, seen: CellTable, outputs: int) -> str:
-    """What the table does not show, and where that is."""
+    """Return what the table does not show, and where that is."""
     said = []
     if seen.every_listed > 1:
         said.append(f"{len(seen.listed)} of {plan.count} cells are in this table, one in {seen.every_listed}")
@@ -147,7 +147,7 @@ _FEW = 8
 
 
 def kept_page(folder: Path) -> bytes:
-    """The page that a folder has; empty where there is none. A sweep that is resumed clears it away."""
+    """Return the page that a folder has; empty where there is none. A sweep that is resumed clears it away."""
     try:
         return (folder / FILE).read_bytes()
     except OSError:
@@ -192,7 +192,7 @@ def _page(
 
 
 def _glance(plan: SweepPlan, seen: CellTable) -> Facts:
-    """What was swept and how, how the cells ended, and the least of what is to be small."""
+    """Return what was swept and how, how the cells ended, and the least of what is to be small."""
     ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in seen.statuses.items())
     task = "each cell is evaluated" if plan.task == "evaluate" else "each cell is optimised"
     seed = f", seed {plan.block.seed}" if plan.block.count else ""
@@ -206,7 +206,7 @@ def _glance(plan: SweepPlan, seen: CellTable) -> Facts:
 
 
 def _axis(plan: SweepPlan, place: int) -> str:
-    """One axis: its values, or their ends and how many there are."""
+    """Return one axis: its values, or their ends and how many there are."""
     axis = plan.axes[place]
     if axis.range:
         ends = (written(axis, end) for end in (axis.range.lower, axis.range.upper))
@@ -220,7 +220,7 @@ def _axis(plan: SweepPlan, place: int) -> str:
 
 
 def _commands(seen: CellTable, commands: CellCommands) -> Section:
-    """How a cell becomes a study of its own."""
+    """Return how a cell becomes a study of its own."""
     with_answer = [int(str(row["cell"])) for row in seen.listed if row["broken"] is not None]
     chosen = list(dict.fromkeys(int(best["cell"]) for best in seen.best.values())) or with_answer[:1]
     words = Words([

@@ -178,7 +178,7 @@ def mark_of(data: dict[str, Any], *, vector: bool) -> str:
 
 
 def kept_figure(folder: Path) -> KeptFigure:
-    """The figure that a folder has; its files are read, as a sweep that is resumed clears them away."""
+    """Return the figure that a folder has; its files are read, as a sweep that is resumed clears them away."""
     try:
         mark = json.loads((folder / "sweep.json").read_bytes()).get(DRAWN_FROM, "")
         files = {path.name: path.read_bytes() for path in folder.glob("sweep.*") if path.suffix != ".json"}

@@ -26,7 +26,7 @@ _TOLD, _TABLE = "sweep.json", "cells.sqlite"
 
 
 def is_sweep(path: Path) -> bool:
-    """Whether a path is the folder of a sweep, finished or not."""
+    """Return whether a path is the folder of a sweep, finished or not."""
     return (path / _TOLD).is_file() or (path / SHARDS).is_dir()
 
 
@@ -115,7 +115,7 @@ def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Val
 
 
 def _at(row: dict[str, Value], study: Study, plan: SweepPlan) -> dict[str, str]:
-    """The variables of a cell's answer as texts with their units, as far as the table has them."""
+    """Return the variables of a cell's answer as texts with their units, as far as the table has them."""
     return {name: _text(row[name], plan.unit(name)) for name in study.vary if row.get(name) is not None}
 
 

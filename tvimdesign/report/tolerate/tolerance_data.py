@@ -28,12 +28,12 @@ _NO_SPREAD = 1e-9
 
 
 def spreads(found: Spread, i: int) -> bool:
-    """Whether an output spreads at all."""
+    """Return whether an output spreads at all."""
     return bool(found.deviation[i] > _NO_SPREAD * abs(found.nominal[i])) or bool(found.drawn.never[i] > 0.0)
 
 
 def output_rows(found: Spread, table: Table) -> Iterator[Row]:
-    """One row for each output: as drawn, worst case, root-sum-square and Monte Carlo side by side."""
+    """Yield one row for each output: as drawn, worst case, root-sum-square and Monte Carlo side by side."""
     for i, name in enumerate(found.outputs):
         unit = table.unit(name)
         values = {
@@ -49,7 +49,7 @@ def output_rows(found: Spread, table: Table) -> Iterator[Row]:
 
 
 def limit_rows(found: Spread, table: Table) -> Iterator[Row]:
-    """One row for each limit: its yield with the interval of 95 %, and its C_pk."""
+    """Yield one row for each limit: its yield with the interval of 95 %, and its C_pk."""
     for kept in found.kept:
         yield {
             "limit": in_words(kept.limit, table), "output": kept.limit.output, "origin": kept.limit.origin,
@@ -59,7 +59,7 @@ def limit_rows(found: Spread, table: Table) -> Iterator[Row]:
 
 
 def contributor_rows(found: Spread, table: Table, study: Study) -> Iterator[Row]:
-    """One row for each output that spreads and each contributor: tolerance, derivative, and its shares."""
+    """Yield one row for each output that spreads and each contributor: tolerance, derivative, and its shares."""
     for i, name in enumerate(found.outputs):
         if not spreads(found, i):
             continue
@@ -88,7 +88,7 @@ def as_csv(rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def reported(found: Spread, preload: Preload | None, table: Table, study: Study, samples: int) -> dict[str, Any]:
-    """Everything as plain data."""
+    """Return everything as plain data."""
     return {
         **head(),
         "samples": samples,
@@ -105,7 +105,7 @@ def reported(found: Spread, preload: Preload | None, table: Table, study: Study,
 
 
 def _outputs_in_si(found: Spread, table: Table) -> Iterator[dict[str, str | float | None]]:
-    """The numbers of each output's row in SI."""
+    """Yield the numbers of each output's row in SI."""
     columns = {
         "as_drawn": found.nominal, "worst_low": found.worst.low, "worst_high": found.worst.high,
         "mean": found.drawn.mean, "low": found.drawn.low, "high": found.drawn.high,
@@ -154,7 +154,7 @@ def unknown_data(unknown: DesignUncertainty, table: Table) -> dict[str, Any]:
 
 
 def unknown_rows(data: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """A row an output: what it may be, all together and one at a time, and what carries most of it."""
+    """Return a row an output: what it may be, all together and one at a time, and what carries most of it."""
     return [
         {
             "output": name, "unit": one["unit"], "as_drawn": one["value"], "low": one["low"], "high": one["high"],
@@ -167,7 +167,7 @@ def unknown_rows(data: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def unknown_sentences(unknown: DesignUncertainty, found: Spread) -> list[str]:
-    """How far the limits hold, and what to measure first; said beside the yield, never in it."""
+    """Return how far the limits hold, and what to measure first; said beside the yield, never in it."""
     if unknown.holds is None:
         return []
     said = (

@@ -32,7 +32,7 @@ def print_tolerances(found: Spread, data: Mapping[str, Any], table: Table, conso
 
 
 def spread_table(found: Spread, data: Mapping[str, Any]) -> Grid:
-    """What is asked or minimised and spreads: by worst case, root-sum-square and modules drawn at random."""
+    """Return what is asked or minimised and spreads: by worst case, root-sum-square and modules drawn at random."""
     heads = ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by")
     rows = [
         (row["output"], _shown(row["as_drawn"]), _span(row["worst_low"], row["worst_high"]),
@@ -64,13 +64,13 @@ def robustness_table(data: Mapping[str, Any]) -> Grid:
 
 
 def _most_by(found: Spread, i: int) -> str:
-    """The contributor that carries most of an output's spread, with its share."""
+    """Return the contributor that carries most of an output's spread, with its share."""
     most = int(found.shares[i].argmax())
     return f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
 
 
 def unknown_table(data: Mapping[str, Any]) -> Grid:
-    """What outputs may be, over the ranges of what nobody has measured."""
+    """Return what outputs may be, over the ranges of what nobody has measured."""
     rows = []
     for row in unknown_rows(data):
         if row["low"] == row["high"]:
@@ -101,7 +101,7 @@ _FIGURE = "spread.png"
 def tolerance_page(
     folder: ResultsFolder, name: str, found: Spread, data: Mapping[str, Any], table: Table, study: str
 ) -> Page:
-    """The page of one module's tolerances; `data` is that of tolerances.json."""
+    """Return the page of one module's tolerances; `data` is that of tolerances.json."""
     share = data["yield"]
     low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
     said = f"{100.0 * share['share']:.3g} % OF MODULES KEEP ALL LIMITS ({low} to {high})"

@@ -92,7 +92,7 @@ def _study(source: Path) -> Study:
 
 
 def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule:
-    """The module to analyse: a design as it is, a study evaluated, or the optimum of one."""
+    """Return the module to analyse: a design as it is, a study evaluated, or the optimum of one."""
     table = study.table
     notes = []
     if not study.tolerances:
@@ -134,7 +134,7 @@ def _analysed(analysis: Tolerancing, samples: int) -> tuple[Spread, Preload | No
 
 
 def _price(before: Spread, after: Spread, table: Table, study: Study) -> list[dict[str, Any]]:
-    """What robustness costs: each minimised output without and with it, and the yields."""
+    """Return what robustness costs: each minimised output without and with it, and the yields."""
     rows: list[dict[str, Any]] = []
     for name in study.minimize:
         unit = table.unit(name)

@@ -24,7 +24,7 @@ _CARRIED = 0.2
 
 
 def sentences(found: Spread, preload: Preload | None, table: Table) -> list[str]:
-    """What people should know, the most important first."""
+    """Return what people should know, the most important first."""
     worst = [kept for kept in found.kept if _broken_at_worst(found, kept)]
     corners = "no limit is broken" if not worst else f"{len(worst)} of {len(found.kept)} limits are broken"
     said = [
@@ -54,7 +54,7 @@ def of_concern(found: Spread) -> list[Kept]:
 
 
 def _what_first(found: Spread, table: Table) -> Iterator[str]:
-    """What to tighten, limit by limit; where the mean stands on the limit, that tightening does not help."""
+    """Yield what to tighten, limit by limit; where the mean stands on the limit, that tightening does not help."""
     concern = of_concern(found)
     if not concern:
         yield f"Every limit is kept by {100 * _GOOD:g} % of the modules and more: nothing needs to be tightened."
@@ -80,14 +80,14 @@ def _what_first(found: Spread, table: Table) -> Iterator[str]:
 
 
 def _led_by(found: Spread, concern: list[Kept], j: int) -> list[Kept]:
-    """The limits of concern that one contributor carries most of."""
+    """Return the limits of concern that one contributor carries most of."""
     shares = {kept.limit.name: float(found.shares[found.outputs.index(kept.limit.output), j]) for kept in concern}
     carried = [kept for kept in concern if shares[kept.limit.name] >= _CARRIED] or concern[:1]
     return sorted(carried, key=lambda kept: -shares[kept.limit.name])[:2]
 
 
 def _halved(found: Spread, kept: Kept, j: int, table: Table) -> str:
-    """What a contributor carries of a limit's spread, and what half its tolerance would do."""
+    """Return what a contributor carries of a limit's spread, and what half its tolerance would do."""
     i = found.outputs.index(kept.limit.output)
     share = float(found.shares[i, j])
     carried = (
@@ -101,7 +101,7 @@ def _halved(found: Spread, kept: Kept, j: int, table: Table) -> str:
 
 
 def free_angle(preload: Preload) -> str:
-    """What the springs' free angle does to the joint, and what adjusting the preload does about it."""
+    """Return what the springs' free angle does to the joint, and what adjusting the preload does about it."""
     by = " by DIN 2194, grade 2" if preload.by_row else ""
     left = math.degrees(preload.adjusted)
     adjusted = f"to within ±{left:.2g}°" if left > 0.0 else "out"

@@ -107,7 +107,7 @@ WORDS = {
 
 
 def model_values(module: ResolvedModule) -> dict[str, float]:
-    """What the model says, by row; stiffness in N*m/rad, stress in MPa at one newton metre, frequency in Hz."""
+    """Return what the model says, by row; stiffness in N*m/rad, stress in MPa at one newton metre, frequency in Hz."""
     shear = module.study.mode == "shear"
     names = [
         "spring_rate", "held_spring_rate", "coil_stress_per_angle", "tang_stress_per_angle", "structure_stiffness",
@@ -166,7 +166,7 @@ def _mean_plate_stress(module: ResolvedModule, thickness: float, core: float) ->
 
 
 def fe_values(module: ResolvedModule, found: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
-    """What FE finds, by the same rows."""
+    """Return what FE finds, by the same rows."""
     names = ("link_friction_torque", "link_bolt_circle_radius")
     friction, circle = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
     joint, heat = found["joint"], found.get(HEAT, {})

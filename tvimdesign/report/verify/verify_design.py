@@ -60,14 +60,14 @@ def verify_design(
 
 
 def solvers_of(design: Design) -> tuple[str, ...]:
-    """What is solved: heat where pads heat the polymer and the model gets it warm, the slowest first."""
+    """Return what is solved: heat where pads heat the polymer and the model gets it warm, the slowest first."""
     warmed = any(np.isfinite(design.values.get(name, np.inf)) for name in TIMES)
     in_pads = design.choices.get("heat_source", "pads") == "pads"
     return (SOLVERS[0], HEAT, *SOLVERS[1:]) if warmed and in_pads else SOLVERS
 
 
 def _with_softening(module: ResolvedModule, heat: Solved, parts: Path) -> Solved:
-    """The heat with the times at which the joint is soft."""
+    """Return the heat with the times at which the joint is soft."""
     joint, times = WarmJoint(module.table, module.values), {}
     for mesh in ("fine", "coarse"):
         with np.load(parts / f"heat_{mesh}.npz") as course:

@@ -28,7 +28,7 @@ HEADS = ("", "model", "FE", "unit", "model / FE", "mesh", "what")
 
 
 def verified(rows: Sequence[Compared], solved: dict[str, Solved]) -> dict[str, Any]:
-    """What `verify.json` has."""
+    """Return what `verify.json` has."""
     return {
         **head(),
         "summary": summary(rows),
@@ -42,12 +42,12 @@ def verified(rows: Sequence[Compared], solved: dict[str, Solved]) -> dict[str, A
 
 
 def _told(found: Mapping[str, float]) -> dict[str, float | None]:
-    """What a solver found; None for a time that did not come, which JSON has no number for."""
+    """Return what a solver found; None for a time that did not come, which JSON has no number for."""
     return {name: value if math.isfinite(value) else None for name, value in found.items()}
 
 
 def table_csv(rows: Sequence[Compared]) -> str:
-    """The rows, worst first."""
+    """Return the rows, worst first."""
     lines = ["name,unit,model,fe,model over fe,finer over coarser mesh,meaning"]
     lines += [
         f"{row.name},{row.unit},{row.model:.5g},{row.fe:.5g},{row.ratio:.3f},{1.0 + row.mesh_change:.3f},"
@@ -64,7 +64,7 @@ def print_rows(rows: Sequence[Compared], console: Console) -> None:
 
 
 def cells(row: Compared) -> tuple[str, ...]:
-    """A row as text, under `HEADS`."""
+    """Return a row as text, under `HEADS`."""
     return (row.name, number(row.model), number(row.fe), pretty(row.unit), f"{row.ratio:.3f}",
             f"{100.0 * row.mesh_change:+.1f} %", row.meaning)  # fmt: skip
 
@@ -75,7 +75,7 @@ def far(rows: Sequence[Compared]) -> list[str]:
 
 
 def summary(rows: Sequence[Compared]) -> str:
-    """How near the model is, in a sentence or two."""
+    """Return how near the model is, in a sentence or two."""
     beyond = far(rows)
     told = f"{len(rows) - len(beyond)} of {len(rows)} within {100.0 * FAR:.0f} % of finite elements on the drawn parts"
     worst = f"; beyond: {', '.join(beyond)}" if beyond else ""
@@ -83,7 +83,7 @@ def summary(rows: Sequence[Compared]) -> str:
 
 
 def page(name: str, rows: Sequence[Compared], solved: dict[str, Solved], *, pictures: bool) -> str:
-    """The page of the folder, in Markdown."""
+    """Return the page of the folder, in Markdown."""
     lines = [f"# {name}: the model against finite elements", "", summary(rows), ""]
     lines += ["| quantity | model | FE | unit | model / FE | mesh | what |", "|---|---|---|---|---|---|---|"]
     lines += [f"| {' | '.join(cells(row))} |" for row in rows]
@@ -98,7 +98,7 @@ SOLVER_HEADS = ("solver", "unknowns", "processor seconds", "GB")
 
 
 def solver_rows(solved: dict[str, Solved]) -> list[tuple[str, ...]]:
-    """How large each solver's finer mesh was and what it took, under `SOLVER_HEADS`."""
+    """Return how large each solver's finer mesh was and what it took, under `SOLVER_HEADS`."""
     return [
         (key, f"{one.found['unknowns']:.0f}", f"{one.found['seconds']:.0f}", f"{one.found['gigabytes']:.1f}")
         for key, one in solved.items()
@@ -120,7 +120,7 @@ _SHOWS = {
 
 
 def verify_page(folder: ResultsFolder, name: str, rows: Sequence[Compared], solved: dict[str, Solved]) -> Page:
-    """The page; pictures are those that the folder has."""
+    """Return the page; pictures are those that the folder has."""
     beyond = len(far(rows))
     said = "ALL WITHIN 10 %" if not beyond else f"{beyond} OF {len(rows)} BEYOND 10 %"
     first: list[Block] = [Points([summary(rows)])]

@@ -63,7 +63,7 @@ def write_fmu(resolved: ResolvedModule, path: Path) -> WrittenFmu:
 
 
 def _written(resolved: ResolvedModule, path: Path, beside: Path) -> WrittenFmu:
-    """The FMU, with what it is made of in a folder beside it."""
+    """Return the FMU, with what it is made of in a folder beside it."""
     equations = joint_equations(resolved)
     variables = fmu_variables(equations, resolved)
     sources = source_files(equations, variables, beside)
@@ -88,7 +88,7 @@ _ABOUT = "Heat and torque of a thermo-active variable impedance joint. Written b
 
 
 def source_files(equations: JointEquations, variables: tuple[Variable, ...], beside: Path) -> dict[str, str]:
-    """The C code by name; `sizes.h` has a place for the GUID."""
+    """Return the C code by name; `sizes.h` has a place for the GUID."""
     own = files("tvimdesign.report.robot.fmu") / "source"
     written = {
         file.name: file.read_text(encoding="utf-8") for file in own.iterdir() if file.name.endswith((".c", ".h"))

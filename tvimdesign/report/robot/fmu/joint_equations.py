@@ -54,11 +54,11 @@ class JointEquations:
     """Current, ambient temperature, frequency as the design has them."""
 
     def of(self, name: str) -> Any:
-        """One function by name."""
+        """Return one function by name."""
         return next(function for function in self.functions if function.name() == name)
 
     def code(self, folder: Path) -> dict[str, str]:
-        """The generated files by name; they are generated in a folder."""
+        """Return the generated files by name; they are generated in a folder."""
         generator = ca.CodeGenerator("equations.c", {"with_header": True})
         for function in self.functions:
             generator.add(function)
@@ -67,7 +67,7 @@ class JointEquations:
 
 
 def joint_equations(resolved: ResolvedModule) -> JointEquations:
-    """The equations of a module; the layer freezes with its history and melts, whatever the current."""
+    """Return the equations of a module; the layer freezes with its history and melts, whatever the current."""
     model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
     phase = model.either_way
     state, given = ca.SX.sym("state", phase.state_size), ca.SX.sym("given", 1 + len(MOVING))
@@ -130,14 +130,14 @@ def _slices(
 
 
 def listed(name: str, numbers: Sequence[float] | Any, kind: str = "double") -> str:
-    """A C array of constants, to the last digit."""
+    """Return a C array of constants, to the last digit."""
     whole = kind == "int"
     texts = [str(int(number)) if whole else repr(float(number)) for number in np.asarray(numbers).ravel()]
     return f"static const {kind} {name}[] = {{{', '.join(texts) or '0'}}};"
 
 
 def sizes(equations: JointEquations) -> str:
-    """What the C code must know of the equations when it is built: counts, places of the Jacobian, elements."""
+    """Return what the C code must know of the equations when it is built: counts, places of the Jacobian, elements."""
     jacobian = equations.of("rates_and_jacobian").sparsity_out(1)
     columns, rows = jacobian.get_ccs()
     work = np.max([[f.sz_arg(), f.sz_res(), f.sz_iw(), f.sz_w()] for f in equations.functions], axis=0)

@@ -43,7 +43,7 @@ class Variable:
 
 
 def fmu_variables(equations: JointEquations, resolved: ResolvedModule) -> tuple[Variable, ...]:
-    """All variables, in the order of the value references that the C code has."""
+    """Return all variables, in the order of the value references that the C code has."""
     _, ambient, frequency = equations.start
     return (
         Variable("current", "input", "A", "Current through the pads; above zero heats the PCL, below cools it.", 0.0),
@@ -91,7 +91,7 @@ CELSIUS = {"name": "degC", "offset": "-273.15"}
 def model_description(
     name: str, guid: str, description: str, variables: Sequence[Variable], sources: Sequence[str], stop: float
 ) -> str:
-    """The file; `stop` [s] is the end of the experiment that a client proposes."""
+    """Return the file; `stop` [s] is the end of the experiment that a client proposes."""
     root = Xml.Element(
         "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=guid, description=description,
         generationTool="tvimdesign", variableNamingConvention="flat",
