@@ -63,6 +63,7 @@ class Pair:
         """Nothing is simulated yet."""
         self.models = (first, second)
         self._simulators = tuple(Simulator(model) for model in self.models)
+        self._times: dict[tuple[int, str, tuple[tuple[str, float], ...]], float] = {}
 
     def value(self, name: str) -> float:
         """Value of an input [SI]. Raises InputError where the two differ in it or neither has it."""
@@ -78,8 +79,20 @@ class Pair:
         return first, second
 
     def times(self, event: str, changes: Mapping[str, float] | None = None) -> Array:
-        """Times of one event in both modules [s], infinite where it never happens."""
-        return np.array([cycle[event] for cycle in self.switches(changes)])
+        """Return the times of one event in both modules [s], infinite where it never happens."""
+        return np.array([self._time(i, event, changes or {}) for i in range(2)])
+
+    def _time(self, which: int, event: str, changes: Mapping[str, float]) -> float:
+        """Return the time of one event in one module, whose own inputs among the changes alone count."""
+        model = self.models[which]
+        own = tuple((name, value) for name, value in changes.items() if name in model.index)
+        if (which, event, own) not in self._times:
+            inputs = model.start.copy()
+            for name, value in own:
+                inputs[model.index[name]] = value
+            found = CycleEngine(model).run(inputs, np.zeros((len(inputs), 0)), [event]).values
+            self._times[which, event, own] = float(found[model.switch_names.index(event)])
+        return self._times[which, event, own]
 
     def influence(self, event: str, span: Span) -> Influence:
         """Times at both ends of an input's range."""
