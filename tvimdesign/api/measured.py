@@ -41,7 +41,7 @@ def fit(
 
 
 class Fitted:
-    """What measured data come to: parameters with intervals of 95 %, notes, residuals, and a record."""
+    """Result of fitting measured data: parameters with intervals of 95 %, notes, residuals, and a record."""
 
     def __init__(self, measured: Measured) -> None:
         """Hold a measurement of `measure_files`."""
@@ -54,12 +54,12 @@ class Fitted:
 
     @property
     def read(self) -> list[str]:
-        """What was understood of the files, in lines."""
+        """Return what was understood of the files, in lines."""
         return self._measured.read()
 
     @property
     def notes(self) -> list[str]:
-        """What was taken for what, what the data cannot tell apart, and what else a reader has to know; sentences."""
+        """Return sentences on what was assumed, what the data cannot tell apart, and what else a reader has to know."""
         found = self._measured.measurement
         return [*found.notes, *found.fit.words]
 

@@ -1,4 +1,4 @@
-"""What notebooks show: small tables, figures and progress."""
+"""Display in notebooks: small tables, figures and progress."""
 
 from __future__ import annotations
 

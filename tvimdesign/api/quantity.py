@@ -40,7 +40,7 @@ class Quantity:
         return self.unit
 
     def to(self, unit: str) -> Quantity:
-        """The same quantity in another unit of its kind. Raises UnitError where it is of another kind."""
+        """Convert the quantity to another unit of its kind. Raises UnitError where it is of another kind."""
         parse_quantity(f"1 {self.unit}", unit)
         return Quantity(from_si(self.si, unit), unit)
 

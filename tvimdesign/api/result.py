@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class NoDesignError(InfeasibleError):
-    """No design keeps every limit; `result` is where the search ended, the closest design."""
+    """No design is feasible; `result` is where the search ended, the closest design."""
 
     def __init__(self, message: str, result: Result) -> None:
         """Keep the result beside the message."""
@@ -40,13 +40,13 @@ class NoDesignError(InfeasibleError):
 
 @dataclass(frozen=True)
 class Reasons:
-    """Why a design is as it is: what the binding limits cost, in sentences and as a table of every limit."""
+    """Reasons for a design: what the binding limits cost, in sentences and as a table of every limit."""
 
     sentences: tuple[str, ...]
     rows: tuple[LimitEntry, ...]
 
     def table(self) -> pd.DataFrame:
-        """Every limit: how it stands, what is left of it, and what a step of it costs of each output, in percent."""
+        """Return a table of every limit: its state, its margin, and its cost in each output, in percent a step."""
         import pandas as pd
 
         return pd.DataFrame([{**row, **row["sensitivity"]} for row in self.rows]).drop(
@@ -63,7 +63,7 @@ class Reasons:
 
 @dataclass(frozen=True)
 class Parts:
-    """What was made of a design: the folder, its files, and the checks on the solids."""
+    """Exported parts of a design: the folder, its files, and the checks on the solids."""
 
     folder: Path
     files: tuple[Path, ...]
@@ -81,7 +81,7 @@ class Parts:
 
 
 class Result:
-    """What a study came to. `result["module_mass"]` is a quantity, `result["motor"]` the word of a choice."""
+    """Result of a study. `result["module_mass"]` is a quantity, `result["motor"]` the word of a choice."""
 
     def __init__(self, answered: AnsweredStudy) -> None:
         """Hold an answer; `study.run()` makes results."""
@@ -119,7 +119,7 @@ class Result:
 
     @property
     def feasible(self) -> bool:
-        """Whether every requirement and every rule of the machine is kept."""
+        """Return whether every requirement and every rule of the machine is satisfied."""
         return self._answered.result.feasible
 
     @property
@@ -139,7 +139,7 @@ class Result:
         return [*advice, *map(str, self._answered.failures), *self.data.get("doubts", [])]
 
     def __getitem__(self, name: str) -> Quantity | Any:
-        """A value by its full name, `row` or `row@point`, in the row's unit; a choice's word. Raises InputError."""
+        """Return a value by full name, `row` or `row@point`, in the row's unit; a choice's word. Raises InputError."""
         design, table = self.design, self._answered.study.table
         if name in design.choices:
             return design.choices[name]
@@ -157,11 +157,11 @@ class Result:
         return value_table(self._answered, match)
 
     def requirements(self) -> pd.DataFrame:
-        """Every requirement and rule of the machine: what is asked, what came out, what is left, whether it holds."""
+        """Return a table of every requirement and rule of the machine: limit, value, margin and state."""
         return constraint_table(self._answered)
 
     def uncertainty(self) -> UncertaintyEntry:
-        """How sure the design is: its yield, and intervals over what nobody has measured, as `results.json` has it.
+        """Return the yield, and intervals over the unmeasured inputs, as `results.json` has them.
 
         Computed when first asked for, in some seconds.
         """
@@ -173,7 +173,7 @@ class Result:
         return self.data["uncertainty"]
 
     def intervals(self) -> pd.DataFrame:
-        """Return what headlines and requirements may be, given what nobody has measured, and what to measure first.
+        """Return the intervals of headlines and requirements from unmeasured inputs, and what to measure first.
 
         Columns: value; low and high with all unmeasured inputs anywhere in their ranges (95 %); the same with one at a
         time; unit; the input that carries most of it and its share; which to measure for half the width.

@@ -40,7 +40,7 @@ def example(name: str) -> Study:
 
 
 class Study:
-    """What a module is, what may change, what must hold and what is to be small.
+    """Study: a module, its variables, its requirements and its objective.
 
     Every argument is a section of the study file and takes what the file takes: text with its unit ("1.2 mm"), pairs of
     them for ranges, `{"choose": [...]}`, limits (">= 15 N.m"). A number with its unit may also be `(1.2, "mm")`, a
@@ -97,7 +97,7 @@ class Study:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Return the study's name."""
         return self.resolved.name
 
     @property
@@ -167,7 +167,7 @@ class Study:
     def run(self, *, sensitivities: bool = False, prove: bool = False, progress: bool = True) -> Result:
         """Evaluate or optimise the study, as `tvimdesign run` does, without writing a file.
 
-        Raises NoDesignError, which has the closest design, where no design keeps every limit.
+        Raises NoDesignError, which has the closest design, where no design is feasible.
         """
         from tvimdesign.api.result import Result
         from tvimdesign.report.run.answered_study import answer_study

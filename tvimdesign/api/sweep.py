@@ -71,7 +71,7 @@ class Sweep(Generic[StudyT]):
 
     @property
     def warm_solves(self) -> int:
-        """How many cells were optimised from the study's own optimum alone."""
+        """Return how many cells were optimised from the study's own optimum alone."""
         return sum(one.answer.warm for one in self.kept)
 
     def table(self, *names: str) -> pd.DataFrame:

@@ -42,7 +42,7 @@ def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
 
 
 def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
-    """Every requirement and rule: limit, value, unit, margin and its unit, whether it is kept, where it is from."""
+    """Return a table of every requirement and rule: limit, value, unit, margin and its unit, state and source."""
     import pandas as pd
 
     return pd.DataFrame([check_row(check, answered.study.table) for check in answered.result.checks])

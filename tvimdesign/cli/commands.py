@@ -62,7 +62,7 @@ def run(
         typer.Option("--time-limit", metavar="TIME", help="End the run then, with the best design found; 30 min."),
     ] = "",
     verified: Annotated[
-        bool, typer.Option("--verify", help="Hold the design against finite elements after it, as `verify` does.")
+        bool, typer.Option("--verify", help="Check the design against finite elements after it, as `verify` does.")
     ] = False,
     fe_python: FePython = "",
     settings: Settings = None,
@@ -83,7 +83,7 @@ def run(
 
 
 def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> Callable[[], None]:
-    """What verifies a run once it is done. Raises InputError now where finite elements cannot be had."""
+    """Return a function that verifies a finished run. Raises InputError now where finite elements cannot be had."""
     import sys
 
     from tvimdesign.cad.fe.run_solvers import require_fe

@@ -1,4 +1,4 @@
-"""What a shell offers when the user presses Tab: study files, tests, examples, names of rows and of what is set."""
+"""Completions that a shell offers on Tab: study files, tests, examples, names of rows and of what is set."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def study_files(incomplete: str) -> list[str]:
 
 
 def designs_and_studies(incomplete: str) -> list[str]:
-    """The same, and designs."""
+    """Complete names of designs and studies."""
     return _files(incomplete, (*_STUDIES, ".json"))
 
 
@@ -47,7 +47,7 @@ def modes(incomplete: str) -> list[str]:
 
 
 def rows(incomplete: str) -> list[str]:
-    """Names of rows of either mode."""
+    """Complete names of rows of either mode."""
     from tvimdesign.report.rows import row_names
 
     return _beginning(row_names(), incomplete)

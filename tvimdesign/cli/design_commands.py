@@ -72,7 +72,7 @@ def verify(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Hold a design's model against finite elements on its exported parts, into results/<name>-verified."""
+    """Check a design against finite elements of its exported parts, into results/<name>-verified."""
     from tvimdesign.report.verify.verify_design import verify_design
 
     folder = out or Path("results") / f"{name_of(result)}-verified"

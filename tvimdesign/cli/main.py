@@ -43,7 +43,7 @@ def _command() -> Any:
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: object, **__: object) -> None:
-    """What a user can act on, in plain words; libraries' own warnings are for developers and stay unsaid."""
+    """Show a warning that a user can act on, in plain words; hide libraries' warnings, which are for developers."""
     if issubclass(category, FolderWarning):
         sys.stderr.write(f"Warning: {message}\n")
 
@@ -89,7 +89,7 @@ def _told(error: TvimError) -> int:
 
 
 def _of_the_machine(error: OSError | MemoryError) -> str:
-    """What the machine refuses, in a line: memory, descriptors, room on a disk."""
+    """Describe in a line what the machine refuses: memory, descriptors, room on a disk."""
     if isinstance(error, MemoryError):
         return "there is not enough memory; close other programs, or ask for fewer `solver.cells`"
     named = f"{error.filename}: " if error.filename else ""
@@ -97,7 +97,7 @@ def _of_the_machine(error: OSError | MemoryError) -> str:
 
 
 def _print_error(error: TvimError) -> None:
-    """The error as JSON on standard output: the message, and each problem of a study with its place."""
+    """Print the error as JSON on standard output: the message, and each problem of a study with its place."""
     import json
     from dataclasses import asdict
 

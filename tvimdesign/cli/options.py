@@ -70,7 +70,7 @@ def default_folder(source: Path) -> Path:
 
 
 def name_of(source: Path) -> str:
-    """What folders of a study or a design are named by: <run>, or <run>-front-03 of one of several in a folder."""
+    """Return the name for folders of a study or a design: <run>, or <run>-front-03 of one of several in a folder."""
     if source.suffix != ".json":
         return source.resolve().name if source.is_dir() else source.stem
     folder, own = source.resolve().parent, source.name.removesuffix(".json").removesuffix(".design")

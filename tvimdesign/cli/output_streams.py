@@ -44,7 +44,7 @@ def flush_output() -> None:
 
 
 def drop_what_cannot_be_written() -> None:
-    """Empty standard output, once an error was told: the interpreter would fail over what is left in it."""
+    """Empty standard output after an error is printed: the interpreter would fail over what is left in it."""
     try:
         sys.stdout.flush()
     except OSError:

@@ -1,1 +1,1 @@
-"""Tables, plots, the results folder and the paper check: how an answer is told."""
+"""Reports of an answer: tables, plots, the results folder and the paper check."""

@@ -180,7 +180,7 @@ def _entry(row: Quantity, kind: str, unit: str, default: str, allowed: str, name
 
 
 def _range(row: Input) -> str:
-    """Return how well the table's own default is known, where nobody has measured it."""
+    """Return how well the table's own unmeasured default is known."""
     if row.range_of is not None:
         return f"the range of {row.range_of[1]} of {row.range_of[0]}"
     if row.low is None or row.high is None:

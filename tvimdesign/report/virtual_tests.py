@@ -15,7 +15,7 @@ if TYPE_CHECKING:  # the command line lists the tests, and must not load numpy f
 
 
 class VirtualTest(NamedTuple):
-    """Where a test is, and what it shows."""
+    """Location of a test, and its description."""
 
     function: str
     """`module:function`; the function takes a `ResolvedModule` and returns a `Trial`."""
@@ -64,7 +64,7 @@ def listing() -> str:
 
 
 def find_test(name: str) -> Callable[[ResolvedModule], Trial]:
-    """The function of a test; raises InputError with the nearest name where there is none, or with all of them."""
+    """Return the function of a test; raises InputError with the nearest name, or all, where there is none."""
     if not name:
         raise InputError(f"say which virtual test, with --test:\n{listing()}\nfor example: --test release")
     if name not in TESTS:

@@ -1,1 +1,1 @@
-"""How a design is evaluated: its working cycle simulated, and what a laboratory would measure on the module."""
+"""Evaluation of a design: its working cycle simulated, and what a laboratory would measure on the module."""

@@ -1,4 +1,4 @@
-"""What a virtual test comes to, as plain data: tables of curves, how they are drawn, and the numbers read off them.
+"""Result of a virtual test as plain data: tables of curves, how they are drawn, and the numbers read off them.
 
 Every test returns one `Trial`; the report writes a CSV for each sheet and a figure from the panels, and knows nothing
 of what was tested.
@@ -31,7 +31,7 @@ class CurveTable:
     columns: tuple[Column, ...]
 
     def column(self, name: str) -> Column:
-        """The column of that name; raises KeyError where there is none."""
+        """Return the column of that name; raises KeyError where there is none."""
         return next(column for column in self.columns if column.name == name)
 
 

@@ -32,7 +32,7 @@ class CellAnswers:
     """Answers the cells of a sweep."""
 
     def __init__(self, job: SweptStudy) -> None:
-        """Nothing is compiled yet."""
+        """Start with nothing compiled."""
         self._job = job
         self._simulators: OrderedDict[Any, Simulator] = OrderedDict()
         self._searches: OrderedDict[Texts, AnchoredSearch] = OrderedDict()
@@ -51,7 +51,7 @@ class CellAnswers:
             return self._nothing("not_converged", error)
 
     def search_of(self, texts: Texts) -> AnchoredSearch:
-        """What finds the optimum of a cell: it begins at the optimum of the study's own numbers with its words."""
+        """Return the search for the optimum of a cell: it starts at the optimum for the cell's words."""
         words = tuple("" if number else text for text, number in zip(texts, self._job.numbers, strict=True))
         if words not in self._searches:
             named = [(name, text) for name, text in zip(self._job.names, words, strict=True) if text]

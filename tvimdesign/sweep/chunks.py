@@ -18,7 +18,7 @@ class ChunkAnswers:
     """Answers chunks of some work, and says what each cell took."""
 
     def __init__(self, job: SweptStudy) -> None:
-        """Nothing is compiled yet."""
+        """Start with nothing compiled."""
         from tvimdesign.sweep.answers import CellAnswers  # loads CasADi, which only workers need
 
         self._answers = CellAnswers(job)

@@ -64,7 +64,7 @@ class Cluster:
     """A dask scheduler by its address, and what is asked of it."""
 
     def __init__(self, address: str, job: SweptStudy, folder: Path, gone: float = GONE) -> None:
-        """Nothing is asked yet; a scheduler that ends is waited for `gone` seconds. Raises InputError."""
+        """Prepare to submit; wait `gone` seconds for a scheduler that ends. Raises InputError."""
         require_extra("cluster", f"--scheduler {address}")
         import distributed
 
@@ -72,7 +72,7 @@ class Cluster:
         self._job, self._folder = job, folder
 
     def answer(self, cells: Sequence[Cell], heard: Heard) -> Usage:
-        """Answer every cell; `heard` is told after each chunk.
+        """Answer every cell; `heard` is called after each chunk.
 
         Raises InputError where no scheduler answers, TvimError where one that did stays away; cells are kept.
         """

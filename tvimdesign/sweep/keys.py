@@ -70,7 +70,7 @@ class CellKeys:
         return read_tree(self._plan.cell_tree((*self._start[:place], text, *self._start[place + 1 :])))
 
     def _places_between(self, place: int, axis: SweptAxis) -> tuple[tuple[str | int, ...] | None, list[Any]]:
-        """Where a range's number stands in the resolved study, and where its text does; None of a list."""
+        """Return where a range's number stands in the resolved study, and where its text does; None of a list."""
         if axis.range is None:
             return None, []
         low, high = (leaves_of(self._read(place, written(axis, end))) for end in (axis.range.lower, axis.range.upper))
@@ -94,7 +94,7 @@ _NOTHING = object()
 
 
 def key_of(said: Any) -> str:
-    """Return the key of what is said: plain data."""
+    """Return the key of plain data."""
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:_LENGTH]
 
 

@@ -23,7 +23,7 @@ ALWAYS = ("module_mass", "envelope_diameter", "response_time")
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """What a sweep does, cell by cell."""
+    """Plan of a sweep, cell by cell."""
 
     tree: StudyTree
     """The study without `sweep` and `front`."""
@@ -34,17 +34,17 @@ class SweepPlan:
 
     @cached_property
     def points(self) -> CellPoints:
-        """Where the cells lie."""
+        """Return the values of the cells."""
         return CellPoints(self.block)
 
     @property
     def axes(self) -> tuple[SweptAxis, ...]:
-        """What is swept."""
+        """Return the swept axes."""
         return self.block.axes
 
     @property
     def count(self) -> int:
-        """How many cells there are."""
+        """Return how many cells there are."""
         return self.points.count
 
     @cached_property
@@ -54,11 +54,11 @@ class SweepPlan:
 
     @property
     def task(self) -> Literal["evaluate", "optimize"]:
-        """What is done in each cell."""
+        """Return what is done in each cell."""
         return "optimize" if self.first.task == "optimize" and self.block.task != "evaluate" else "evaluate"
 
     def axis_values(self, cell: int) -> list[float | str]:
-        """Where a cell stands on each axis: numbers in the axis's unit, of limits as well; else the words."""
+        """Return where a cell stands on each axis: numbers in the axis's unit, of limits as well; else the words."""
         return [axis_value(axis, text) for axis, text in zip(self.axes, self.points.texts(cell), strict=True)]
 
     def cell_tree(self, texts: Texts) -> StudyTree:
@@ -67,7 +67,7 @@ class SweepPlan:
 
     @cached_property
     def columns(self) -> tuple[str, ...]:
-        """What is kept of each cell, by full name: what the study asks about, and what the block names."""
+        """Return the outputs of each cell by full name: those the study asks about, and those the block names."""
         study = self.first
         if EVERY_OUTPUT in self.block.outputs:
             rows = [row for row in study.table.outputs if not (row.instant or row.hidden)]
@@ -79,7 +79,7 @@ class SweepPlan:
 
     @property
     def asked(self) -> tuple[str, ...]:
-        """What the study itself asks about: what it minimises, limits and varies, and what every table has."""
+        """Return the outputs the study asks about: those it minimises, limits and varies, and those every table has."""
         study = self.first
         limits = [limit.output for limit in study.require]
         return tuple(dict.fromkeys([*study.minimize, *limits, *ALWAYS, *study.vary]))

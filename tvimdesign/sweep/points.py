@@ -1,4 +1,4 @@
-"""Where the cells of a sweep lie: the values of each axis as a study would write them, cell by cell."""
+"""Positions of a sweep's cells: the values of each axis as a study would write them, cell by cell."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class CellPoints:
 
     @cached_property
     def count(self) -> int:
-        """How many cells there are."""
+        """Return how many cells there are."""
         if self.block.method == "list":
             return len(self.block.rows)
         return self.block.count or math.prod(_length(axis) for axis in self.block.axes)

@@ -27,7 +27,7 @@ MOST_DEATHS = 2
 
 @dataclass
 class Usage:
-    """What a sweep has done and spent so far."""
+    """Work that a sweep has done, and its cost so far."""
 
     cells: int = 0
     warm: int = 0
@@ -70,7 +70,7 @@ class Pool:
         """What all of them write to standard error."""
 
     def answer(self, cells: Sequence[Cell], heard: Heard) -> Usage:
-        """Answer every cell; `heard` is told after each chunk. Raises OutputError, TvimError for workers that fail."""
+        """Answer every cell; `heard` is called after each chunk. Raises OutputError, TvimError if workers fail."""
         with tempfile.TemporaryFile() as self._errors:
             return self._answer(CellQueue(cells, self._job, self._count), min(self._count, len(cells)), heard)
 

@@ -19,7 +19,7 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Executor:
-    """Who computes the cells: processes here, the workers of a scheduler, or this job of a batch system's array."""
+    """Place of computing the cells: processes here, a scheduler's workers, or this job of a batch system's array."""
 
     workers: int = 0
     """Processes; as many as there are processors where it is 0."""
@@ -30,12 +30,12 @@ class Executor:
 
     @property
     def alone(self) -> bool:
-        """Whether no other job has a part of it."""
+        """Return whether no other job has a part of it."""
         return self.part == (1, 1)
 
     @property
     def said(self) -> bool:
-        """Whether anything else was said than to compute here."""
+        """Return whether the user chose another place than here."""
         return bool(self.scheduler) or not self.alone
 
     @classmethod
@@ -51,7 +51,7 @@ class Executor:
 
 @dataclass(frozen=True)
 class SweepDone:
-    """What of a sweep, or of other work, is done."""
+    """Finished part of a sweep, or of other work."""
 
     cells: int
     """Of the whole."""
@@ -66,7 +66,7 @@ class SweepDone:
 
     @property
     def whole(self) -> bool:
-        """Whether every cell is there."""
+        """Return whether every cell is there."""
         return not self.missing
 
 

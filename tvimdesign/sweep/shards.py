@@ -31,7 +31,7 @@ class ShardWriter:
     """Appends to a shard of its own, which is made with the first cells."""
 
     def __init__(self, folder: Path, columns: Sequence[str]) -> None:
-        """Nothing is written yet."""
+        """Start with nothing written."""
         self._folder, self._columns = folder / SHARDS, list(columns)
         self._path: Path | None = None
         self._file, self._digest = -1, hashlib.sha256()

@@ -1,1 +1,1 @@
-"""The command `compare`: studies of any modes held against each other, as drawn and each optimised for itself."""
+"""The command `compare`: studies of any modes compared, as drawn and each optimised for itself."""

@@ -1,4 +1,4 @@
-"""What a comparison came to: the answers of the child processes as designs, rows, fronts and who leads where."""
+"""Result of a comparison: the child processes' answers as designs, rows, fronts and the winner of each pair."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _SAID_FIRST = ("envelope_diameter", "module_mass", "cycle_time", "response_time"
 
 
 class Outcome:
-    """All studies' answers under their labels; the first study is what the others are held against."""
+    """All studies' answers under their labels; the others are compared with the first study."""
 
     def __init__(self, entrants: Mapping[str, Case], found: Mapping[str, dict[str, Any]]) -> None:
         """`found` holds what each child process wrote."""
@@ -53,13 +53,13 @@ class Outcome:
 
     @property
     def which(self) -> str:
-        """What is held against each other: the optima where every study that has a design has one, else as drawn."""
+        """Say what is compared: the optima where every study that has a design has one, else the designs as drawn."""
         found = [answer for answer in self.found.values() if any(which in answer for which in COMPARISONS)]
         return "optimised" if found and all("optimised" in answer for answer in found) else "drawn"
 
     @cached_property
     def rows(self) -> dict[str, list[Row]]:
-        """What all have, by comparison; none where fewer than two studies have an answer."""
+        """Return the rows that all designs have, by comparison; none where fewer than two studies have an answer."""
         return {which: common_rows(designs, self.tables) for which, designs in self.designs.items() if len(designs) > 1}
 
     @cached_property
@@ -84,7 +84,7 @@ class Outcome:
 
     @cached_property
     def contests(self) -> list[ParetoComparison]:
-        """Who leads where: each pair of outputs with a limit on either of them."""
+        """Compare the fronts over each pair of outputs with a limit on either of them."""
         found = []
         for (first, second), fronts in self.fronts.items():
             points = {label: _curve(front, second, first) for label, front in fronts.items()}

@@ -44,7 +44,7 @@ Say = Callable[[str], None]
 
 
 def front_outputs(study: Study, table: Table) -> tuple[str, str, str]:
-    """Return the time, mass and size of which fronts are drawn: those the study minimises, else the usual ones."""
+    """Return the time, mass and size that fronts are drawn over: those the study minimises, else the usual ones."""
     times = [name for name in study.minimize if table.unit(name) == "s"]
     sizes = [name for name in study.minimize if name in {"envelope_diameter", "envelope_volume", "envelope_height"}]
     return (times or ["response_time"])[0], "module_mass", (sizes or ["envelope_diameter"])[0]

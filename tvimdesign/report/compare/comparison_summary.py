@@ -43,7 +43,7 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
 
 
 def summary_text(outcome: Outcome) -> str:
-    """The same as plain text."""
+    """Format the summary as plain text."""
     stream = io.StringIO()
     print_comparison(outcome, OwnMarkupConsole(file=stream, width=WIDTH, highlight=False, color_system=None))
     return stream.getvalue()
@@ -125,7 +125,7 @@ def accepted(outcome: Outcome) -> Iterator[tuple[str, list[str]]]:
 
 
 def warnings_of(outcome: Outcome) -> Iterator[str]:
-    """Yield the advice that the designs held against each other do not follow."""
+    """Yield the advice that the compared designs do not follow."""
     for label, found in outcome.found.items():
         for warning in found.get(outcome.which, {"warnings": []})["warnings"]:
             value = math.inf if warning["value"] is None else warning["value"]

@@ -20,7 +20,7 @@ Verdict = Literal["better", "worse", "same", "open", ""]
 
 @dataclass(frozen=True)
 class Row:
-    """One output of every study, SI; the first study is what the others are held against."""
+    """One output of every study, SI; the others are compared with the first study."""
 
     name: str
     unit: str
@@ -33,11 +33,11 @@ class Row:
 
     @property
     def first(self) -> str:
-        """The study the others are held against."""
+        """The study that the others are compared with."""
         return next(iter(self.values))
 
     def ratio(self, label: str) -> float | None:
-        """A study's value over the first one's; None where that says nothing: temperatures, what may be negative."""
+        """Return a study's value over the first one's; None for temperatures and signed quantities."""
         mine, theirs = self.values[label], self.values[self.first]
         if self.unit == "degC" or math.isnan(mine) or math.isnan(theirs):
             return None

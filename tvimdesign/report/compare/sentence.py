@@ -1,4 +1,4 @@
-"""What follows from a comparison, in sentences with their conditions; every number in them is computed."""
+"""Conclusions of a comparison, in sentences with their conditions; every number in them is computed."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class ParetoComparison:
 
 
 def conditions(entrants: Mapping[str, Case]) -> list[str]:
-    """What holds for every study, in words: requirements all share, temperatures, current, materials, surroundings."""
+    """Describe what holds for every study: shared requirements, temperatures, current, materials, surroundings."""
     first = next(iter(entrants.values()))
     study, table, values = first.study, first.study.table, first.values
     everywhere = [
@@ -98,7 +98,7 @@ def _listed(words: Sequence[str]) -> str:
 
 
 def standing(contest: ParetoComparison) -> str:
-    """Who leads where, in one sentence."""
+    """Say in one sentence who leads where."""
     word = _WORDS.get(pretty(contest.gained_unit), ("better", ""))[0]
     parts = []
     for lead in contest.leads:
@@ -152,7 +152,7 @@ def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
 
 
 def held_back(label: str, held: Sequence[Mapping[str, Any]]) -> str:
-    """The limits that hold a design back most, the machine's own with their reasons; nothing where there are none."""
+    """Return a design's main active constraints, the machine's own with their reasons; nothing where there are none."""
     reported = [
         one["limit"] if one["because"] in {"require", "vary", "module"} else f"{one['limit']} ({one['because']})"
         for one in held

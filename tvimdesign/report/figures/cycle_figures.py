@@ -96,7 +96,7 @@ def power_and_energy(data: dict[str, Any]) -> Figure:
 
 
 def _share_time(panels: tuple[Any, ...], soft: dict[str, Any]) -> None:
-    """A line through all panels where heating ends, and numbers of the time below the lowest alone."""
+    """Draw a line through all panels where heating ends, and label times below the lowest panel alone."""
     for axes in panels:
         axes.axvline(soft["time"][-1], color="0.5", linewidth=0.7, zorder=0.5)
     for axes in panels[:-1]:
@@ -121,7 +121,7 @@ def _temperatures(axes: Any, soft: dict[str, Any], stiff: dict[str, Any] | None,
 
 
 def _phases(axes: Any, data: dict[str, Any], name: str, *, logarithmic: bool = True) -> None:
-    """A column of every phase over time, cooling from the end of heating on."""
+    """Draw a column of every phase over time, cooling from the end of heating on."""
     for i, (phase, label) in enumerate(_PHASES):
         if phase in data:
             begin = 0.0 if phase == "softening" else data["softening"]["time"][-1]

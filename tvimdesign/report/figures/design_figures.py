@@ -92,7 +92,7 @@ def _margins(axes: Any, group: dict[str, Any]) -> None:
 
 
 def _legend(figure: Figure, data: dict[str, Any]) -> None:
-    """What the marks say that stand on the figure."""
+    """Explain the marks on the figure."""
     kinds = {row["kind"] for group in data["margins"] for row in group["rows"]}
     far = any(
         abs(row["margin"]) > _CLIPPED for group in data["margins"] if group["unit"] == "%" for row in group["rows"]

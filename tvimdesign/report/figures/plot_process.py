@@ -43,7 +43,7 @@ class PlotProcess:
     """A process that has matplotlib loaded by the time there is something to draw; stopped if there never is."""
 
     def __init__(self, *, gives_way: bool = False) -> None:
-        """Start it; it gives way where the first screen or parts need the processors."""
+        """Start it, at low priority: the first screen and parts need the processors first."""
         self._child = start_child(
             "tvimdesign.report.figures.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,

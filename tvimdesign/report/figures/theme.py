@@ -112,17 +112,17 @@ def plain(value: float) -> str:
 
 
 def heading(axes: Any, text: str) -> None:
-    """A title above the axes; matplotlib's own measures every label to find its place."""
+    """Draw a title above the axes; matplotlib's own measures every label to find its place."""
     axes.annotate(text, (0.0, 1.0), (0.0, 4.0), xycoords="axes fraction", textcoords="offset points", fontsize=7.5)
 
 
 def legend_above(axes: Any, columns: int) -> None:
-    """The legend above the axes, where it covers nothing."""
+    """Draw the legend above the axes, where it covers nothing."""
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns)
 
 
 def legend_beside(axes: Any, title: str) -> None:
-    """The legend right of the axes."""
+    """Draw the legend right of the axes."""
     axes.legend(title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0), title_fontsize=SMALL)
 
 
@@ -159,7 +159,7 @@ def place(figure: Figure, left: float, bottom: float, width: float, height: floa
 
 
 def caption(figure: Figure, text: str) -> None:
-    """A title of the whole figure, below the study's name."""
+    """Draw a title of the whole figure, below the study's name."""
     up = figure.get_figheight()
     figure.text(0.01, 1.0 - (NAME_STRIP + 0.02) / up, text, va="top", ha="left", fontsize=8.5)
 
@@ -172,7 +172,7 @@ def sign(figure: Figure, study: str) -> None:
 
 
 def png(figure: Figure) -> bytes:
-    """A figure of `new_figure` as a file. It has no transparent places: without them it is written in half the time."""
+    """Render a figure of `new_figure` as a PNG file. Without transparent places it is written in half the time."""
     canvas: Any = figure.canvas
     canvas.draw()
     stream = io.BytesIO()

@@ -160,7 +160,7 @@ def _panel(axes: Any, panel: dict[str, Any], styles: dict[str, dict[str, Any]]) 
 
 
 def _swinging(axes: Any, line: dict[str, Any], style: dict[str, Any]) -> None:
-    """A curve over a logarithmic axis of time, whose later swings are the band they fill."""
+    """Draw a curve over a logarithmic axis of time, whose later swings are the band they fill."""
     parts = drawn(np.array(line["x"], dtype=float), np.array(line["y"], dtype=float))
     for i, (x, y) in enumerate(parts.lines):
         axes.plot(x, y, label=line["label"] if i == 0 else "_", **style)
@@ -170,7 +170,7 @@ def _swinging(axes: Any, line: dict[str, Any], style: dict[str, Any]) -> None:
 
 
 def _logarithmic(axes: Any, lines: list[dict[str, Any]]) -> None:
-    """A logarithmic y axis that shows no more decades than there is something on."""
+    """Set a logarithmic y axis that shows no more decades than there is something on."""
     axes.set_yscale("log", nonpositive="clip")
     shown = [value for line in lines for part in (line["y"], *(line["band"] or ())) for value in part if value > 0.0]
     least, most = max(min(shown), max(shown) / _DECADES_SHOWN), max(shown)

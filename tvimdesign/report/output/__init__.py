@@ -1,1 +1,1 @@
-"""What all reports write with: the results folder, progress on the terminal, tables."""
+"""Shared output of all reports: the results folder, progress on the terminal, tables."""

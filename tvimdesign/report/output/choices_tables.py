@@ -1,4 +1,4 @@
-"""What choosing from lists came to: the best combinations, what standard sizes cost, and how sure that is."""
+"""Tables of choices from lists: the best combinations, the cost of standard sizes, and the proof of the choice."""
 
 from __future__ import annotations
 

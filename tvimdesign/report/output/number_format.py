@@ -1,4 +1,4 @@
-"""How a number stands in a JSON file of results, and what each such file begins with.
+"""Format of numbers in JSON files of results, and the head that each such file begins with.
 
 One unit system: every bare number is in SI. A number that people read in another unit stands under `value`, `low` and
 `high` with its `unit`, and under `si` once more in SI. What never happens is null.
@@ -45,7 +45,7 @@ class InSi(TypedDict):
 
 @closed
 class NumberEntry(TypedDict):
-    """A number in the unit people read, and in SI. `low` and `high` are None where nothing is said of a range."""
+    """A number in the unit people read, and in SI. `low` and `high` are None where no range is known."""
 
     value: float | None
     low: float | None

@@ -1,4 +1,4 @@
-"""What the pages of all commands have alike: grids from rows of text, the study's file, versions, and writing it."""
+"""Shared parts of all commands' pages: grids from rows of text, the study's file, versions, and writing a page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the terminal sees while a run works: results on standard output, progress on standard error."""
+"""Terminal output while a run works: results on standard output, progress on standard error."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tvimdesign.report.output.terminal import OwnMarkupConsole
 Progress = Callable[[str], None]
 WIDTH = 132
 PLAIN_EVERY = 3.0  # s
-"""Time between plain lines; what is said in between is not shown."""
+"""Time between plain lines; messages in between are not shown."""
 _TICK = 0.25  # s
 
 
@@ -100,7 +100,7 @@ _COUNTED = re.compile(r"(?P<of>.*?)(?P<done>\d+) of (?:about )?(?P<all>\d+)")
 class RemainingTime:
     """The remaining time of a series, by the mean time of its steps so far; unknown before the first is done.
 
-    What is said between two steps belongs to the one before it; after the last step it is something else.
+    A message between two steps belongs to the one before it; after the last step it is something else.
     """
 
     def __init__(self) -> None:
@@ -111,7 +111,7 @@ class RemainingTime:
         self._last = False
 
     def heard(self, text: str, now: float) -> None:
-        """Take what is said at a time [s]: a step that begins says its number."""
+        """Take a message at a time [s]: a step that starts says its number."""
         found = _COUNTED.match(text)
         if found is None:
             self._end = None if self._last else self._end

@@ -1,4 +1,4 @@
-"""Where a number of a design comes from, and how well it is known: from the study, a record, a default or the model."""
+"""Source of each number of a design, and how well it is known: from the study, a record, a default or the model."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class UncertaintyEntry(TypedDict):
     """The uncertainty of a design: what varies from part to part and, apart from it, unmeasured inputs."""
 
     parts_yield: ShareEntry | None
-    """Modules that keep the limits, parts within their tolerances and all else as assumed."""
+    """Modules that satisfy the limits, parts within their tolerances and all else as assumed."""
     modules: int
     limits: int
     left_out: list[str]
@@ -88,7 +88,7 @@ class ValueEntry(NumberEntry):
 
 @closed
 class CheckEntry(NumberEntry):
-    """A limit held against the design; the margin is a share, or in `margin_unit` where the limit has no size."""
+    """A limit and the design's value; the margin is a share, or in `margin_unit` where the limit has no size."""
 
     limit: str
     output: str
@@ -247,7 +247,7 @@ class LimitEntry(TypedDict):
 
 @closed
 class Why(TypedDict):
-    """Why this design."""
+    """Reasons for this design."""
 
     limits: list[LimitEntry]
     sentences: list[str]

@@ -21,7 +21,7 @@ from tvimdesign.solve.result import ConstraintCheck, StudyResult
 from tvimdesign.study.design import catalog_of
 
 NOTHING = 5e-4
-"""Margin, as a share, below which a limit is said to bind."""
+"""Margin, as a share, below which a limit binds."""
 _ROUND = 1e-5
 
 

@@ -1,4 +1,4 @@
-"""What "soft" and "stiff" mean in a module, in words: an impedance at a frequency, and what it is a multiple of."""
+"""Meaning of "soft" and "stiff" in a module, in words: an impedance at a frequency, and what it is a multiple of."""
 
 from __future__ import annotations
 

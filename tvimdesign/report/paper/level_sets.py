@@ -1,4 +1,4 @@
-"""What gives the paper's response time: its module with another thickness, contact, current or place of the sensor.
+"""Level sets of the paper's response time: its module with another thickness, contact, current or sensor place.
 
 The paper states one time and neither thickness nor contacts; many designs keep it. `write_level_sets` computes them for
 the reconstructed module and writes tables and a figure; beside them, what the ratio of both modes hangs on.

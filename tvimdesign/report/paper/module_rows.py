@@ -50,7 +50,7 @@ _INSULATED = {"rotor_contact": 1e-3}
 
 
 def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
-    """The paper's thickness as assumed here [m], and a function from changed inputs to the values of one switch."""
+    """Return the paper's assumed thickness [m], and a function from changed inputs to the values of one switch."""
     from tvimdesign.simulation.working_cycle.cycle import Simulator
 
     model = published_model()
@@ -66,7 +66,7 @@ def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
 
 
 def _bisect(function: Callable[[float], float], low: float, high: float, steps: int = 12) -> float:
-    """Where a rising function passes zero, to a 4000th of the interval."""
+    """Find by bisection where a rising function passes zero, to a 4000th of the interval."""
     for _ in range(steps):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if function(middle) < 0.0 else (low, middle)

@@ -29,7 +29,7 @@ SHOWN = 0.01  # of the ratio: inputs that move it by less have no bar in the fig
 
 @dataclass(frozen=True)
 class Alternative:
-    """The same pair with another choice: what is said of it, and both times [s]."""
+    """The paper's pair with another choice: its label, and both times [s]."""
 
     label: str
     times: Array
@@ -65,7 +65,7 @@ def _row(name: str) -> Input:
 
 @cache
 def ranges() -> dict[str, Entry]:
-    """What is assumed in the case and how far it may be off [SI]: this case's own ranges, then those of the records."""
+    """Return the assumed values of the case and their ranges [SI]: this case's own, then those of the records."""
     found = {name: _entry(said) | {"value": pair().value(name)} for name, said in case()["ranges"].items()}
     entries = {name: Entry(**fields) for name, fields in found.items()}
     for model in pair().models:

@@ -32,7 +32,7 @@ def from_paper(name: str) -> float:
 
 @dataclass(frozen=True)
 class Instrument:
-    """What a measuring instrument can do, with its range [SI], and where that comes from."""
+    """Measuring instrument: its abilities with their range [SI], and where they come from."""
 
     value: float
     low: float

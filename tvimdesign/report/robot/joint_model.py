@@ -24,7 +24,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 @dataclass(frozen=True)
 class RigidBody:
-    """What a simulator is told of a body, in the module's coordinates: the rotor's axis is z."""
+    """Rigid body for a simulator, in the module's coordinates: the rotor's axis is z."""
 
     name: str
     mass: float
@@ -89,7 +89,7 @@ class JointModel:
 
     @property
     def count(self) -> int:
-        """How many Maxwell elements every state has, idle ones counted."""
+        """Return how many Maxwell elements every state has, idle ones counted."""
         return max(len(state.modes) for state in self.states)
 
     @property

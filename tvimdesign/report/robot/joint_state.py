@@ -77,7 +77,7 @@ def _state(resolved: ResolvedModule, case: Case) -> JointState:
 
 
 def usual_step(states: Sequence[JointState]) -> float:
-    """A time step [s] with which every state's release with the bench's load is right to 1 %: 1, 2 or 5 of a decade."""
+    """Return a time step [s] that gives every state's release with the bench's load to 1 %: 1, 2 or 5 of a decade."""
     quickest = max(np.sqrt(state.stiffest / state.inertia) for state in states)
     least = (ONE_SIDED_SHARE if states[0].one_sided else STEP_SHARE) / quickest
     decade = 10.0 ** np.floor(np.log10(least))

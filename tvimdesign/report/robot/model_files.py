@@ -114,7 +114,7 @@ def _spring(parent: Xml.Element, spring: Spring) -> None:
 
 
 def _load(parent: Xml.Element, inertia: float) -> None:
-    """The load that the study puts on the bench: a body to take out where a link of one's own is hung on."""
+    """Write the load that the study puts on the bench: a body to replace by a user's own link."""
     if inertia <= 0.0:
         return
     parent.append(comment(["The load of the bench: take this body out where a link of your own is attached."]))

@@ -38,7 +38,7 @@ def unit_of(column: str) -> str:
 
 
 def states(model: JointModel) -> Columns:
-    """A row for each state: at which frequency the whole joint has which stiffness and damping, and its friction."""
+    """Tabulate for each state the whole joint's stiffness and damping by frequency, and its friction."""
     return {
         "temperature": [state.temperature - ZERO_CELSIUS for state in model.states],
         "frequency": [state.frequency for state in model.states],

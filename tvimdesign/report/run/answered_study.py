@@ -1,4 +1,4 @@
-"""A study answered, with all that is told of it: what every way to show, write or print an answer starts from."""
+"""A study answered: every way to show, write or print an answer starts from it."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def answer_study(
 ) -> AnsweredStudy:
     """Read and answer a study: evaluate or optimise it, and seek its front, which a `folder` lets go on later.
 
-    With `drawn_only` nothing is optimised: what may change stands at its start. `early` is told the answer before the
+    With `drawn_only` nothing is optimised: what may change stands at its start. `early` gets the answer before the
     front is sought, `designed` a design that is found before that. All of it ends at the `deadline`: the study's time
     limit from now on unless given; a `search` in place of the usual one has its own.
 

@@ -58,7 +58,7 @@ class FrontOfRun:
     def seek(self, found: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]) -> None:
         """Seek the front; nothing where none is asked for.
 
-        What is to be told goes into `reported`, points without a design into `troubles`.
+        Messages go into `reported`, points without a design into `troubles`.
         """
         if self.study.front is None or found.solution is None or not found.found:
             return
@@ -130,7 +130,7 @@ def shown_names(study: Study, front: Front) -> list[str]:
 
 
 def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> list[float]:
-    """Return the share of modules drawn at random that keep all limits, for each point. Raises TimeOverError."""
+    """Return for each point the share of random modules that satisfy all limits. Raises TimeOverError."""
     inputs = [np.array([point.values[name] for name in optimizer.model.names]) for point in front.points]
     from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
 

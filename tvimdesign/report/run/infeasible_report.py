@@ -1,4 +1,4 @@
-"""What a run says where there is no design, and of starts that found none: the conflict, and every ending in words."""
+"""Report of a run without a design, and of starts that failed: the conflict, and every ending in words."""
 
 from __future__ import annotations
 

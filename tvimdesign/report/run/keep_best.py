@@ -1,4 +1,4 @@
-"""What is kept of a run that is interrupted before it is written: a study that goes on from the best design so far."""
+"""Backup of a run that is interrupted before it is written: a study that goes on from the best design so far."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Best:
     """The answer of a run, once there is one."""
 
     study: Study | None = None
-    """The study begun at it."""
+    """The study started at it."""
 
     def note(self, found: StudyResult) -> None:
         """Note an answer where it is a design that was searched."""

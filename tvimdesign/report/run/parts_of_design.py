@@ -32,7 +32,7 @@ class BackgroundPartsJob:
     def __init__(self, mode: str = "", *, gives_way: bool = True) -> None:
         """Start the process that loads the kernel, and reads the table of the mode that is known to come.
 
-        It gives way to the solver unless told not to; its parts but the first give way further.
+        By default its priority is lower than the solver's; its parts but the first have a still lower one.
         """
         from tvimdesign.cad.make import PartsProcess
 

@@ -1,4 +1,4 @@
-"""What a run's figures are drawn from: an answer's numbers in the units of the axes."""
+"""Data of a run's figures: an answer's numbers in the units of the axes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every variable does to every headline output at the design, as a table on file and the data of a heat map."""
+"""Sensitivities of headline outputs to variables at the design, as a table on file and the data of a heat map."""
 
 from __future__ import annotations
 

@@ -26,17 +26,17 @@ MODULES = 1 << 12
 _NAMED = 3
 """Unmeasured inputs that are named for each output."""
 _LEAST = 5e-3
-"""Change of an output, as a share of it, below which it does not rest on an unmeasured input."""
+"""Change of an output, as a share of it, below which it does not depend on an unmeasured input."""
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
     "frozen_time", "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
     "switch_energy", "cycle_energy",
 )  # fmt: skip
-"""Outputs that the first screen tells of every module."""
+"""Outputs that the first screen shows of every module."""
 
 
 class Uncertainty:
-    """The yield of a study's designs and the intervals of what is told of them, as plain data.
+    """The yield of a study's designs and the intervals of their outputs, as plain data.
 
     The tolerances are the study's, else the standard ones.
     """

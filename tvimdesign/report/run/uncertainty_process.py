@@ -1,4 +1,4 @@
-"""How sure a run's design is, computed in a process that loads the compiler and scipy while the solver works.
+"""Uncertainty of a run's design, computed in a process that loads the compiler and scipy while the solver works.
 
 Run as `python -m tvimdesign.report.run.uncertainty_process`: reads two lines of JSON on
 standard input, a study, for which it compiles, and its design, and prints what `Uncertainty` says of that.

@@ -1,4 +1,4 @@
-"""What finite elements found of a design, as a section of its run's page, read off the folder of the verification."""
+"""Finite-element results of a design, as a section of its run's page, read from the folder of the verification."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _AROUND = 1000
 
 
 def folder_of_verification(run: Path) -> Path:
-    """Return where the verification of a run stands, unless told."""
+    """Return the default folder of a run's verification."""
     return run.with_name(f"{run.resolve().name}-verified")
 
 

@@ -1,4 +1,4 @@
-"""Why this design: what binds and costs how much of each output, what is slack and by how much; rows and sentences."""
+"""Reasons for a design: what binds and costs how much of each output, what is slack and by how much."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ def yield_of(answer: StudyResult) -> YieldReached | None:
 
 
 def reached_in_words(reached: YieldReached) -> str:
-    """Return how many modules keep all limits, of how many it was asked, and what it was without margins."""
+    """Return the yield of modules, its target, and its value without margins."""
     return (
         f"yield {percent(reached.together)} of {reached.modules} random modules (target {percent(reached.asked)}); "
         f"without margins {percent(reached.nominal_together)}"

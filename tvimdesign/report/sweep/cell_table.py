@@ -1,4 +1,4 @@
-"""What is seen of cells while they go by to their files: how they ended, the best of them, what is drawn and listed."""
+"""Summary of cells as they pass to their files: how they ended, the best of them, what is drawn and listed."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class CellTable:
     """Looks at every row of a table once."""
 
     def __init__(self, plan: SweepPlan) -> None:
-        """Nothing has been seen yet."""
+        """Start with no cells."""
         self._names = [column.name for column in columns(plan)]
         self._units = {column.name: column.unit for column in columns(plan)}
         self._every = -(-plan.count // MOST_DRAWN)
@@ -37,7 +37,7 @@ class CellTable:
         self.least = [name for name in (study.minimize or self.shown) if name not in apart]
         self._ended: Counter[str] = Counter()
         self.best: dict[str, dict[str, Any]] = {}
-        """By output that is to be small: the cell with the least value that keeps every limit."""
+        """By minimised output: the feasible cell with the least value."""
         self.drawn: list[dict[str, Value]] = []
         """Rows of the figure."""
         self.listed: list[dict[str, Value]] = []
@@ -47,7 +47,7 @@ class CellTable:
         self.failures = 0
         """Count of the cells without an answer."""
         self.keeping = 0
-        """Count of the cells that keep every limit."""
+        """Count of the feasible cells."""
 
     @property
     def statuses(self) -> dict[str, int]:
@@ -69,7 +69,7 @@ class CellTable:
             yield values
 
     def _note_end(self, row: dict[str, Value]) -> None:
-        """Count a cell by whether it has an answer, and one that keeps every limit."""
+        """Count a cell by whether it has an answer, and whether it is feasible."""
         self.keeping += row["broken"] == 0
         if row["broken"] is not None:
             return

@@ -63,7 +63,7 @@ class CellCommands:
 
 
 def _starts(plan: SweepPlan) -> list[str]:
-    """What a cell that is only evaluated has where the study varies something: its start, which a run would leave."""
+    """List a cell's start where the study varies something and the cell is only evaluated: a run would leave it."""
     numbers, settings = given(plan.first), []
     for name in plan.first.vary:
         value, row = numbers[name], plan.study.table.by_name[name]
@@ -143,7 +143,7 @@ _FILES = {
 }  # fmt: skip
 _MARK = re.compile(rb'<meta name="made-from" content="([0-9a-f]+)">')
 _FEW = 8
-"""Values of an axis that are told one by one."""
+"""Values of an axis that are listed one by one."""
 
 
 def kept_page(folder: Path) -> bytes:
@@ -155,7 +155,7 @@ def kept_page(folder: Path) -> bytes:
 
 
 def write_sweep_page(plan: SweepPlan, seen: CellTable, folder: ResultsFolder, kept: bytes) -> None:
-    """Write the page, or put back the one that an earlier sweep made from the same."""
+    """Write the page, or restore the one that an earlier sweep made from the same."""
     files, study = there(folder, _FILES), _study_text(plan)
     mark = _mark_of(plan, seen, folder.out, [files, study])
     found = _MARK.search(kept[:2000])

@@ -59,17 +59,17 @@ class SweptCells:
     folder: Path
     plan: SweepPlan
     best: tuple[int, ...]
-    """The cells with the least of each minimised output that keep every limit; else the first with an answer."""
+    """The feasible cells with the least of each minimised output; else the first with an answer."""
 
     def shown(self) -> dict[str, Any]:
-        """The cells as the page draws them, no more than a browser draws; no points where no cell has an answer."""
+        """Return the cells as the page draws them, thinned for a browser; no points where no cell has an answer."""
         every = -(-self.plan.count // MOST_LISTED)
         listed = self._rows("WHERE (CAST(cell AS INTEGER) - 1) % ? = 0", [every])
         drawn = cell_points(self.plan, [{**row, "cell": _number(row)} for row in listed])
         return drawn or {"of": [], "names": [], "labels": [], "points": [], "words": CELL_WORDS}
 
     def found(self, number: int) -> CellFound:
-        """A cell by its number. Raises InputError for one there is not, and StudyError for a cell that is no study."""
+        """Return a cell by its number. Raises InputError if there is none, and StudyError if it is no study."""
         if not 1 <= number <= self.plan.count:
             raise InputError(f"cell {number}: the sweep has the cells 1 to {self.plan.count}")
         row = next(iter(self._rows("WHERE cell = ?", [number])), None)
@@ -86,7 +86,7 @@ class SweptCells:
 
 
 def open_cells(folder: Path) -> SweptCells:
-    """The cells of a sweep's folder. Raises InputError where it has not ended, or its files are not a sweep's."""
+    """Open the cells of a sweep's folder. Raises InputError where it has not ended, or its files are not a sweep's."""
     try:
         told = json.loads((folder / _TOLD).read_bytes())
         least, records, count = list(told["best"].values()), told.get("catalog", ""), told["cells"]

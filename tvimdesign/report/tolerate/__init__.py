@@ -1,1 +1,1 @@
-"""What spreading parts and materials do to a module: `tvimdesign tolerate`."""
+"""Effect of tolerances of parts and materials on a module: `tvimdesign tolerate`."""

@@ -70,7 +70,7 @@ def _most_by(found: Spread, i: int) -> str:
 
 
 def unknown_table(data: Mapping[str, Any]) -> Grid:
-    """Return what outputs may be, over the ranges of what nobody has measured."""
+    """Return the intervals of outputs over the ranges of unmeasured inputs."""
     rows = []
     for row in unknown_rows(data):
         if row["low"] == row["high"]:

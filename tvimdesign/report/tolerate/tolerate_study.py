@@ -43,7 +43,7 @@ FEWEST, MOST = 1 << 8, 1 << 22
 
 @dataclass(frozen=True)
 class TolerancedModule:
-    """What is analysed: the module, the design it was found as, and what is to be said of where it came from."""
+    """Module to analyse, the design it was optimised to, and a note on where it came from."""
 
     resolved: ResolvedModule
     design: Design | None

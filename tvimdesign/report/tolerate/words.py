@@ -20,7 +20,7 @@ _BENT = 0.1
 """Difference of the two standard deviations from which an output is not linear within the tolerances."""
 _NAMED = 3
 _CARRIED = 0.2
-"""Share of a limit's variance from which a contributor is said to carry it."""
+"""Share of a limit's variance from which a contributor counts as carrying it."""
 
 
 def sentences(found: Spread, preload: Preload | None, table: Table) -> list[str]:

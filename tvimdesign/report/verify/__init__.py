@@ -1,1 +1,1 @@
-"""A design's model held against finite elements on its exported parts, and told."""
+"""Comparison of a design's model with finite elements on its exported parts, and its report."""

@@ -1,4 +1,4 @@
-"""What the model says of a design beside what FE finds of its parts, a row each."""
+"""Comparison of the model's values of a design with those of FE on its parts, a row each."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ class Compared:
 
 
 def compared(module: ResolvedModule, solved: Mapping[str, Solved], times: Mapping[str, float]) -> list[Compared]:
-    """All rows, the largest difference first; `times` are the design's [s]. A time that one of the two has not is left
-    out."""
+    """Return all rows, the largest difference first; `times` are the design's [s]. Times that one of the two lacks are
+    left out."""
     model = at_loads(module, model_values(module)) | {name: times[name] for name in TIMES if name in times}
     fine = at_loads(module, fe_values(module, {name: one.found for name, one in solved.items()}))
     coarse = at_loads(module, fe_values(module, {name: one.coarse for name, one in solved.items()}))
@@ -153,7 +153,7 @@ def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float
 
 
 def _mean_plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
-    """The same around a core with a sharp foot and no holes [Pa]."""
+    """Return the mean stress around a core with a sharp foot and no holes [Pa]."""
     sheared = structure.mises(plate_beside_core.shear_beside_core(1.0, thickness, core, structure.FOOT_MEAN))
     if module.study.mode == "shear":
         return float(sheared)

@@ -20,7 +20,7 @@ _MPA = 1e-6
 
 
 class Carried(NamedTuple):
-    """What goes through screws and pins."""
+    """Loads that screws and pins carry."""
 
     across: float | None
     """Force across the screw of the foot that takes most [N]; None for a module that stands on a flange."""

@@ -70,7 +70,7 @@ def cells(row: Compared) -> tuple[str, ...]:
 
 
 def far(rows: Sequence[Compared]) -> list[str]:
-    """Names of the rows that differ by more than `FAR`."""
+    """Return the names of the rows that differ by more than `FAR`."""
     return [row.name for row in rows if not abs(row.ratio - 1.0) <= FAR]
 
 

@@ -1,4 +1,4 @@
-"""How stiff a joint is by the temperatures of polymer and structure where each of them is.
+"""Stiffness of a joint by the temperatures of polymer and structure where each of them is.
 
 The product's own stack has one column of polymer; here every column has its own temperatures, as finite elements in
 space find them. What the polymer and the structure are at a temperature is the product's.

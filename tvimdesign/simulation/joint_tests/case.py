@@ -1,4 +1,4 @@
-"""What the motion tests share: the joint at each temperature and history, and numbers that carry their interval."""
+"""Shared parts of the motion tests: the joint at each temperature and history, and numbers with their interval."""
 
 from __future__ import annotations
 

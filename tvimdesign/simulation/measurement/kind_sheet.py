@@ -1,4 +1,4 @@
-"""What a kind of measurement needs and what a user can set for it, as `kinds.yaml` says; nothing heavy is loaded."""
+"""Needs and settings of each kind of measurement, as `kinds.yaml` lists them; nothing heavy is loaded."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class KindSheet:
     """Of the catalogue's record that follows; empty where none does."""
     settings: Mapping[str, Mapping[str, Any]]
     varies: tuple[str, ...] = ()
-    """Columns of which one must change, where it is there."""
+    """Columns; one of them must change, where it is there."""
     constant: tuple[str, ...] = ()
     """Columns that must not change, where they are there."""
     only_asked: bool = False

@@ -19,7 +19,7 @@ BASED_ON = {
     "peltiers": "flexible_1600",
     "heat_paths": "handbook",
 }
-"""What a record is based on unless told: all that was not measured is that one's. A joint's is based on none."""
+"""Default record to base a new one on: all that was not measured is that one's. A joint's is based on none."""
 CHOICES = {
     "spring_materials": "spring_material", "polymers": "pcl_grade", "peltiers": "peltier_module",
     "heat_paths": "heat_paths", "joints": "joint",
@@ -59,7 +59,7 @@ def write_records(
     """Write what was measured into a folder of the user's records, `<folder>/<category>/<name>.yaml`.
 
     Returns the files by what a study names each by. One for the kind's own category, and one of the same name for each
-    other category of which the data tell a value; `based_on` is of the first. Raises InputError where there is one
+    other category that the data give a value of; `based_on` is of the first. Raises InputError where there is one
     already or the name will not do, and CatalogError where what was measured contradicts what a record is based on:
     then none of them stays.
     """

@@ -12,7 +12,7 @@ ca.GlobalOptions.setNumpyMode(1)
 
 
 def lean_function(name: str, arguments: Sequence[Any], value: Any, options: Mapping[str, Any] | None = None) -> Any:
-    """A function of SX in which what is written twice is computed once.
+    """Return a function of SX in which repeated expressions are computed once.
 
     Rows of the table write out what they need, so that a third to two thirds of the operations are repeats, and of the
     second derivatives half. CasADi's option for it would go through every derivative again, which takes longer.

@@ -22,7 +22,7 @@ class CurrentProfile:
 
     @classmethod
     def constant(cls, current: float) -> CurrentProfile:
-        """One current for good."""
+        """Return a profile of one constant current."""
         return cls((0.0,), (current,))
 
     @classmethod
@@ -36,7 +36,7 @@ class CurrentProfile:
 
     @classmethod
     def from_plain(cls, data: Mapping[str, Any]) -> CurrentProfile:
-        """The drive that `plain` describes."""
+        """Return the drive that `plain` describes."""
         return cls(*(tuple(float(number) for number in data[name]) for name in ("moments", "currents")))
 
     def plain(self) -> dict[str, Any]:
@@ -48,7 +48,7 @@ class CurrentProfile:
         return np.asarray(np.interp(times, self.moments, self.currents))
 
     def next_corner(self, time: float) -> float:
-        """The first moment after `time` at which the current changes its slope; infinite where there is none."""
+        """Return the first moment after `time` at which the current changes its slope; infinite where there is none."""
         soon = 1e-9 * self.moments[-1]
         return next((moment for moment in self.moments if moment > time + soon), np.inf)
 

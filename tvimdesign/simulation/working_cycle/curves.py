@@ -1,4 +1,4 @@
-"""What is drawn: the layer's temperatures over each phase, and stiffness and damping against temperature."""
+"""Curves to draw: the layer's temperatures over each phase, and stiffness and damping against temperature."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PHASE_UNITS = {
 
 
 def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory, phase: str) -> Curves:
-    """What is drawn of a phase, by column: temperatures [degC] through the stack, and the columns of `PHASE_UNITS`.
+    """Return a phase's curves by column: temperatures [degC] through the stack, and the columns of `PHASE_UNITS`.
 
     Stiffness and damping are those of the joint at the frequency of the operating point where the phase leads; energy
     is what the supply gave since the phase began.
@@ -48,7 +48,7 @@ def phase_history(model: DeviceFunctions, inputs: Array, trajectory: Trajectory,
 
 
 def temperature_names(model: DeviceFunctions, inputs: Array, compiled: PhaseFunctions) -> list[str]:
-    """What each of a phase's temperatures is of, in their order."""
+    """Return a name for each of a phase's temperatures, in their order."""
     depth = [f"cell_{i + 1}" for i in range(model.cells)]
     plate = [f"rotor_{i + 1}" for i in range(int(inputs[model.index["rotor_cells"]]))]
     names = ["cold_side", "hot_side", "near_face", *depth, "far_face", *plate]

@@ -83,14 +83,14 @@ class Simulator:
         return Trajectory(times=times, states=states, currents=currents)
 
     def trace(self, name: str, inputs: Array, before: Array | None, end: float) -> Trajectory:
-        """A phase at its constant current for `end` seconds, on beyond what ends it if that is longer."""
+        """Simulate a phase at its constant current for `end` seconds, on beyond what ends it if that is longer."""
         profile = self.constant_drive(name, inputs)
         engine = self.model.engines[name]
         run, _, _ = engine.simulate(inputs, profile, before, [], end, self.tolerance, throughout=True)
         return self._trajectory(PhaseResults(run), None)
 
     def constant_drive(self, phase: str, inputs: Array) -> CurrentProfile:
-        """The constant current the inputs ask for in a phase."""
+        """Return the constant current the inputs ask for in a phase."""
         row = self.model.phases[phase].phase
         return CurrentProfile.constant(row.sign * float(inputs[self.model.index[row.current_input]]))
 

@@ -69,7 +69,7 @@ class CycleEngine:
         return Supplied(values, slopes, driven)
 
     def _needed(self, name: str, wanted: Collection[str] | None) -> bool:
-        """Whether something wanted belongs to a phase, or to one that starts where it ends."""
+        """Return whether something wanted belongs to a phase, or to one that starts where it ends."""
         if wanted is None:
             return True
         phase = self.model.phases[name]

@@ -106,13 +106,13 @@ class DeviceFunctions:
         return self.outputs(self.output_names)
 
     def values(self, inputs: NDArray[np.float64], cycle: Mapping[str, float]) -> dict[str, float]:
-        """Every output in SI by full name."""
+        """Return every output in SI by full name."""
         return self._evaluated(self.every_output, self.output_names, inputs, cycle)
 
     def some_values(
         self, wanted: Sequence[str], inputs: NDArray[np.float64], cycle: Mapping[str, float]
     ) -> dict[str, float]:
-        """The wanted outputs in SI: quicker than all of them where none has been asked for yet."""
+        """Return the wanted outputs in SI: quicker than all of them on a first call."""
         if not wanted:
             return {}
         key = tuple(wanted)

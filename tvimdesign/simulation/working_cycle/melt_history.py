@@ -1,4 +1,4 @@
-"""How much of the layer is frozen at a temperature: one number outside melting, an interval inside it.
+"""Solid fraction of the layer at a temperature: one number outside melting, an interval inside it.
 
 Inside the melting range the solid fraction of a polymer depends on what came before. Cooled from the melt the layer is
 still liquid; heated it follows the equilibrium curve, which the record knows to some kelvin only. A metal, a wax or a
@@ -117,7 +117,7 @@ def intervals(
 
 
 def _sets_a_target(table: Table, point: str) -> bool:
-    """Whether what soft or stiff means is read off at a point."""
+    """Return whether the definition of soft or stiff is read off at a point."""
     return any(f"joint_impedance@{point}" in row.needs for row in table.outputs)
 
 
@@ -128,7 +128,7 @@ def _as_left(
     share: float,
     current_profiles: Mapping[str, CurrentProfile] | None,
 ) -> Mapping[str, float]:
-    """The cycle's values where a point has a given solid fraction."""
+    """Return the cycle's values where a point has a given solid fraction."""
     other = DeviceFunctions(
         resolved.table, {**resolved.values, f"solid_fraction@{point}": share}, resolved.points, model.cells
     )
@@ -140,7 +140,7 @@ def _on_heating(temperature: float, melting: polymer.Melting) -> float:
 
 
 def _off(resolved: ResolvedModule, field: str) -> tuple[float, float]:
-    """How far [K] the record's range reaches below and above its value; a study's own value is taken to be as sure."""
+    """Return the record's range [K] below and above its value; a study's own value is taken to be as sure."""
     entry = resolved.values["pcl_grade"].entry(field)
     low = entry.value if entry.low is None else entry.low
     high = entry.value if entry.high is None else entry.high

@@ -35,7 +35,7 @@ class PhaseEngine:
     """One phase, recorded when it is first asked for; `inputs` is a vector in the order of the model's names."""
 
     def __init__(self, phase: PhaseFunctions) -> None:
-        """Nothing is recorded yet."""
+        """Start with an empty record."""
         self.phase = phase
         self.integrals = [row.name for row in phase.paths if row.reduce == "integral"]
         self.size = phase.state_size
@@ -156,7 +156,7 @@ class PhaseEngine:
         return found.without_length(), grid or Grid()
 
     def _begin(self, inputs: Array, along: Array, before: Instant | None) -> tuple[PhaseRun, Instant, float, Array]:
-        """A run with its constants in place, where it starts, and the unit of its steps with its slopes."""
+        """Return a run with its constants in place, where it starts, and the unit of its steps with its slopes."""
         motion, given = self.recorded
         along = np.column_stack([along, np.zeros(len(along))])  # the length of a phase's last step
         (k, dk), (pace, dpace), (y, s) = given.tangents([inputs], [along])

@@ -135,7 +135,7 @@ class PhaseFunctions:
         return list(self.table.resolve_instant({**known, **held}, wanted).values())
 
     def _behind(self, name: str) -> frozenset[str]:
-        """What a quantity follows from; nothing for what a phase and its instant are given by."""
+        """Return what a quantity follows from; nothing for what a phase and its instant are given by."""
         return self.table.ancestors(name) if name.partition("@")[0] in self.table.by_name else frozenset()
 
     def evaluated(self, wanted: Sequence[str], value: Callable[..., Any]) -> Any:
@@ -163,7 +163,7 @@ class PhaseFunctions:
         return self._function("impedance_now", [self._instant["impedance_now"]])
 
     def _parted(self, expression: Any) -> tuple[Any, Any, Any]:
-        """An expression in which symbols stand for what depends on the inputs alone; that, and these symbols."""
+        """Replace subexpressions of the inputs alone by symbols; return the expression and these symbols."""
         value, symbols, constants = ca.extract_parametric(expression, self._inputs)
         # Inputs that meet the state as they are stay in the expression; they are constants too.
         left = ca.symvar(value)

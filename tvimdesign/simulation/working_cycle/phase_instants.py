@@ -1,4 +1,4 @@
-"""What a run of a phase is made of: its steps, an instant, a current that follows a profile, and what is found."""
+"""Parts of a run of a phase: its steps, an instant, a current that follows a profile, and the results."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class Found:
 
 
 def hermite(share: float, one: Array, other: Array, here: Array, there: Array) -> Array:
-    """A cubic between two states, whose slopes over the step are given."""
+    """Interpolate between two states along a cubic, whose slopes over the step are given."""
     left = 1.0 - share
     whole = one * left**2 * (1.0 + 2.0 * share) + other * share**2 * (3.0 - 2.0 * share)
     return np.asarray(whole + share * left * (here * left - there * share))

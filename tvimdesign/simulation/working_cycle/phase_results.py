@@ -1,4 +1,4 @@
-"""What is asked of a run of a phase: what it adds up to, reaches, is at its end, and what it takes to stay there."""
+"""Results of a run of a phase: its integrals, extremes and end, and what it takes to stay there."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class PhaseResults:
     """The results of one run of a phase."""
 
     def __init__(self, run: PhaseRun) -> None:
-        """Nothing is evaluated yet."""
+        """Start with nothing evaluated."""
         self.run, self.of, self.inputs, self.along = run, run.of, run.inputs, run.along
         self._seen: dict[tuple[str, ...], Array] = {}
         """Quantities at the ends of the steps, by those that are recorded together."""
@@ -53,7 +53,7 @@ class PhaseResults:
                 found.samples[row.name] = np.array(values), np.array(slopes)
 
     def _highest(self, name: str, passed: list[Instant]) -> tuple[float, Array]:
-        """The maximum of a quantity up to the end; between two steps it is looked for along cubics."""
+        """Return the maximum of a quantity up to the end; between two steps it is looked for along cubics."""
         group, place = self.of.together[name]
         if group not in self._seen:
             self._seen[group] = self.of.values(group, passed, self.inputs)
@@ -69,7 +69,7 @@ class PhaseResults:
         return self.of.slopes(name, best, self.inputs, self.along)
 
     def passed(self, end: Instant) -> list[Instant]:
-        """The ends of the steps up to an instant."""
+        """Return the ends of the steps up to an instant."""
         return [*self.run.instants[: end.step + 1], end] if end.step >= 0 else [end]
 
     def sampled(self, end: Instant, least: int) -> tuple[Array, Array, Array]:
@@ -89,7 +89,7 @@ class PhaseResults:
         return np.array(times), np.array(states).T[: self.of.size], np.array(currents)
 
     def _along_cubic(self, name: str, one: Instant, other: Instant) -> Callable[[float], float]:
-        """A quantity as a function of the share of a step."""
+        """Return a quantity as a function of the share of a step."""
         length, rise = other.time - one.time, other.current - one.current
         here, there = self.run.rates(one) * length, self.run.rates(other) * length
         return lambda share: self.run.gap(
@@ -97,7 +97,7 @@ class PhaseResults:
         )
 
     def _between(self, one: Instant, other: Instant, share: float) -> Instant:
-        """The instant at a share of a step, along cubics."""
+        """Return the instant at a share of a step, along cubics."""
         length, of_length = other.time - one.time, other.of_time - one.of_time
         rates = [self._moving(now) for now in (one, other)]
         here, there = (rate * length for rate, _ in rates)
@@ -172,7 +172,7 @@ class PhaseResults:
         return None
 
     def _settle(self, y: Array, current: float) -> tuple[Array, Array] | None:
-        """The state that stays at a current, and its tangents; along the current as the last."""
+        """Return the state that stays at a current, and its tangents; along the current as the last."""
         m, (_, _, v) = self.run.motion.system, self.run.registers
         entries, size = np.empty(m.pattern.size), self.of.size + self.of.lip
         order = m.pattern.order
@@ -208,7 +208,7 @@ class PhaseResults:
 
 
 def _peak(function: Callable[[float], float]) -> tuple[float, float]:
-    """Where a function of a share of a step is highest, and how high: by samples, then by ever narrower parabolas.
+    """Find where a function of a share of a step is highest, and how high: by samples, then by ever narrower parabolas.
 
     There the function hardly changes with the share, so that its slope at a share that stays is that of the peak.
     """

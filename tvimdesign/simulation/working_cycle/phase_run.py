@@ -42,7 +42,7 @@ class PhaseRun:
     def __init__(
         self, phase: PhaseEngine, motion: Motion, registers: tuple[Array, Array, Array], inputs: Array, along: Array
     ) -> None:
-        """Nothing is stepped yet; `registers` have the constants in place."""
+        """Start before the first step; `registers` have the constants in place."""
         self.of, self.motion, self.registers = phase, motion, registers
         self.inputs, self.along, self.lanes = inputs, along, along.shape[1]
         self.instants: list[Instant] = []
@@ -124,7 +124,7 @@ class PhaseRun:
         return found
 
     def _advanced(self, steps: _Steps, count: int) -> bool:
-        """Whether so many steps could be taken."""
+        """Return whether so many steps could be taken."""
         done = len(self.instants) - 1
         if count <= done:
             return True
@@ -171,12 +171,12 @@ class PhaseRun:
 
     @cached_property
     def constants(self) -> Array:
-        """What the rates need that follows from the inputs."""
+        """Compute what the rates need that follows from the inputs."""
         first = self.motion.size + 1
         return self.registers[0][first : int(self.motion.rates.arguments[-1])]
 
     def _crossing(self, name: str, one: Instant, other: Instant, slope: float = 0.0) -> Instant:
-        """The instant at which an event is due, between the ends of two steps in which the current has a `slope`.
+        """Find the instant of an event between the ends of two steps, in which the current has a `slope`.
 
         The last step ends there: its length is sought by Newton's method, whose slope is one more direction.
         """
@@ -252,7 +252,7 @@ class _Steps:
 
 
 def _root(function: Callable[[float], float]) -> float:
-    """Where a function of a share of a step passes zero, about: by regula falsi (Illinois)."""
+    """Find where a function of a share of a step passes zero, about: by regula falsi (Illinois)."""
     low, high, below, above = 0.0, 1.0, function(0.0), function(1.0)
     if above <= 0.0:
         return 1.0

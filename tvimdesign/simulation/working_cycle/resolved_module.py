@@ -1,4 +1,4 @@
-"""What a virtual test is given: a study, resolved, and the table its quantities are evaluated with."""
+"""Input of a virtual test: a study, resolved, and the table its quantities are evaluated with."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class ResolvedModule:
 
 
 def given_profiles(study: Study) -> dict[str, CurrentProfile]:
-    """The currents that a study gives over time, by phase."""
+    """Return the currents that a study gives over time, by phase."""
     return {phase: CurrentProfile(given.moments, given.currents) for phase, given in study.currents.items()}
 
 
@@ -52,7 +52,7 @@ def resolve_study(study: Study) -> ResolvedModule:
 
 
 def resolve_design(design: Design) -> ResolvedModule:
-    """The module of a design, with the currents found for it. Raises InputError for what has no value."""
+    """Return the module of a design, with the currents found for it. Raises InputError for what has no value."""
     study = Study.model_validate({**design.study, "vary": {}, "profile": {}})
     brought = brought_along(design.choices, study.table)
     chosen = {name: word for name, word in design.choices.items() if name not in brought}

@@ -33,7 +33,7 @@ class Symbols(ca.ArrayInterfaceSX):
     _ndim: int
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
-        """One of numpy's elementwise functions."""
+        """Apply one of numpy's elementwise functions."""
         if method == "__call__" and not kwargs:
             if ufunc in _UNARY:
                 return _of(ca.SX.unary(_UNARY[ufunc], self._v), self._ndim)
@@ -57,7 +57,7 @@ class Symbols(ca.ArrayInterfaceSX):
 
 
 def _operator(code: int, *, reflected: bool = False) -> Callable[[Any, Any], Any]:
-    """The method of an operator between two operands."""
+    """Return the method of an operator between two operands."""
     if reflected:
         return lambda self, other: _binary(code, other, self)
     return lambda self, other: _binary(code, self, other)
@@ -71,7 +71,7 @@ for _name, _code in (
 
 
 def _binary(code: int, *operands: Any) -> Any:
-    """An elementwise operation of two operands, one of them symbols."""
+    """Apply an elementwise operation to two operands, one of them symbols."""
     matrices, dimensions = [], 0
     for one in operands:
         if isinstance(one, float | int):
@@ -91,7 +91,7 @@ def _of(matrix: Any, dimensions: int) -> Symbols:
 
 
 def _quick(found: Any) -> Any:
-    """What CasADi's array gave, as symbols where it can be."""
+    """Convert CasADi's array to symbols where it can be."""
     if type(found) is not ca.ArrayInterfaceSX:
         return found
     array: Any = found
@@ -99,5 +99,5 @@ def _quick(found: Any) -> Any:
 
 
 def symbols(column: Any) -> Symbols:
-    """A column of SX as the one-dimensional array that the equations take; its entries are scalars."""
+    """Return a column of SX as the one-dimensional array that the equations take; its entries are scalars."""
     return _of(column.T, 1)

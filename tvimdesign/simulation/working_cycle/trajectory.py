@@ -1,4 +1,4 @@
-"""What a simulation comes to: the trajectory of a phase, and all phases of a cycle with the values they supply."""
+"""Result of a simulation: the trajectory of a phase, and all phases of a cycle with the values they supply."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Trajectory:
 
 @dataclass(frozen=True)
 class Cycle:
-    """What the cycle came to: event, path and steady values by name (infinite where something never happens)."""
+    """Result of a cycle: event, path and steady values by name (infinite where something never happens)."""
 
     values: dict[str, float]
     trajectories: dict[str, Trajectory]

@@ -38,7 +38,7 @@ _PLATFORMS = {"Linux": ("linux", ".so"), "Darwin": ("darwin", ".dylib"), "Window
 
 @dataclass(frozen=True)
 class WrittenFmu:
-    """What became of the FMU."""
+    """Outcome of writing the FMU."""
 
     path: Path
     platform: str
@@ -121,7 +121,7 @@ def compiler() -> list[str]:
 
 
 def compiled(sources: Mapping[str, str], suffix: str, folder: Path) -> bytes:
-    """The binary, built in a folder; empty where no compiler is. Raises InputError with what one says that fails."""
+    """Build the binary in a folder; return nothing without a compiler. Raises InputError with a compiler's message."""
     command = compiler()
     if not command:
         return b""
@@ -154,7 +154,7 @@ def _run(command: list[str], folder: Path) -> None:
 
 
 def _put(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
-    """A file of the archive that is the same whenever it is written."""
+    """Add a file to the archive, the same bytes whenever it is written."""
     entry = zipfile.ZipInfo(name, _MOMENT)
     entry.compress_type = zipfile.ZIP_DEFLATED
     archive.writestr(entry, data)

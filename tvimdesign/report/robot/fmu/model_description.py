@@ -51,7 +51,7 @@ def fmu_variables(equations: JointEquations, resolved: ResolvedModule) -> tuple[
         Variable(
             "ambient_temperature", "input", "K", "Temperature of the air, and of all parts at the start.", ambient
         ),
-        Variable("frequency", "parameter", "Hz", "At which joint_stiffness and joint_damping are told.", frequency),
+        Variable("frequency", "parameter", "Hz", "Frequency of joint_stiffness and joint_damping.", frequency),
         Variable("torque", "output", "N*m", "Torque of the joint on what moves; springs, PCL and structure."),
         *_observed(equations.observed),
         *(_constant(name, float(resolved.quantity(quantity))) for name, quantity in CONSTANTS.items()),

@@ -18,7 +18,7 @@ from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 _MOVES = 0.02
-"""Share of an output's variance from which an input is said to move it."""
+"""Share of an output's variance from which an input counts as moving it."""
 _NAMED = 4
 
 

@@ -1,4 +1,4 @@
-"""What a run warns of, the gravest first, each with the line of the study that cures it."""
+"""Warnings of a run, the gravest first, each with the line of the study that cures it."""
 
 from __future__ import annotations
 

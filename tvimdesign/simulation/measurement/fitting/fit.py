@@ -70,7 +70,7 @@ class Fit:
 
 
 class BestFit(NamedTuple):
-    """A problem's best parameters, before anything is said of how sure they are."""
+    """A problem's best parameters, without their uncertainty."""
 
     residuals: Residuals
     found: RobustFit

@@ -1,4 +1,4 @@
-"""How sure parameters are: covariance, profile of the likelihood, and which of them the data cannot tell apart.
+"""Uncertainty of parameters: covariance, profile of the likelihood, and which of them the data cannot tell apart.
 
 Sources: [H] Huber and Ronchetti, Robust Statistics, 2nd ed., ch. 7 (covariance of M-estimates in regression); [B] Bates
 and Watts, Nonlinear Regression Analysis and Its Applications, ch. 6 (profiles); [KR] Kenward and Roger, Biometrics 53

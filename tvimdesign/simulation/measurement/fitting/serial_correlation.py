@@ -1,4 +1,4 @@
-"""How far the noise of a series follows itself from one value to the next, and what that does to what was fitted.
+"""Serial correlation of a series' noise, and its effect on what was fitted.
 
 The noise is taken as autoregressive of first order with one coefficient rho for all channels that err alike. Parameters
 follow slow noise, so that residuals look less alike than the noise is; the restricted likelihood counts that [PT, CR].
@@ -24,7 +24,7 @@ from scipy.signal import lfilter
 from tvimdesign.simulation.measurement.fitting.problem import Array
 
 FEWEST = 10
-"""Values below which nothing of their correlation can be told: they count as independent."""
+"""Values below which their correlation cannot be estimated: they count as independent."""
 _MOST_ALIKE = 0.99
 """Largest coefficient that is counted: beyond it the equations are wrong, and no interval says by how much."""
 _POINTS = 200

@@ -1,4 +1,4 @@
-"""What a kind of measurement comes to: the fit, notes, and what follows for a record of the catalogue."""
+"""Result of a kind of measurement: the fit, notes, and what follows for a record of the catalogue."""
 
 from __future__ import annotations
 

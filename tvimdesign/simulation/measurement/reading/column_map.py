@@ -1,4 +1,4 @@
-"""What a user says about a file that it does not say itself: which column is what, units, separator, decimal sign."""
+"""User's additions to a file's own information: which column is what, units, separator, decimal sign."""
 
 from __future__ import annotations
 

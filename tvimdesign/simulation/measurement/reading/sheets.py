@@ -1,6 +1,6 @@
 """Rows of cells from a file: text in any encoding, with its separator and decimal sign; TRIOS's JSON; workbooks.
 
-Encodings are told apart by marks and by zeros in every second byte, not by statistics: charset-normalizer reads the
+Encodings are recognised by marks and by zeros in every second byte, not by statistics: charset-normalizer reads the
 degree sign of a short file in Windows' Latin as Chinese, and takes 60 times as long.
 """
 

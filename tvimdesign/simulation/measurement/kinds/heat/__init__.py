@@ -1,1 +1,1 @@
-"""What heat says: calorimetry of the polymer, a pad alone, and the log of a whole module."""
+"""Measurements of heat: calorimetry of the polymer, a pad alone, and the log of a whole module."""

@@ -1,6 +1,6 @@
 """The log of a module that is heated, and cooled after it: its contacts and losses.
 
-Current and temperatures over time are held against the module's own heat equation (`logged_module`) of a study or a
+Current and temperatures over time are compared with the module's own heat equation (`logged_module`) of a study or a
 result; what is fitted are the values of `heat_paths` that the module has, and the temperature of the air.
 """
 

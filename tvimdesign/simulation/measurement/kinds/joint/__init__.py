@@ -1,1 +1,1 @@
-"""What joints and springs say: torque over angle, swings, sines, and where a frozen joint gives."""
+"""Measurements of joints and springs: torque over angle, swings, sines, and where a frozen joint gives."""

@@ -1,4 +1,4 @@
-"""What a joint's stiffness, damping and friction say of its module: values of records, by the module's equations.
+"""Record values that follow from a joint's stiffness, damping and friction, by the module's equations.
 
 A molten joint is turned over its stroke: K = K_s(E) + Re k(eta, omega, theta), b = Im k/omega, where k is the melt's
 branch over the measured amplitude (device/core/impedance/large_motion.py); the springs' modulus E and the melt's
@@ -31,7 +31,7 @@ _EXPLAINS = {
     MOLTEN: ("spring_youngs_modulus", "pcl_zero_shear_viscosity"),
     FROZEN: ("peltier_shear_modulus", "clamped_loss_factor"),
 }
-"""The inputs that stiffness and damping tell of, in this order: those whose ranges move them most."""
+"""The inputs that stiffness and damping determine, in this order: those whose ranges move them most."""
 _JOINT = "joint"
 """The choice of the records that this kind itself writes."""
 _FRICTION, _INERTIA = "pin_friction", "moving_inertia"

@@ -1,1 +1,1 @@
-"""What a polymer says on a rheometer: its spectrum from any test, its shift with temperature, its linear range."""
+"""Measurements of a polymer on a rheometer: its spectrum from any test, its temperature shift, its linear range."""
