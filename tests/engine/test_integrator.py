@@ -44,14 +44,14 @@ def algebraic() -> Motion:
 
 @pytest.fixture(scope="module")
 def pendulum() -> Motion:
-    """A pendulum that is damped and driven: nothing of it is linear."""
+    """Return a damped and driven pendulum, nonlinear in everything."""
     return motion_of(lambda y, u, k: ca.vertcat(y[1], -k[0] * ca.sin(y[0]) - k[1] * y[1] ** 3 + u * y[0] ** 2), 2, 2)
 
 
 def stepped(
     motion: Motion, y: Array, lengths: Array, k: Array, current: Callable[[Array], Array] = np.zeros_like
 ) -> Array:
-    """The state after steps of given lengths."""
+    """Return the state after steps of given lengths."""
     return with_slopes(motion, y, np.zeros((y.size, 0)), lengths, k, np.zeros((k.size, 0)), current)[0]
 
 
@@ -59,7 +59,7 @@ def with_slopes(
     motion: Motion, y: Array, s: Array, lengths: Array, k: Array, dk: Array,
     current: Callable[[Array], Array] = np.zeros_like, of_current: Array | None = None, of_lengths: Array | None = None,
 ) -> tuple[Array, Array]:  # fmt: skip
-    """The state after steps of given lengths, and its sensitivities; every current is moved by `of_current`."""
+    """Return the state after steps of given lengths, and its sensitivities; every current is moved by `of_current`."""
     lanes, count = s.shape[1], len(lengths)
     starts = np.append(0.0, np.cumsum(lengths)[:-1])
     u = current(starts[:, None] + TIMES * lengths[:, None])
@@ -161,7 +161,7 @@ def test_sensitivities_along_directions_are_differences_of_the_steps(pendulum: M
 
 
 def differences(function: Callable[[float], Array], by: float = 4e-3) -> Array:
-    """The slope at zero by a stencil of fourth order."""
+    """Return the slope at zero by a stencil of fourth order."""
     far, near = function(2.0 * by) - function(-2.0 * by), function(by) - function(-by)
     return np.asarray((8.0 * near - far) / (12.0 * by))
 

@@ -36,7 +36,7 @@ def written(name: str) -> tuple[list[Any], Any]:
 
 
 def both(name: str) -> tuple[Tape, Any, Any]:
-    """The operation as a tape, and as CasADi's function of its operands and of those and a direction."""
+    """Return the operation as a tape, and as CasADi's function of its operands and of those and a direction."""
     operands, value = written(name)
     along = ca.SX.sym("along", 2)
     slope = ca.jtimes(value, ca.vertcat(*operands), along)
@@ -52,7 +52,7 @@ MADE = {name: both(name) for name in NAMES}
 
 
 def bits(value: float) -> int:
-    """The bits of a number; all that are none are alike."""
+    """Return the bits of a number; all NaN are alike."""
     return int(np.array(math.nan if math.isnan(value) else value).view(np.int64))
 
 

@@ -78,7 +78,7 @@ def test_elimination_solves_what_numpy_solves() -> None:
 
 @pytest.fixture(scope="module")
 def cooling() -> tuple[Motion, Tape]:
-    """A body that cools at a rate of its own, one that follows it without mass, and the integral of the first."""
+    """Return a body that cools at a rate of its own, one that follows it without mass, and the first's integral."""
     y, u, k = ca.SX.sym("y", 3), ca.SX.sym("u"), ca.SX.sym("k")
     rates = ca.vertcat(u - k * y[0], y[0] ** 2 - y[1], y[0])
     return Motion(y, u, k, rates, ca.jacobian(rates, y), np.array([1.0, 0.0, 1.0])), Tape.of([y, u, k], [0.5 - y[0]])

@@ -24,7 +24,7 @@ class Case(NamedTuple):
 
 @st.composite
 def cases(draw: st.DrawFn) -> Case:
-    """A random pattern, often without parts of its diagonal, with values that need no pivots."""
+    """Return a random pattern, often without parts of its diagonal, with values that need no pivots."""
     size = draw(st.integers(1, 14))
     share, seed = draw(st.sampled_from([0.0, 0.1, 0.3, 1.0])), draw(st.integers(0, 2**32 - 1))
     generator = np.random.default_rng(seed)

@@ -26,7 +26,7 @@ steps = st.lists(
 
 
 def grown(taken: list[tuple[int, int, int]]) -> tuple[Any, Any, Any]:
-    """An expression that grows by an operation of two earlier values at a time, and two of its values."""
+    """Return an expression that grows by an operation of two earlier values at a time, and two of its values."""
     x = ca.SX.sym("x", 3)
     values = [x[0], x[1], x[2], ca.SX(0.7)]
     for kind, one, other in taken:

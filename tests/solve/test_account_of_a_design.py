@@ -1,4 +1,4 @@
-"""What a design keeps of the search: all of it but what differs from run to run."""
+"""Account of a search with a design: everything but what differs from run to run."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -8,7 +8,7 @@ from tvimdesign.solve.result import _plain
 
 
 def account(seconds: float) -> dict[str, Any]:
-    """The account of a search of two starts that took as long each."""
+    """Return the account of a search of two starts that took as long each."""
     starts = [
         Start(number, "Solve_Succeeded", True, 20 + number, 0.5, seconds, {"wire_diameter": 1e-3}, {"wire_diameter": w})
         for number, w in ((1, 1.1e-3), (2, 1.3e-3))

@@ -1,4 +1,4 @@
-"""What is kept of a search that is interrupted: its study, begun at the best design so far."""
+"""Interrupted searches: the study is started at the best design so far."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LISTED = SMALL.replace("pcl_thickness: [0.6", "pcl_thickness: {choose: [0.6").re
 
 
 def _interrupted(study: Study, at: str) -> Study | None:
-    """The best design so far where an interrupt comes at a certain word of the search."""
+    """Return the best design so far where an interrupt comes at a certain word of the search."""
 
     def progress(text: str) -> None:
         if at in text:

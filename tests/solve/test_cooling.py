@@ -1,4 +1,4 @@
-"""What cooling by current buys: the same module with its pads unpowered, and heaters that cannot cool."""
+"""Benefit of cooling by current: the same module with its pads unpowered, and heaters that cannot cool."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ NUMBERS_ALONE = [
 
 
 def _frozen(name: str) -> tuple[Optimizer, np.ndarray, dict[str, Any]]:
-    """A study's problem, and the inputs and the optimum that are frozen."""
+    """Return a study's problem, and the inputs and the optimum that are frozen."""
     frozen = json.loads((ROOT / "campaigns/frozen/studies" / f"{name}.json").read_text(encoding="utf-8"))
     optimizer = Optimizer(read_study(ROOT / "studies" / f"{name}.yaml"), frozen["optimum"]["reference"])
     inputs = optimizer.model.start.copy()

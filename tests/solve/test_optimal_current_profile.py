@@ -136,8 +136,8 @@ def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
 
 @pytest.mark.slow
 def test_a_cycle_with_profiles_is_no_longer_than_one_with_constant_currents() -> None:
-    """A constant current must be small from the beginning, as the pads come to their temperature in the end; one that
-    falls takes all the power the supply has until they do."""
+    # A constant current must be small from the beginning, as the pads come to their temperature in the end; one that
+    # falls takes all the power the supply has until they do.
     constant, profile = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", "")), solve(CYCLE)
     for solution in (constant, profile):
         assert solution.values["peak_peltier_temperature"] == pytest.approx(393.15, abs=100.0 * TOLERANCE)

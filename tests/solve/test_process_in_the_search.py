@@ -1,4 +1,4 @@
-"""What the optimiser returns, the process can make: walls end at its least, a milled module's below a printed one's."""
+"""Optima that the process can make: walls end at its least, a milled module's below a printed one's."""
 
 from __future__ import annotations
 

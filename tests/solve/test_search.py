@@ -42,14 +42,14 @@ def _study(text: str) -> Study:
 
 @pytest.fixture(scope="module")
 def paper() -> Solution:
-    """The paper's study from eleven starts."""
+    """Return the paper's study from eleven starts."""
     study = read_study(ROOT / "studies/paper_shear.yaml")
     return _solve(study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 11})}))
 
 
 @pytest.fixture(scope="module")
 def as_shipped() -> Solution:
-    """The paper's study from the three starts it asks for."""
+    """Return the paper's study from the three starts it asks for."""
     solution = shipped_answer("paper_shear").solution
     assert solution is not None
     return solution
@@ -85,7 +85,7 @@ def test_the_paper_s_study_ends_in_optima_that_are_all_told(paper: Solution) -> 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3])
 def test_a_search_from_other_starts_finds_the_same_best(paper: Solution, seed: int) -> None:
-    """The best is no luck of the study's own start: this one begins six coils long, and shares no start with that."""
+    # The best is no luck of the study's own start: this one begins six coils long, and shares no start with that.
     study = read_study(ROOT / "studies/paper_shear.yaml")
     elsewhere = {**study.module, "coil_count": 6.0, "wire_diameter": 2.9e-3, "placement_radius": 57e-3}
     options = study.solver.model_copy(update={"starts": 11, "seed": seed})

@@ -1,4 +1,4 @@
-"""What counts as stiff at a frequency need not be frozen: the advice tells the two apart."""
+"""Stiff and frozen joints: a stiffness at a frequency need not be frozen, and the advice tells the two apart."""
 
 import numpy as np
 import pytest

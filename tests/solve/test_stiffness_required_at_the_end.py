@@ -1,4 +1,4 @@
-"""What the joint is when the switch ends: the same for simulation, optimiser and many designs, and can be required."""
+"""Stiffness at the end of the switch: the same for simulation, optimiser and many designs, and a requirement."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def _answer(more: str = "", criterion: str = "mean") -> StudyResult:
 
 @pytest.mark.gate
 def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None:
-    """The threshold is arithmetic of the hot point; the impedance at the end is read off the simulated layer."""
+    # The threshold is arithmetic of the hot point; the impedance at the end is read off the simulated layer.
     found = _answer(criterion="softening").design.values
     assert found["softened_impedance"] == pytest.approx(found["soft_threshold"], rel=1e-4)
     assert found["spring_stiffness"] < found["softened_stiffness"] < found["softened_impedance"]
@@ -104,7 +104,7 @@ def test_a_switch_that_never_ends_has_no_end_to_be_soft_at(
 
 @pytest.mark.parametrize(("criterion", "reached"), [("far_face", True), ("softening", False)])
 def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, reached: bool) -> None:
-    """The thermometer at the far face waits for 100 degC, which is the hot point; the impedance does not."""
+    # The thermometer at the far face waits for 100 degC, which is the hot point; the impedance does not.
     found = _answer(criterion=criterion)
     warned = [check for check in found.warnings if check.output == "hot_point_margin"]
     assert bool(warned) is not reached

@@ -210,7 +210,7 @@ def test_a_simulation_ends_with_the_time() -> None:
 
 
 def test_a_run_of_the_solver_ends_between_two_iterations() -> None:
-    """One solver serves a run that has time, one that has not, and one that has time again."""
+    # One solver serves a run that has time, one that has not, and one that has time again.
     optimizer, ticks = Optimizer(read_study_text(SEARCHED)), iter(range(10_000))
     whole = optimizer.solve()
     optimizer.deadline = Deadline(8.0, lambda: float(next(ticks)))

@@ -73,7 +73,7 @@ def _all(value: float) -> Any:
 
 
 def _known(b: Any, name: str, *values: Any) -> Any:
-    """A function of LLVM's own."""
+    """Return a function of LLVM's own."""
     kind = ir.FunctionType(_NUMBERS, [_NUMBERS] * len(values))
     return b.call(cgutils.get_or_insert_function(b.module, kind, f"llvm.{name}.v{LANES}f64"), values)
 

@@ -38,7 +38,7 @@ class AnchoredSearch:
     """
 
     def __init__(self, anchor: Study, followed: Collection[str], normal: Study) -> None:
-        """Nothing is solved yet. `followed` are the numbers that differ between the studies, by name or path.
+        """Set up without solving. `followed` are the numbers that differ between the studies, by name or path.
 
         All studies' outputs are divided by those of the study `normal` at its start, so that all minimise the same.
         """
@@ -52,7 +52,7 @@ class AnchoredSearch:
         keep: Keep = lambda *_: None,
         objectives: Sequence[str] = (),
     ) -> tuple[Solution, bool]:
-        """The best design of a study, and whether the anchor's optimum alone led there. Raises as `optimize` does."""
+        """Return a study's best design and whether the anchor's optimum alone led there. Raise as `optimize` does."""
         solution = self._warm(study, study.table) if self._followed else None
         if solution:
             return solution, True
@@ -61,7 +61,7 @@ class AnchoredSearch:
     def as_optimize(
         self, study: Study, progress: Progress, _: dict[str, float] | None, keep: Keep, objectives: Sequence[str]
     ) -> Solution:
-        """The same in place of `optimize`, whose reference is the one of all studies here."""
+        """Solve in place of `optimize`, with one reference for all studies here."""
         return self.find(study, progress, keep, objectives)[0]
 
     @cached_property
@@ -86,7 +86,7 @@ class AnchoredSearch:
         return kept[0] if kept else None
 
     def _warm(self, study: Study, table: Table) -> Solution | None:
-        """The optimum sought from the anchor's; None where that cannot be done, or comes to none."""
+        """Return the optimum sought from the anchor's; None if that is impossible or no optimum results."""
         if not _alike(study, self._anchor_study, table):
             return None
         if _has_lists(study, table) or study.robust or study.profile.pieces():
@@ -104,7 +104,7 @@ class AnchoredSearch:
 
 
 def _with_fixed(study: Study, followed: Collection[str]) -> Study:
-    """The study with some of what it varies fixed at its start."""
+    """Return the study with some of what it varies fixed at its start."""
     free = [name for name in followed if name in study.vary]
     if not free:
         return study
@@ -114,17 +114,17 @@ def _with_fixed(study: Study, followed: Collection[str]) -> Study:
 
 
 def _has_lists(study: Study, table: Table) -> bool:
-    """Whether anything is chosen from a list."""
+    """Return whether anything is chosen from a list."""
     return bool(discrete_sizes(study, table).names) or len(discrete_records(study, table)) > 1
 
 
 def _alike(study: Study, other: Study, table: Table) -> bool:
-    """Whether two studies differ in fixed numbers alone: neither in words, nor in whole numbers, which are shapes."""
+    """Return whether two studies differ in fixed numbers alone, not in words or whole numbers, which are shapes."""
     return _problem(study, table) == _problem(other, table)
 
 
 def _problem(study: Study, table: Table) -> dict[str, Any]:
-    """All of a study but its name and its fixed numbers."""
+    """Return a study's data without its name and its fixed numbers."""
     shape = {name: value for name, value in study.module.items() if not _is_number(name, table)}
     points = tuple(study.operating_points)
     kept = study.model_dump(exclude={"name", "description", "module", "operating_points", "write", "tolerances"})

@@ -1,4 +1,4 @@
-"""What a search had found when it was interrupted: its study, begun at the best design so far."""
+"""Best design so far of an interrupted search: the study, started at that design."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class SearchInterrupted(KeyboardInterrupt):
 
 
 def best_so_far(study: Study, trees: Sequence[Relaxation]) -> Study | None:
-    """The study begun at the best of what its problems have come to; None where that is nothing yet."""
+    """Return the study started at the best design its problems have reached; None if there is none yet."""
     found = [(order(tree.best), tree.place, tree) for tree in trees if tree.best is not None]
     if not found:
         return None

@@ -1,4 +1,4 @@
-"""What cooling by current buys: the same module left to the air on its way back, as one with a foil heater is."""
+"""Benefit of cooling by current: the same module left to the air on its way back, like one with a foil heater."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TIMES = ("stiffening_time", "frozen_time")
 
 @dataclass(frozen=True)
 class Cooling:
-    """Whether a module's pads can cool, whether they do, and what the way back takes without [s]."""
+    """Ability of a module's pads to cool, whether they do, and the time of the way back without cooling [s]."""
 
     able: bool
     """Whether the heater has a Seebeck coefficient: a foil heats whichever way its current flows."""

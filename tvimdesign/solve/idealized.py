@@ -44,7 +44,7 @@ def idealizations(
     values: Mapping[str, float],
     current_profiles: Mapping[str, CurrentProfile],
 ) -> tuple[Idealization, ...]:
-    """The idealizations of a module, each on its own; `values` are those with all of them, `inputs` in their order."""
+    """Return the idealizations of a module, each alone; `values` are with all of them, `inputs` in their order."""
     table = resolved.table
     found = []
     for row in table.choices:
@@ -65,7 +65,7 @@ def _without(
     inputs: NDArray[np.float64],
     current_profiles: Mapping[str, CurrentProfile],
 ) -> dict[str, float]:
-    """Every output of the module without an idealization; nothing where there is no such module."""
+    """Return every output of the module without an idealization; empty if there is no such module."""
     study = resolved.study
     given = {**resolved.values, row.name: row.default}
     try:

@@ -1,4 +1,4 @@
-"""What the minimised outputs of every compared study are divided by: one yardstick, so that all minimise the same.
+"""Common reference that divides the minimised outputs of all compared studies, so that all minimise the same.
 
 A study alone divides each output by its value at its own start. Of two studies with the same weights one would then
 pay less for a second than the other, because it was drawn slower.
@@ -18,7 +18,7 @@ Values = Mapping[str, float]
 
 
 def at_its_start(study: Study) -> dict[str, float] | None:
-    """The minimised outputs of a study as it is drawn, SI; None where that cannot be simulated."""
+    """Return the minimised outputs of a study as drawn, SI; None if it cannot be simulated."""
     table = study.table
     try:
         model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)

@@ -66,7 +66,7 @@ class ConstraintCheck:
 
 @dataclass(frozen=True)
 class StudyResult:
-    """What a study came to."""
+    """Result of a study."""
 
     design: Design
     checks: tuple[ConstraintCheck, ...]
@@ -102,7 +102,7 @@ class StudyResult:
 
     @property
     def seconds(self) -> dict[str, float]:
-        """What setting up and solving took; empty where nothing was optimised."""
+        """Return the time of set-up and solving; empty if nothing was optimised."""
         return self.solution.seconds if self.solution else {}
 
     @property
@@ -112,7 +112,7 @@ class StudyResult:
 
     @property
     def feasible(self) -> bool:
-        """Whether every requirement and rule is kept."""
+        """Whether every requirement and rule is satisfied."""
         return all(check.kept for check in self.checks)
 
 
@@ -150,7 +150,7 @@ def answer(
 
 
 def _result(study: Study, solution: Solution | None, designed: Designed) -> StudyResult:
-    """What a study came to, with what a search found, or as it is evaluated."""
+    """Return the result of a study, with a search's solution or as evaluated."""
     table = study.table
     if solution is not None:
         model, inputs, cycle, values = solution.model, solution.inputs, solution.cycle, solution.values
@@ -205,7 +205,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
 
 
 def _seen(resolved: ResolvedModule, *, exists: bool) -> dict[str, tuple[float, float, float]]:
-    """What a released link shows; nothing is known of where a solver ended that found no design."""
+    """Return the impedances of a released link; nothing is known where a solver ended without a design."""
     if exists:
         return contact_seen(resolved)
     names = [f"{row.name}@{point}" for row in resolved.table.first_oscillations for point in resolved.points]
@@ -254,7 +254,7 @@ def _check(
 
 
 def _plain(solution: Solution | None) -> dict[str, Any]:
-    """The account as plain data, SI, without what differs from run to run."""
+    """Return the account as plain data, SI, without the parts that differ from run to run."""
     if solution is None:
         return {}
     return {

@@ -86,7 +86,7 @@ def _optimize(
     trees: list[Relaxation],
     whole: Deadline,
 ) -> Solution:
-    """The same up to a deadline; `trees` are filled with the problems of the search."""
+    """Optimise up to a deadline; fill `trees` with the problems of the search."""
     deadline = whole.leaving(_TO_VERIFY * whole.seconds)
     refuse_unreachable(study, deadline)
     sizes, families = discrete_sizes(study, study.table), families_of(study)
@@ -165,7 +165,7 @@ def _account(
     nominal: Run,
     starts: tuple[Start, ...],
 ) -> Solution:
-    """The best design verified, with what else is said of it as far as there is time."""
+    """Return the best design verified, with the rest of its account as far as time allows."""
     seconds = {
         key: sum(relaxation.optimizer.seconds[key] for relaxation in trees) for key in trees[0].optimizer.seconds
     }
@@ -182,7 +182,7 @@ def _account(
 
 
 def _status(study: Study, solution: Solution, *, no_combination: bool) -> str:
-    """The status of a solution, which its check cannot know: of too low a yield, or that there is no design."""
+    """Return a solution's status that its check cannot know: a yield too low, or no design."""
     if solution.status == OPTIMAL and study.robust is not None:
         if study.robust.share is None:
             return BELOW_YIELD if MARGINS in solution.left_out else OPTIMAL
@@ -195,13 +195,13 @@ def _status(study: Study, solution: Solution, *, no_combination: bool) -> str:
 
 
 def _in_time(study: Study, found: Sequence[tuple[Relaxation, Run]], deadline: Deadline) -> Study | None:
-    """The study with limits on times where the best of some designs ends beyond the horizon, and time is left."""
+    """Return the study with limits on times, if the best design ends beyond the horizon and time is left."""
     relaxation, run = min(found, key=lambda one: order(one[1]))
     return None if deadline.passed else ending_in_time(study, relaxation.optimizer, run)
 
 
 def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
-    """The best of some designs that can be made robust, as it was and as it is then, told as its start."""
+    """Return the best design that can be made robust: before, after, and as its start is reported."""
     from tvimdesign.solve.uncertainty.robust import most_robust  # it loads the compiler
 
     ranked = sorted(found, key=lambda one: order(one[1]))
@@ -212,7 +212,7 @@ def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, R
 
 
 def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:
-    """The listed sizes of a run's combination, each as the ends that keep it."""
+    """Return the listed sizes of a run's combination, each as a pair of equal ends."""
     chosen = run.start.choices
     return {name: (float(chosen[name]), float(chosen[name])) for name in relaxation.sizes.names if name in chosen}
 
@@ -228,7 +228,7 @@ def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run, share: float) -
 def _reconciled(
     relaxation: Relaxation, best: Run, tried: list[Run], progress: Progress
 ) -> tuple[Run, ConflictSet | None]:
-    """The best run; where none converged, one that does after all, or the one that breaks least with the conflict."""
+    """Return the best run; if none converged, one that does after all, or that of least violation with its conflict."""
     if best.start.converged or relaxation.optimizer.deadline.passed:
         return best, None
     conflict_search = find_conflicts(relaxation.optimizer, tried, progress)
@@ -244,7 +244,7 @@ def _reconciled(
 
 
 def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline) -> list[tuple[Relaxation, Run]]:
-    """The runs of each tree from every start, or so many at `most`, with every size free."""
+    """Return the runs of each tree from every start, or `most` of them, with every size free."""
     free: list[tuple[Relaxation, Run]] = []
     for relaxation in trees:
         if not (free and deadline.passed):
@@ -260,8 +260,8 @@ def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline
 def _choose(
     search: BranchAndBound, exact: ExactCombinations, combinations: int, begin: Begin
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]], list[tuple[Relaxation, Run]]]:
-    """The best combinations that branch and bound found, and where that is asked for by solving all: the account, the
-    designs, and those of them that are to be reported, which are not simulated yet.
+    """Return the best combinations, by branch and bound and on request by solving all.
+    The answer holds the account, the designs, and those to report, which are not simulated yet.
     """
     trees, asked = begin.trees, begin.study.solver
     stopped = trees[0].optimizer.deadline.met
@@ -291,7 +291,7 @@ def _choose(
 def _between(
     trees: Sequence[Relaxation], exact: ExactCombinations, best: Sequence[tuple[Relaxation, Run]]
 ) -> Standard | None:
-    """The best design with every size free; with the best records, where these are mixed."""
+    """Return the best design with every size free, with the best records if these are mixed."""
     if any(relaxation.sizes.mixtures for relaxation in trees):
         run = exact.between(*best[0]) if best else None
         return _standard(best[0][0], run) if run else None
@@ -310,7 +310,7 @@ def _least(trees: Sequence[Relaxation]) -> float | None:
 def _chosen(
     runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
-    """The account where only records of different structure are listed: each has been searched from every start.
+    """Return the account if only records of different structure are listed: each was searched from every start.
 
     With it the designs that are to be reported, which are not simulated yet.
     """
@@ -349,7 +349,7 @@ def _improvement(found: _Found, every: _Found) -> float:
 
 
 def _closest(relaxation: Relaxation, exact: ExactCombinations) -> tuple[Relaxation, Run]:
-    """Where the solver ended at the sizes nearest to the best design between them, as no combination has a design."""
+    """Return the solver's end at the sizes nearest to the best design between them, as no combination has a design."""
     whole = relaxation.sizes.whole
     optimum = relaxation.optima[0] if relaxation.optima else None
     values = relaxation.values(optimum) if optimum else relaxation.start_values
@@ -362,7 +362,7 @@ def _with_alternatives(
     exact: ExactCombinations,
     best: Sequence[tuple[Relaxation, Run]],
 ) -> Choosing:
-    """The account with the best combination simulated, and the alternatives to it as far as there is time."""
+    """Return the account with the best combination simulated, and its alternatives as far as time allows."""
     found = [_standard(*one) for one in best[:1]]
     for one in best[1:]:
         optimizer = one[0].optimizer
@@ -376,7 +376,7 @@ def _with_alternatives(
 
 
 def _standard(relaxation: Relaxation, run: Run) -> Standard:
-    """A design simulated, for what is told of it."""
+    """Return a simulated design for the report."""
     optimizer = relaxation.optimizer
     cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
     values = optimizer.model.values(run.inputs, cycle.values)

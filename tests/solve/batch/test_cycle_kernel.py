@@ -31,7 +31,7 @@ def _pace(model: DeviceFunctions, cycle: Cycle) -> Pace:
 
 
 def _columns(model: DeviceFunctions, count: int) -> np.ndarray:
-    """The design as drawn, and others up to a tenth off in every input that moves; ambient by 3 K."""
+    """Return the design as drawn, and others up to a tenth off in every moving input; ambient by 3 K."""
     start = np.array([[model.start[model.index[name]]] for name in MOVING])
     width = np.where(np.array(MOVING)[:, None] == "ambient_temperature", 3.0, 0.1 * start)
     off = np.random.default_rng(5).uniform(-1.0, 1.0, (len(MOVING), count))

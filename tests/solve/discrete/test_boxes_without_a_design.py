@@ -122,6 +122,6 @@ def test_no_combination_in_them_has_one(text: str, monkeypatch: pytest.MonkeyPat
 
 
 def _each(box: Box) -> list[Box]:
-    """Every combination in a box."""
+    """Return every combination in a box."""
     places = [range(first, last + 1) for first, last in box]
     return [tuple((place, place) for place in one) for one in itertools.product(*places)]

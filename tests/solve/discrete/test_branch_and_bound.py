@@ -63,7 +63,7 @@ class Bowl:
         return self.best_within(box, near)
 
     def note(self, run: Any) -> None:
-        """A tree keeps its best; a bowl does not."""
+        """Record that a tree has its best; a bowl has none."""
 
     def thoroughly(self, box: Box, near: Any) -> Any:
         return self.best_within(box, near)[0]
@@ -77,7 +77,7 @@ _LISTS = st.lists(st.integers(1, 60), min_size=1, max_size=7, unique=True).map(l
 
 @st.composite
 def bowls(draw: st.DrawFn) -> list[Bowl]:
-    """One tree or two of the same lists, each with a bowl of its own."""
+    """Return one tree or two of the same lists, each with a bowl of its own."""
     count = draw(st.integers(1, 3))
     sizes = Sizes(tuple("abc"[:count]), tuple(draw(_LISTS) for _ in range(count)))
     numbers = st.tuples(*[st.floats(0.5, 65.0)] * count)
@@ -113,7 +113,7 @@ def test_a_bowl_over_two_thousand_combinations_takes_a_few_runs() -> None:
 
 
 def test_a_list_whose_entries_are_as_good_as_one_another_is_divided_last() -> None:
-    """The first number is far from its sizes and costs nothing, the second is near and costs much."""
+    # The first number is far from its sizes and costs nothing, the second is near and costs much.
     listed = tuple(4.0**power for power in range(8))
     bowl = Bowl(0, Sizes(("a", "b"), (listed, (10.0, 11.0, 12.0, 13.0))), (2.0, 11.4), (1e-9, 1.0), 5.0, 0.0)
     node, search = _node(bowl), BranchAndBound(cast("list[Relaxation]", [bowl]), 1)

@@ -86,7 +86,7 @@ def found() -> Solution:
 
 @pytest.fixture(scope="module")
 def alone(found: Solution) -> dict[tuple[float, ...], float]:
-    """Every combination solved alone, from the study's start."""
+    """Return every combination solved alone, from the study's start."""
     return by_brute_force(listed(), found.reference, starts=1)
 
 
@@ -111,7 +111,7 @@ def test_it_is_as_good_in_compression() -> None:
 
 
 def test_the_bounds_save_most_of_the_work() -> None:
-    """One design is asked for; the solver runs for half of the combinations at most, though some have no design."""
+    # One design is asked for; the solver runs for half of the combinations at most, though some have no design.
     alone = listed(LISTED.replace("solver: {", "solver: {alternatives: 1, "))
     choosing = _chosen(_solve(alone))
     assert len(choosing.best) == 1
@@ -158,7 +158,7 @@ def test_every_combination_is_as_good_as_solved_alone_and_cold(
 
 @pytest.mark.slow
 def test_bonmin_comes_to_the_same(found: Solution) -> None:
-    """A solver of others' making, by the algorithm of it that is right."""
+    # A solver of others' making, by the algorithm of it that is right.
     chosen = best_by_bonmin(listed(), found.reference)
     best = _chosen(found).best[0]
     assert chosen.success
@@ -167,7 +167,7 @@ def test_bonmin_comes_to_the_same(found: Solution) -> None:
 
 
 def _relaxation(found: Solution) -> Relaxation:
-    """The problem of the listed study with its starts run, its objective over the same reference."""
+    """Return the problem of the listed study with its starts run, its objective over the same reference."""
     study = listed()
     optimizer = Optimizer(study, found.reference)
     relaxation = Relaxation(0, optimizer, {}, discrete_sizes(study, TABLE), SolverEffort())

@@ -88,7 +88,7 @@ def _as_enumerated(study: Study, solution: Solution) -> None:
 
 
 def _apart(one: tuple[str | float, ...], other: tuple[str | float, ...]) -> float:
-    """How far two combinations are apart: words that differ, and what the numbers differ by."""
+    """Return how far two combinations are apart: words that differ, and what the numbers differ by."""
     return sum(
         float(a != b) if isinstance(a, str) or isinstance(b, str) else abs(a - b)
         for a, b in zip(one, other, strict=True)
@@ -156,7 +156,7 @@ def test_records_of_another_structure_are_another_family() -> None:
 
 
 def test_at_a_corner_a_mixture_is_the_device_of_its_records(study: Study) -> None:
-    """Every output without a cycle, for each record of each mixture alone."""
+    # Every output without a cycle, for each record of each mixture alone.
     family = families_of(study)[0]
     points = tuple(study.operating_points)
     mixed = MixedDevice(study.table, given(with_records(study, family.records)), points, 6, family.mixtures)

@@ -45,7 +45,7 @@ def study() -> Study:
 
 @pytest.fixture(scope="module")
 def alone(study: Study) -> Choosing:
-    """What one process finds."""
+    """Return the result of one process."""
     found = optimize(study).choosing
     assert found is not None
     return found

@@ -1,4 +1,4 @@
-"""Where there is no design: bounds or the solver name a set that cannot hold, and the way out they name is one."""
+"""Studies without a design: bounds or the solver name a conflicting set, and the way out that they name works."""
 
 from __future__ import annotations
 
@@ -87,10 +87,9 @@ def test_what_a_design_keeps_is_never_refused() -> None:
 
 
 def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None:
-    """A coil of 12 mm at least with an index of 6 at most needs wire of 2 mm, with a gap between its coils.
-
-    Each alone can hold; moved as far as told, or farther, both hold.
-    """
+    # A coil of 12 mm at least with an index of 6 at most needs wire of 2 mm, with a gap between its coils.
+    #
+    # Each alone can hold; moved as far as told, or farther, both hold.
     text = HEAVY.replace(
         'spring_stiffness: ">= 5 N.m/rad", module_mass: "<= 60 g"',
         'module_mass: "<= 400 g", spring_index: "<= 6", coil_pitch: "<= 2.05 mm"',

@@ -1,4 +1,4 @@
-"""What two measures of broken limits, made least from several places, say together."""
+"""Two measures of violated limits, minimised from several places."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is told to change where a spring is bought whole: another spring, as none of its numbers can be varied."""
+"""Advice where a spring is bought whole: another spring, as none of its numbers can be varied."""
 
 import pytest
 

@@ -59,7 +59,7 @@ def test_where_no_limit_is_of_arithmetic_every_design_keeps_them() -> None:
 
 @pytest.mark.slow
 def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where no start comes to a design, those from all over do: here every start is made to fail."""
+    # Where no start comes to a design, those from all over do: here every start is made to fail.
     study = read_study(ROOT / "studies/paper_shear.yaml")
     usual = optimize(study)
     starts = Relaxation._from_one_of_each

@@ -44,6 +44,6 @@ def test_a_fourth_power_has_the_moments_of_one(tolerance: str, sigma: float) -> 
 
 
 def test_two_inputs_add_their_variances() -> None:
-    """The rate is proportional to Young's modulus: 3 % at three sigma are a hundredth of it."""
+    # The rate is proportional to Young's modulus: 3 % at three sigma are a hundredth of it.
     rate, _, deviation = _moments("wire_diameter: {plus_minus: 0.03 mm}, spring_youngs_modulus: 3 %")
     assert deviation == pytest.approx(rate * math.hypot(4.0 * 0.01e-3 / WIRE, 0.01), rel=1e-9)

@@ -47,7 +47,7 @@ of its last Newton iteration, whose state is up to 1e-5 off."""
 
 @cache
 def problem_of(text: str) -> tuple[Optimizer, Array, Parameters]:
-    """An optimizer, a point beside its start with steps placed there, and its parameters."""
+    """Return an optimizer, a point beside its start with steps placed there, and its parameters."""
     optimizer = Optimizer(read_study_text(text, "a test"))
     x = optimizer.guess(optimizer.model.start)
     x = np.clip(x + 0.02 * np.random.default_rng(1).uniform(-1.0, 1.0, len(x)), *optimizer.vector.bounds({}))
@@ -107,7 +107,7 @@ def test_a_time_that_is_limited_has_no_second_row_for_the_horizon() -> None:
 
 
 def test_where_its_equation_is_zero_a_driven_phase_ends_as_cvodes_ends_it() -> None:
-    """The equation is solved for the time its pieces take; all else stays."""
+    # The equation is solved for the time its pieces take; all else stays.
     optimizer, x, parameters = problem_of(PROFILE)
     problem, x = optimizer.problem, x.copy()
     last = problem.nodes_place(0).stop
@@ -166,7 +166,7 @@ def test_an_optimum_is_where_its_own_steps_have_it() -> None:
 
 
 def test_steps_of_a_quick_switch_are_placed_anew_for_a_slow_one() -> None:
-    """The least power heats for an hour; the steps of the study's start, which takes minutes, miss its end by 0.5 %."""
+    # The least power heats for an hour; the steps of the study's start, which takes minutes, miss its end by 0.5 %.
     text = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6, starts: 1}\n"
     optimizer = Optimizer(read_study_text(text, "a test"))
     parameters = optimizer.parameters(Objective(optimizer.study.minimize))

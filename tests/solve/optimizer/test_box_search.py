@@ -77,7 +77,7 @@ def design(optimizer: Optimizer) -> Array:
 
 
 def broken(optimizer: Optimizer, inputs: Array) -> float:
-    """The most by which a design, simulated, breaks a limit."""
+    """Return the most by which a design, simulated, breaks a limit."""
     cycle = optimizer.problem.simulated(inputs)
     values = optimizer.model.values(inputs, cycle)
     return max(float(limit.residual(values[limit.output])) for limit in optimizer.problem.limits)

@@ -17,7 +17,7 @@ profile: {softening: 3, stiffening: 2}
 
 
 def freed(slew: str, phase: str, pieces: int) -> FreeCurrent:
-    """The current of a phase, without a problem around it."""
+    """Return the current of a phase, without a problem around it."""
     optimizer = object.__new__(Optimizer)
     optimizer.study = read_study_text(STUDY % slew, "a test")
     optimizer.table = optimizer.study.table

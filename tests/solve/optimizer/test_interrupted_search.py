@@ -20,7 +20,7 @@ from tvimdesign.study import given, read_study_text
 
 @pytest.fixture(scope="module")
 def optimizer() -> Optimizer:
-    """A small problem, its solver built."""
+    """Return a small problem, its solver built."""
     built = Optimizer(read_study_text(SMALL))
     built.solve()
     return built

@@ -1,4 +1,4 @@
-"""Where searches begin, of a made-up module of one number: its switch takes as long as that says, or never ends."""
+"""Starts of searches, of a made-up module of one number: its switch takes that long, or never ends."""
 
 from __future__ import annotations
 

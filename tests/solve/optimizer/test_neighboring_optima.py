@@ -1,4 +1,4 @@
-"""What the search tries beside the ends of its starts, held against searches that are kept within one turn each."""
+"""Steps beside the ends of the starts, compared with searches that stay within one turn each."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _run_from(optimizer: Optimizer, **numbers: float) -> Run:
 
 
 def _kept_within(study: Study, optimizer: Optimizer, lower: float, upper: float) -> float:
-    """The best objective with the coils kept within one turn, begun in its middle; infinite where there is none."""
+    """Return the best objective with the coils within one turn, started in its middle; infinite if there is none."""
     vary = {**study.vary, "coil_count": Range(lower=lower, upper=upper)}
     middle = {**study.module, "coil_count": 0.5 * (lower + upper)}
     other = Optimizer(study.model_copy(update={"vary": vary, "module": middle}), optimizer.reference)
@@ -59,7 +59,7 @@ def _kept_within(study: Study, optimizer: Optimizer, lower: float, upper: float)
 
 @pytest.mark.slow
 def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns() -> None:
-    """The study's own start ends in an optimum with better ones beside it, which the solver does not leave."""
+    # The study's own start ends in an optimum with better ones beside it, which the solver does not leave.
     study = read_study(ROOT / "studies/wrist_compression.yaml")
     optimizer = Optimizer(study)
     run = optimizer.solve()
@@ -80,14 +80,14 @@ def test_the_best_turn_is_not_left(optimizer: Optimizer) -> None:
 
 
 def _ended_at(turns: float) -> Run:
-    """An optimum in the middle of a turn, the worse the further from the third; each turn has one."""
+    """Return an optimum in the middle of a turn, the worse the further from the third; each turn has one."""
     start = Start(1, "Solve_Succeeded", True, 5, 1.0 + abs(turns - 3.5), 0.0, {}, {})
     none = np.zeros(0)
     return Run(start, np.array([turns]), {}, {}, np.array([turns / 5.0]), none, none, none)
 
 
 def _of_coils(period: float | None, tried: list[float]) -> Any:
-    """An optimizer of nothing but coils, which notes where it begins; it ends in the middle of that turn."""
+    """Return an optimizer of nothing but coils, which notes where it begins; it ends in the middle of that turn."""
 
     def solve(*_: Any, unknowns: np.ndarray, **_more: Any) -> Run:
         tried.append(5.0 * float(unknowns[0]))
@@ -106,7 +106,7 @@ def _of_coils(period: float | None, tried: list[float]) -> Any:
 
 
 def test_no_neighbor_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One start ends in the fifth turn and is led to the third; another in the sixth is led to the fifth, and on."""
+    # One start ends in the fifth turn and is led to the third; another in the sixth is led to the fifth, and on.
     monkeypatch.setattr(neighboring_optima, "SHAKES", 0)
     tried: list[float] = []
     led = NeighboringOptima(_of_coils(1.0, tried)).improve([_ended_at(5.5), _ended_at(6.5)])
@@ -132,7 +132,7 @@ def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest
 
 
 def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> None:
-    """One start was kept from the better springs, the other from the better layer; no turn lies beside either."""
+    # One start was kept from the better springs, the other from the better layer; no turn lies beside either.
     fixed = {name: vary for name, vary in study.vary.items() if name not in {"coil_count", "pin_radius_ratio"}}
     optimizer = Optimizer(study.model_copy(update={"vary": fixed}))
     whole = optimizer.solve()

@@ -1,4 +1,4 @@
-"""What a limit costs in each output: the implicit function theorem against optima found anew with the limit moved."""
+"""Cost of a limit in each output: the implicit function theorem against optima with the limit moved."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _study() -> Study:
 
 
 def _optimum(study: Study) -> dict[str, float]:
-    """The minimised outputs at a study's optimum, as its problem has them."""
+    """Return the minimised outputs at a study's optimum, as its problem has them."""
     optimizer = Optimizer(study)
     run = optimizer.solve()
     assert run.start.converged
@@ -54,7 +54,7 @@ def _active(study: Study) -> tuple[ActiveConstraint, ...]:
 
 
 def _moved(study: Study, held: ActiveConstraint, share: float) -> Study:
-    """The study with one limit eased by a share of its size."""
+    """Return the study with one limit eased by a share of its size."""
     output, sense = held.name.split(" ")
     factor = 1.0 + share if sense == "<=" else 1.0 - share
     if held.origin == "vary":
@@ -96,7 +96,7 @@ def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
     ],
 )
 def test_savings_add_up_to_the_price_in_the_objective(name: str) -> None:
-    """The envelope theorem: to first order the weighted sum changes by the multiplier."""
+    # The envelope theorem: to first order the weighted sum changes by the multiplier.
     study = read_study(ROOT / "studies" / f"{name}.yaml")
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 1})})
     solution = optimize(study)

@@ -1,4 +1,4 @@
-"""Where searches begin: the same points for the same seed, evenly spread where there are many."""
+"""Starting points of searches: a seed gives the same points, and many are evenly spread."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_few_starts_begin_where_they_always_have() -> None:
 
 
 def test_many_points_fill_every_slice_of_every_range() -> None:
-    """A Sobol sequence of 2^k points has one in each of 2^k slices; random points leave a third of them empty."""
+    # A Sobol sequence of 2^k points has one in each of 2^k slices; random points leave a third of them empty.
     points = _points(64, 12, 1, 64)
     for column in points.T:
         assert len(set((column * 64).astype(int))) == 64

@@ -11,7 +11,7 @@ from tvimdesign.solve.optimizer.statuses import MEANINGS, meaning
 
 
 def _statuses() -> set[str]:
-    """The statuses in CasADi's interface to IPOPT, read off the library itself."""
+    """Return the statuses in CasADi's interface to IPOPT, read off the library itself."""
     found = sorted(Path(casadi.__file__).parent.glob("*casadi_nlpsol_ipopt*"))
     assert found, "CasADi keeps its interface to IPOPT elsewhere: look there"
     words = re.findall(rb"\0([A-Z][A-Za-z]+(?:_[A-Za-z]+)+)(?=\0)", found[0].read_bytes())

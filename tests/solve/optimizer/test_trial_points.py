@@ -1,4 +1,4 @@
-"""Where searches may begin: at modules, and nowhere a body of the heat equation has a conductance below zero."""
+"""Trial points of searches: at modules, never where a body of the heat equation has a conductance below zero."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge() -> Non
 
 
 def test_starts_of_a_module_with_links_that_correct_others_differ() -> None:
-    """A link that corrects another is below zero at the study's start, too: no reason to pass over a point."""
+    # A link that corrects another is below zero at the study's start, too: no reason to pass over a point.
     study = read_study(ROOT / "studies/wrist_compression.yaml")
     study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 3})})
     multistart = Optimizer(study).multistart

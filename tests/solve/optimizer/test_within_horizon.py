@@ -28,7 +28,7 @@ solver: {cells: 6, starts: 1}
 
 
 def test_a_switch_that_nothing_limits_ends_within_the_horizon() -> None:
-    """The least peak of power heats as slowly as it may: the layer barely gets as hot as it must."""
+    # The least peak of power heats as slowly as it may: the layer barely gets as hot as it must.
     found = optimize(read_study_text(STUDY, "test"))
     assert found.status == "optimal"
     assert found.values["response_time"] == pytest.approx(LATEST * HORIZON, rel=2e-3)
@@ -38,7 +38,7 @@ def test_a_switch_that_nothing_limits_ends_within_the_horizon() -> None:
 
 
 def test_the_solver_itself_goes_nowhere_beyond_the_horizon() -> None:
-    """An event that never comes has no derivatives: IPOPT halved its steps at that edge for a minute."""
+    # An event that never comes has no derivatives: IPOPT halved its steps at that edge for a minute.
     optimizer = Optimizer(read_study_text(STUDY, "test"))
     assert optimizer.problem.unlimited == ["response_time"]
     run = optimizer.solve()
@@ -62,7 +62,7 @@ LISTED = STUDY.replace("}\nmin", ", pcl_thickness: {from: 0.8 mm, to: 1.2 mm, st
 def test_a_search_that_goes_beyond_the_horizon_begins_again_before_it_looks_through_lists(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """A random study (20264018) was through its 60 s with the lists of a switch that never ends."""
+    # A random study (20264018) was through its 60 s with the lists of a switch that never ends.
     deadlines: list[Deadline] = []
     monkeypatch.setattr(search, "Deadline", lambda seconds: deadlines.append(Deadline(seconds)) or deadlines[-1])
     said: list[str] = []
@@ -76,7 +76,7 @@ def test_a_search_that_goes_beyond_the_horizon_begins_again_before_it_looks_thro
 
 
 def test_boxes_that_lead_beyond_the_horizon_are_not_gone_on_with(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The search ends with the first box whose best design is beyond it: far beyond, IPOPT takes longest (20266007)."""
+    # The search ends with the first box whose best design is beyond it: far beyond, IPOPT takes longest (20266007).
     study = read_study_text(STUDY, "test")
     relaxation = Relaxation(0, Optimizer(study), {}, discrete_sizes(study, study.table), SolverEffort())
     ends: list[float] = []

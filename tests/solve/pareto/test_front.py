@@ -40,11 +40,11 @@ class Solved:
         assert self.solution.status == "optimal"
 
     def trade(self, memory: Any = None) -> Tradeoff:
-        """A trade-off that knows nothing yet."""
+        """Return a trade-off that knows nothing yet."""
         return Tradeoff(self.study, self.solution, *self.built[0], memory=memory)
 
     def alone(self, minimize: str, *more: Requirement, begin: Mapping[str, float] | None = None) -> float:
-        """The least of an output by a search of its own, which begins at the study's start with other numbers."""
+        """Return the least of an output by a search of its own, from the study's start with other numbers."""
         asked = {
             "minimize": {minimize: 1.0},
             "require": (*self.study.require, *more),
@@ -74,12 +74,12 @@ class Notes:
     """A memory that forgets everything from some question on."""
 
     def __init__(self) -> None:
-        """Nothing is known."""
+        """Start with nothing known."""
         self.known: dict[int, Point | Failure] = {}
         self.recalled = 0
 
     def recall(self, number: int, _: Objective) -> Point | Failure | None:
-        """What is known."""
+        """Return the known answer."""
         self.recalled += number in self.known
         return self.known.get(number)
 
@@ -90,7 +90,7 @@ class Notes:
 
 @pytest.fixture(scope="module")
 def noted(solved: Solved) -> tuple[Front, Notes]:
-    """A front of three outputs, and what was noted on the way."""
+    """Return a front of three outputs, and what was noted on the way."""
     notes = Notes()
     return trace_front(solved.trade(notes), (TIME, MASS, SIZE), 9), notes
 
@@ -128,7 +128,7 @@ def test_points_are_spread_evenly(pair: Front) -> None:
 
 @pytest.mark.parametrize("output", [TIME, MASS])
 def test_an_end_is_the_least_that_a_study_with_that_goal_alone_finds(solved: Solved, pair: Front, output: str) -> None:
-    """A front stops where a hundredth of one buys less than a ten-thousandth of the other."""
+    # A front stops where a hundredth of one buys less than a ten-thousandth of the other.
     least = solved.alone(output)
     assert min(point.values[output] for point in pair.points) == pytest.approx(least, rel=0.01)
 
@@ -251,7 +251,7 @@ def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
 
 
 def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
-    """A smaller rotor is both lighter and smaller, and there is nothing else to choose."""
+    # A smaller rotor is both lighter and smaller, and there is nothing else to choose.
     text = COARSE.replace("  wire_diameter: [2 mm, 3 mm]\n", "").replace("  pcl_thickness: [0.6 mm, 2 mm]\n", "")
     text = text.replace("module:\n", "module:\n  wire_diameter: 2.9 mm\n  pin_diameter: 5 mm\n")
     front = trace_front(Solved(text).trade(), (MASS, SIZE), 5)

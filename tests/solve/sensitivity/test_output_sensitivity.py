@@ -1,4 +1,4 @@
-"""What a variable does to an output: exact derivatives against power laws and against simulations made anew."""
+"""Effect of a variable on an output: exact derivatives against power laws and against simulations made anew."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def test_what_never_happens_is_left_out_by_name() -> None:
 
 
 def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -> None:
-    """A profile divides the time its stage takes, so the current is no one number there."""
+    # A profile divides the time its stage takes, so the current is no one number there.
     driven = ResolvedModule(resolved.study, resolved.values, {"stiffening": CurrentProfile.constant(-0.5)})
     found = output_sensitivities(driven, CELLS, ["response_time", "stiffening_time", "module_mass"])
     assert found.left_out == ("stiffening_time",)

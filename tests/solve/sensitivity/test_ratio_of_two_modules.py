@@ -1,4 +1,4 @@
-"""What two modules' times and their ratio owe to an input: differences of simulations against the implicit function."""
+"""Sensitivity of two modules' times and their ratio: differences of simulations against the implicit function."""
 
 from __future__ import annotations
 

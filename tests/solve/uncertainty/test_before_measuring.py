@@ -1,4 +1,4 @@
-"""What measurements buy: the ranges measured inputs had before, and the intervals by them."""
+"""Benefit of measurements: the ranges that measured inputs had before, and the intervals from them."""
 
 from __future__ import annotations
 

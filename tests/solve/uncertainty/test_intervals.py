@@ -51,7 +51,7 @@ def simulator() -> Simulator:
 
 
 def simulated(output: str, **changes: float) -> float:
-    """One output by the simulator alone, no kernel."""
+    """Return one output by the simulator alone, no kernel."""
     inputs, phases = simulator().model.start.copy(), ["softening"] if output == "softening_time" else None
     for name, value in changes.items():
         inputs[simulator().model.index[name]] = value

@@ -84,14 +84,14 @@ def test_a_yield_is_of_all_limits_together_and_an_independent_draw_finds_it() ->
 
 @pytest.mark.slow
 def test_limits_on_times_and_sizes_together_come_to_the_yield_too() -> None:
-    """Each of them at that share alone would leave a tenth of the modules beyond one of them."""
+    # Each of them at that share alone would leave a tenth of the modules beyond one of them.
     assert _together(TIMED, 12) < 0.5
     assert 0.9 <= _together(f"{TIMED}robust: {{yield: 90 %}}\n", 12) < 0.93
 
 
 @pytest.mark.slow
 def test_a_yield_is_reached_where_deviations_alone_are_wrong() -> None:
-    """A uniform tolerance ends at 1.73 deviations: 2.33 of them keep every module, at a price nobody asked for."""
+    # A uniform tolerance ends at 1.73 deviations: 2.33 of them keep every module, at a price nobody asked for.
     uniform = ALGEBRAIC.replace("0.05 mm", "{plus_minus: 0.12 mm, distribution: uniform}", 1)
     sigma, all_kept = _solved(f"{uniform}robust: {{sigma: {NormalDist().inv_cdf(0.99):.6f}}}\n")
     asked, spread = _solved(f"{uniform}robust: {{yield: 99 %}}\n")

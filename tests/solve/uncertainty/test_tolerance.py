@@ -26,7 +26,7 @@ OUTPUTS = ["spring_stiffness", "spring_static_safety", "pcl_stiffness@hot", "mod
 
 @pytest.fixture(scope="module")
 def resolved() -> Callable[[str], ResolvedModule]:
-    """A shear module with what is written under its mode."""
+    """Return a shear module with what is written under its mode."""
 
     @cache
     def make(text: str) -> ResolvedModule:
@@ -148,7 +148,7 @@ def test_where_nothing_spreads_that_is_said(resolved: Callable[[str], ResolvedMo
 
 
 def _asked(module: ResolvedModule) -> list[str]:
-    """What an analysis would ask for, without compiling anything."""
+    """Return the outputs an analysis would ask for, without compiling anything."""
     analysis = object.__new__(Tolerancing)
     analysis.resolved = module
     analysis.limits = constraints_of(module.study, module.table, module.values)

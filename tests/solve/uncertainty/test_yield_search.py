@@ -1,4 +1,4 @@
-"""How far margins move: by one quantile of every limit, so that the share asked for keeps all of them together."""
+"""Moves of margins: one quantile of every limit, so that the requested share satisfies all of them together."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_two_independent_limits_share_what_may_be_lost() -> None:
 
 
 def test_a_limit_whose_spread_is_small_against_its_size_has_its_margin_too() -> None:
-    """A diameter of 90 mm that spreads by 0.05 mm."""
+    # A diameter of 90 mm that spreads by 0.05 mm.
     moves = _moves(_drawn(5e-4, 0.1), 0.95, {}, {A.name, B.name})
     assert moves[A.name] == pytest.approx(moves[B.name] * 5e-3, rel=0.1)
 

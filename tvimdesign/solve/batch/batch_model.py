@@ -43,7 +43,7 @@ class BatchModel:
         return self.pace_at(self._simulator.model.start)
 
     def pace_at(self, inputs: Array) -> Pace | None:
-        """How the design with these inputs goes through its cycle; None where nothing hangs on that."""
+        """Return how the design with these inputs goes through its cycle; None if nothing depends on it."""
         if self.cycle is None:
             return None
         model = self._simulator.model
@@ -57,7 +57,7 @@ class BatchModel:
         self, columns: Array, workers: int = 1, pace: Pace | None = None, only: Collection[str] | None = None,
         deadline: Deadline = NEVER,
     ) -> Array:  # fmt: skip
-        """One row for each output; infinite or no number where something never happens.
+        """Return one row for each output; infinite or NaN where something never happens.
 
         `pace` is that of another design than the one it was recorded at, where the columns are modules of that. With
         `only` some phases of the cycle, by name, outputs of the others mean nothing. Raises TimeOverError.

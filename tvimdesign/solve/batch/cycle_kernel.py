@@ -44,7 +44,7 @@ MORE, WIDTH = 8, 0.05
 
 @dataclass(frozen=True)
 class Pace:
-    """How the study's own design goes through the cycle: what the steps of all others are measured by."""
+    """The study's own design on its way through the cycle; it scales the steps of all other designs."""
 
     times: Mapping[str, float]
     """About how long each phase takes [s], by name."""
@@ -83,7 +83,7 @@ class CycleKernel:
         }  # fmt: skip
 
     def _must_end(self, name: str, rows: Collection[Event | Path | Steady]) -> bool:
-        """Whether the end of a phase is needed: by its own paths and steady rows, or by a phase that comes after."""
+        """Return whether the end of a phase is needed, by its own paths and steady rows or by a later phase."""
         mine = any(not isinstance(row, Event) for row in rows if row.phase == name)
         after = [other.phase for other in self.model.phases.values() if other.phase.after == name]
         return mine or any(self._must_end(s.name, rows) or any(r.phase == s.name for r in rows) for s in after)

@@ -59,7 +59,7 @@ class Kernel:
 
 
 def of_columns(function: Any, base: Sequence[Array], moving: Sequence[tuple[int, int]]) -> Any:
-    """A function of some entries of its arguments alone, all others constants that are folded in.
+    """Return a function of some entries of its arguments; all others are constants that are folded in.
 
     `base` are the arguments' values, `moving` the (argument, entry) that stay free, in the order of the new vector.
     """

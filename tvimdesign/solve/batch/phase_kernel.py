@@ -230,8 +230,9 @@ class _Run:
         return found
 
     def _highest(self) -> Array:
-        """What quantities reach up to the end of the phase, or on their way where it has none; between two steps along
-        a parabola."""
+        """Return the highest values of quantities up to the end of the phase, or on their way if it has no end.
+        Between two steps they follow a parabola.
+        """
         phase, steps = self.phase, self.reached + 1
         states = np.concatenate([*self.states[:steps], self.end], axis=1)
         values = phase.watched(phase.highest, states, np.tile(self.watched, steps + 1)).reshape(
@@ -247,7 +248,7 @@ class _Run:
 
 
 def _peak(times: Array, values: Array) -> Array:
-    """The maximum of samples, rows of them one moment, by a parabola through the highest and both of its neighbours."""
+    """Return the maximum of samples, one moment a row, by a parabola through the highest and its two neighbours."""
     k = np.argmax(values, axis=1)[:, None]
     middle = np.clip(k, 1, values.shape[1] - 2)
     (a, u), (b, v), (c, w) = (

@@ -1,4 +1,4 @@
-"""How finely the time of a phase is divided, and how that follows from a design."""
+"""Division of the time of a phase into steps, and its dependence on the design."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LONGEST = 2.0
 
 @dataclass(frozen=True)
 class Steps:
-    """How finely time is divided."""
+    """Division of time into steps."""
 
     of_pace: int
     """Steps in the time the study's own design takes."""
@@ -40,7 +40,7 @@ class Steps:
 
 @dataclass(frozen=True)
 class Fit:
-    """How designs about one go through a phase."""
+    """Course of designs near a given one through a phase."""
 
     steps: Steps
     about: Array

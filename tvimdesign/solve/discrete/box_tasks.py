@@ -1,4 +1,4 @@
-"""What a search over listed choices asks of its problems: the best design within a box, each task answered alone."""
+"""Tasks of a search over listed choices: the best design within a box, each task answered alone."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class BoxSolver(Protocol):
     """Answers tasks; none depends on another, nor on who answers it."""
 
     def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
-        """The answers, in the order of the tasks; tasks `ahead` are likely to be asked next."""
+        """Return the answers in the order of the tasks; tasks `ahead` are likely to be asked next."""
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,12 @@ class OneProcess:
     trees: Sequence[Relaxation]
 
     def solve(self, tasks: Sequence[Task], _ahead: Sequence[Task] = (), /) -> list[Answer]:
-        """The answers, in the order of the tasks."""
+        """Return the answers in the order of the tasks."""
         return [answer(self.trees, task) for task in tasks]
 
 
 def answer(trees: Sequence[Relaxation], task: Task) -> Answer:
-    """The best design that is found for a task."""
+    """Return the best design for a task."""
     tree = trees[task.place]
     if task.way == "thoroughly":
         return Answer(tree.thoroughly(task.box, task.near), certain=True)

@@ -46,7 +46,7 @@ class Node:
 
 @dataclass(frozen=True)
 class Division:
-    """Where a box is divided: along which list, after which size."""
+    """Division of a box: the list it follows and the size after which it cuts."""
 
     axis: int
     after: int
@@ -54,7 +54,7 @@ class Division:
     """How far the number lies from the nearest size of each half, in shares of it."""
 
     def halves(self, box: Box) -> tuple[Box, Box]:
-        """The half with the smaller sizes, and the one with the larger."""
+        """Return the half with the smaller sizes and the half with the larger ones."""
         first, last = box[self.axis]
         before, behind = box[: self.axis], box[self.axis + 1 :]
         return (*before, (first, self.after), *behind), (*before, (self.after + 1, last), *behind)
@@ -114,12 +114,12 @@ class BranchAndBound:
 
     @property
     def stopped(self) -> bool:
-        """Whether the time is over: what is open stays so."""
+        """Return whether time is up; open boxes stay open."""
         return self.trees[0].optimizer.deadline.passed
 
     @property
     def start_infeasible(self) -> bool:
-        """Whether no combination has a design, as far as searches from all optima see."""
+        """Return whether no combination has a design, as far as searches from all optima show."""
         return not (self.found or self.unknown or self.stopped)
 
     def _begin_afresh(self) -> None:
@@ -138,7 +138,7 @@ class BranchAndBound:
         return [] if self.stopped else solver.solve(tasks, self._ahead())
 
     def _ahead(self) -> list[Task]:
-        """What will be asked if the next boxes are divided."""
+        """Return the tasks that follow if the next boxes are divided."""
         nodes = [node for node in self._open if node.bound < self.cutoff and not is_one(node.box)]
         return [task for node in nsmallest(_AHEAD, nodes, key=self._urgency) for task in self._halves(node)[1]]
 
@@ -155,12 +155,12 @@ class BranchAndBound:
         return sum(int(bounded.sum()) for bounded in self._bounded) - solved
 
     def _urgency(self, node: Node) -> tuple[float, float, int]:
-        """The best bound first; until enough combinations are known, the deepest box first."""
+        """Return the order of a box: best bound first, but deepest first until enough combinations are known."""
         deep = 0.0 if math.isfinite(self.cutoff) else -float(node.depth)
         return deep, node.bound, node.number
 
     def _combinations_of(self, node: Node) -> list[Task]:
-        """The one combination of a box, or the one that its best design is."""
+        """Return the only combination of a box, or the combination of its best design."""
         relaxation, run = node.relaxation, node.run
         if is_one(node.box):
             return [Task(relaxation.place, node.box, run, "exactly")]
@@ -180,7 +180,7 @@ class BranchAndBound:
                 self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
 
     def _halves(self, node: Node) -> tuple[Division, list[Task]]:
-        """Where a box is divided, and those of its halves that its best design does not lie in."""
+        """Return the division of a box and the halves that do not contain its best design."""
         division, sizes = self._division(node), node.relaxation.sizes
         values = node.run and node.relaxation.values(node.run)
         boxes = [box for box in division.halves(node.box) if not (values and sizes.hold(values, box))]
@@ -221,7 +221,7 @@ class BranchAndBound:
             self._try(others)
 
     def _promises(self, task: Task) -> bool:
-        """Whether a combination is new, or the run nearby better than what is known of it."""
+        """Return whether a combination is new, or the run nearby is better than its known result."""
         known = self.found.get((task.place, task.box))
         if known is None or task.near is None:
             return True
@@ -242,7 +242,7 @@ class BranchAndBound:
         return self._other_records(relaxation, key[1], run)
 
     def _other_records(self, relaxation: Relaxation, box: Box, run: Run) -> list[Task]:
-        """What differs from a combination in one record: good ones rule out much from then on."""
+        """Return the combinations that differ in one record; good ones rule out many others."""
         return [
             Task(relaxation.place, (*box[:axis], (place, place), *box[axis + 1 :]), run, "exactly")
             for axis in range(len(box) - len(relaxation.sizes.mixtures), len(box))
@@ -251,7 +251,7 @@ class BranchAndBound:
         ]
 
     def _division(self, node: Node) -> Division:
-        """Where a box is best divided: by pseudo-costs; where every number has one of its sizes, the longest list."""
+        """Return the best division of a box by pseudo-costs; if every number has one size, divide the longest list."""
         sizes, best, most = node.relaxation.sizes, None, 0.0
         values = node.relaxation.values(node.run) if node.run is not None else {}
         for axis, (name, listed, (first, last)) in enumerate(zip(sizes.names, sizes.sizes, node.box, strict=True)):
@@ -277,7 +277,7 @@ class BranchAndBound:
             self._say(relaxation)
 
     def _say(self, relaxation: Relaxation) -> None:
-        """How far the search is, and the best objective so far."""
+        """Report the progress of the search and the best objective so far."""
         left = len(self._open)
         best = min((run.start.objective for run in self.found.values()), default=None)
         so_far = "" if best is None else f", objective {best:.5g} so far"

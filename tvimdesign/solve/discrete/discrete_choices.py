@@ -1,4 +1,4 @@
-"""What a study lists to choose from: records, sizes of numbers, and boxes of sizes that a search divides."""
+"""Choices that a study lists: records, sizes of numbers, and boxes of sizes that a search divides."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Sizes:
         return tuple((0, count - 1) for count in self.shape)
 
     def mixed(self, mixtures: Sequence[Mixture]) -> Sizes:
-        """The same numbers, and the records of mixtures."""
+        """Return the listed numbers and the records of mixtures."""
         numbers = len(self.names) - len(self.mixtures)
         places = tuple(tuple(float(i + 1) for i in range(len(one.records))) for one in mixtures)
         names = (*self.names[:numbers], *(one.name for one in mixtures))
@@ -68,7 +68,7 @@ class Sizes:
         }
 
     def ends(self, box: Box) -> dict[str, Ends]:
-        """The same, and the least and largest share of each record."""
+        """Return the ends of all sizes, and the least and largest share of each record."""
         found = self.numbers(box)
         for mixture, (first, last) in zip(self.mixtures, self._places(box), strict=True):
             for place, name in enumerate(mixture.shares):
@@ -77,19 +77,19 @@ class Sizes:
         return found
 
     def records(self, box: Box) -> dict[str, str]:
-        """What is chosen in a box of one."""
+        """Return the records chosen in a box of one combination."""
         found: dict[str, str] = {}
         for mixture, (first, _) in zip(self.mixtures, self._places(box), strict=True):
             found |= mixture.records[first]
         return found
 
     def values(self, inputs: Mapping[str, float]) -> dict[str, float]:
-        """The listed numbers of a design, and where it lies among the records of each mixture."""
+        """Return the listed numbers of a design and its place among the records of each mixture."""
         found = {name: inputs[name] for name in self.names[: len(self.names) - len(self.mixtures)]}
         return found | {one.name: _among([inputs[name] for name in one.shares]) for one in self.mixtures}
 
     def apart(self, place: int, value: float, size: float) -> float:
-        """How far a value is from a size, in shares of it; of the largest size where one of them is nothing.
+        """Return the distance of a value from a size, relative to the size; relative to the largest size if it is zero.
 
         Records are nearer to one another, so that sizes are divided first.
         """
@@ -103,11 +103,11 @@ class Sizes:
         return box[len(self.names) - len(self.mixtures) :]
 
     def each(self) -> Iterator[Box]:
-        """Every combination once, each a neighbour of the one before: to and fro along one number after another."""
+        """Yield every combination once, each a neighbour of its predecessor: to and fro along number after number."""
         return map(self.combination, range(self.count))
 
     def combination(self, number: int) -> Box:
-        """The combination that is so far, from 0, on that way."""
+        """Return the combination at a position, counted from 0, in the order of `each`."""
         places, rest = [], number
         for count in reversed(self.shape):
             turn, place = divmod(rest, count)
@@ -116,7 +116,7 @@ class Sizes:
         return tuple((place, place) for place in reversed(places))
 
     def nearest(self, values: Mapping[str, float], box: Box) -> Box:
-        """The combination in a box whose sizes are nearest to some values."""
+        """Return the combination in a box whose sizes are nearest to some values."""
         found = []
         for name, sizes, (first, last) in zip(self.names, self.sizes, box, strict=True):
             place = min(range(first, last + 1), key=lambda i: abs(sizes[i] - values[name]))
@@ -124,11 +124,11 @@ class Sizes:
         return tuple(found)
 
     def are_sizes(self, values: Mapping[str, float], box: Box) -> bool:
-        """Whether values are those of one combination in a box."""
+        """Return whether values are the sizes of one combination in a box."""
         return self.hold(values, self.nearest(values, box))
 
     def hold(self, values: Mapping[str, float], box: Box) -> bool:
-        """Whether values lie in a box."""
+        """Return whether values lie in a box."""
         return all(
             sizes[first] * (1.0 - SAME_SIZE) <= values[name] <= sizes[last] * (1.0 + SAME_SIZE)
             for name, sizes, (first, last) in zip(self.names, self.sizes, box, strict=True)
@@ -136,7 +136,7 @@ class Sizes:
 
 
 def _among(shares: Sequence[float]) -> float:
-    """Where shares lie among records: at one, or beside it on the side on which there is more of the others."""
+    """Return the place of shares among records: at one of them, or beside it towards the larger share of the others."""
     most = max(range(len(shares)), key=shares.__getitem__)
     beside = min(1.0 - shares[most], _BESIDE)
     if beside < _ONE_RECORD:
@@ -146,12 +146,12 @@ def _among(shares: Sequence[float]) -> float:
 
 
 def is_one(box: Box) -> bool:
-    """Whether a box holds one combination."""
+    """Return whether a box holds one combination."""
     return all(first == last for first, last in box)
 
 
 def discrete_sizes(study: Study, table: Table) -> Sizes:
-    """The numbers whose sizes a study lists."""
+    """Return the numbers whose sizes a study lists."""
     listed = {
         name: tuple(sorted(float(value) for value in vary.values))
         for name, vary in study.vary.items()

@@ -47,7 +47,7 @@ class Begin(NamedTuple):
 
 
 def blocks_of(trees: Sequence[Relaxation]) -> list[Block]:
-    """All combinations of a search."""
+    """Return all combinations of a search."""
     return [Block(tree.place, first) for tree in trees for first in range(0, tree.sizes.count, BLOCK)]
 
 

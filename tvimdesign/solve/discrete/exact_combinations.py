@@ -25,7 +25,7 @@ class ExactCombinations:
     _built: dict[tuple[str, ...], Relaxation] = field(init=False, default_factory=dict)
 
     def of(self, mixed: Relaxation, box: Box) -> Relaxation:
-        """The problem of the records of one combination; the tree's own where it mixes none."""
+        """Return the problem of the records of one combination; the tree's own if it mixes none."""
         if not mixed.sizes.mixtures:
             return mixed
         records = {name: word for name, word in mixed.choices(box).items() if isinstance(word, str)}
@@ -35,7 +35,7 @@ class ExactCombinations:
         return self._built[key]
 
     def solved(self, mixed: Relaxation, box: Box, run: Run) -> tuple[Relaxation, Run]:
-        """The best design of a combination from the run that found it: warm, cold, or as it is where time is over."""
+        """Return the best design of a combination from its relaxed run: warm, cold, or unchanged if time is up."""
         exact = self.of(mixed, box)
         if exact is mixed:
             return mixed, run
@@ -53,12 +53,12 @@ class ExactCombinations:
         return exact, found
 
     def closest(self, mixed: Relaxation, box: Box) -> tuple[Relaxation, Run]:
-        """Where the solver ends with one combination, whether there is a design or not."""
+        """Return the solver's end for one combination, feasible or not."""
         exact = self.of(mixed, box)
         return exact, exact.closest(box[: len(exact.sizes.names)])
 
     def between(self, exact: Relaxation, run: Run) -> Run | None:
-        """The best design with the same records and every size free, from the best with sizes; None where none is."""
+        """Return the best design with the same records and every size free, from the listed sizes; None if none."""
         if not exact.sizes.names:
             return None
         found = exact.optimizer.solve(warm=run)
@@ -68,7 +68,7 @@ class ExactCombinations:
 
 
 def _inputs(mixed: Optimizer, exact: Optimizer, run: Run) -> Array:
-    """A mixed problem's end as inputs of the exact one, whose records' numbers are its own."""
+    """Return a mixed problem's end as inputs of the exact problem, whose records bring their own numbers."""
     inputs = exact.model.start.copy()
     for free in exact.free:
         inputs[exact.model.index[free.name]] = run.inputs[mixed.model.index[free.name]]
@@ -78,7 +78,7 @@ def _inputs(mixed: Optimizer, exact: Optimizer, run: Run) -> Array:
 
 
 def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:
-    """A mixed problem's end as a run of the exact one, which has no share: neither mixes records any more."""
+    """Return a mixed problem's end as a run of the exact problem, which has no shares of records."""
     trace = _trace(mixed, exact, run, begin)
     start = replace(run.start, begin=exact.vector.free_values(begin), end=exact.vector.free_values(begin))
     return replace(
@@ -88,7 +88,7 @@ def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:
 
 
 def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
-    """A mixed problem's end as the exact one's: no shares, none of their equations, the limits that are left."""
+    """Return a mixed problem's end as the exact problem's: without shares and their equations, with the limits left."""
     kept = np.r_[0 : len(exact.free), len(mixed.free) : mixed.problem.unknown_count]
     unknowns = run.unknowns[kept]
     unknowns[: len(exact.free)] = [free.to_unknown(begin[exact.model.index[free.name]]) for free in exact.free]

@@ -16,7 +16,7 @@ from tvimdesign.study import Study, given
 
 
 def possible(study: Study, family: Family) -> Family:
-    """The family without the records that break a limit which nothing but them can change.
+    """Return the family without the records that violate a limit which nothing else can change.
 
     Raises InfeasibleError, with what such a limit wants, where a mixture has no record left.
     """
@@ -37,7 +37,7 @@ def possible(study: Study, family: Family) -> Family:
 def _of_it_alone(
     study: Study, model: MixedDevice, limits: Sequence[Constraint], mixture: Mixture
 ) -> list[Constraint]:  # fmt: skip
-    """The limits that stand on a mixture's records, and on nothing else that is free."""
+    """Return the limits that depend on a mixture's records and on nothing else that is free."""
     without_cycle = [limit for limit in limits if not on_cycle(study.table, limit.output)]
     outputs = list(dict.fromkeys(limit.output for limit in without_cycle))
     free = {name for name in study.vary if isinstance(study.table.quantity(name), Input)}
@@ -50,7 +50,7 @@ def _of_it_alone(
 
 
 def _left(asked: Study, model: MixedDevice, mixture: Mixture, limits: Sequence[Constraint]) -> Mixture:
-    """The records that keep the limits."""
+    """Return the records that satisfy the limits."""
     outputs = list(dict.fromkeys(limit.output for limit in limits))
     cycle = dict.fromkeys(model.switch_names, np.inf)
     kept, told = [], []

@@ -1,4 +1,4 @@
-"""What dividing a list has raised bounds by so far: which list a box is best divided along.
+"""Pseudo-costs: the past rises of bounds after divisions, which tell the best list to divide a box along.
 
 Pseudo-costs, the usual rule of branch and bound: T. Achterberg, T. Koch, A. Martin, Branching rules revisited,
 Operations Research Letters 33 (2005) 42-54. A list whose division raises the bounds of both halves is divided first;
@@ -34,13 +34,13 @@ class PseudoCosts:
         self._moved[key] = self._moved.get(key, 0.0) + moved
 
     def score(self, axis: int, moves: tuple[float, float]) -> float:
-        """The larger, the better the list is divided: the product of what both halves are expected to rise by."""
+        """Return the score of a list, higher is better: the product of the expected rises of both halves."""
         expected = (self._rate(axis, side) * moves[side] for side in (0, 1))
         first, second = (max(rise, _LEAST) for rise in expected)
         return first * second
 
     def _rate(self, axis: int, side: Side) -> float:
-        """The rise over the move; of all lists together where this one has not been divided yet."""
+        """Return the rise per move; that of all lists together if this list has not been divided yet."""
         key = (axis, side)
         if key in self._moved:
             return self._risen[key] / self._moved[key]

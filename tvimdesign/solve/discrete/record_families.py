@@ -37,7 +37,7 @@ class Family:
 
 
 def families_of(study: Study) -> list[Family]:
-    """Every combination of the records a study lists, once, in families. Raises InputError as `given` does.
+    """Return families that hold every combination of listed records once. Raise InputError as `given` does.
 
     Nothing is mixed where modules spread, as margins are those of a record's own numbers, or where a current follows a
     profile, which is held against constant currents with the same records.
@@ -57,7 +57,7 @@ def families_of(study: Study) -> list[Family]:
 
 
 def _groups(study: Study, first: Records, listed: Mapping[str, Sequence[str]]) -> list[tuple[str, ...]]:
-    """The listed choices, those together that change the same quantity or are read by the same output."""
+    """Return groups of listed choices that change the same quantity or are read by the same output."""
     groups: list[tuple[set[str], set[str]]] = []
     for name, values in listed.items():
         seen = [_facts(study, {**first, name: value}) for value in values]
@@ -74,7 +74,7 @@ def _groups(study: Study, first: Records, listed: Mapping[str, Sequence[str]]) -
 def _classes(
     study: Study, first: Records, names: Sequence[str], listed: Mapping[str, Sequence[str]]
 ) -> list[Mixture]:  # fmt: skip
-    """The combinations of some choices, those in one mixture whose words make the same structure."""
+    """Return mixtures of the combinations of some choices, grouped by words that make the same structure."""
     combinations = [dict(zip(names, one, strict=True)) for one in itertools.product(*(listed[name] for name in names))]
     facts = [_facts(study, {**first, **one}) for one in combinations]
     mixed = {name for name in facts[0] if isinstance(facts[0][name], float) and name not in study.vary}
@@ -105,7 +105,7 @@ def _mixture(
 
 
 def _facts(study: Study, records: Records) -> dict[str, float | str]:
-    """Every number and word of a module with some records chosen; a record by its name."""
+    """Return every number and word of a module with some records chosen; a record by its name."""
     found = given(with_records(study, records))
     return {
         name: float(value) if isinstance(value, int | float) else str(getattr(value, "name", value))
@@ -114,13 +114,13 @@ def _facts(study: Study, records: Records) -> dict[str, float | str]:
 
 
 def _readers(table: Table, names: Iterable[str]) -> list[Output]:
-    """The outputs that read some words."""
+    """Return the outputs that read some words."""
     words = {row.name for row in table.choices} & set(names)
     return [row for row in table.outputs if words & set(row.needs)]
 
 
 def _blends(table: Table, word: str) -> bool:
-    """Whether all that is read of a word comes to numbers, so that shares can be taken of them."""
+    """Return whether all that reads a word comes to numbers, so that shares can be taken of them."""
     rows: list[Output | Input | Choice] = [*table.outputs, *table.inputs, *table.choices]
     decides = {feature.choice for row in rows for feature in row.requires}
     decides |= {row.parts_differ_with.choice for row in table.outputs if row.parts_differ_with}

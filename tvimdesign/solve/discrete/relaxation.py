@@ -56,7 +56,7 @@ class Relaxation:
     """Where the starts came to instead, if none of them came to an optimum."""
 
     def __post_init__(self) -> None:
-        """Nothing is solved yet."""
+        """Start with nothing solved."""
         self.constant_current_optimum = ConstantCurrentOptimum(self.optimizer)
 
     @cached_property
@@ -64,17 +64,17 @@ class Relaxation:
         return FeasibilityScreen(self.optimizer)
 
     def start_infeasible(self) -> bool:
-        """Whether a search from the study's own start comes to no design that keeps the arithmetic limits."""
+        """Return whether a search from the study's own start finds no design that satisfies the arithmetic limits."""
         return self._screen.impossible({}, [self.optimizer.model.start])
 
     def starts(self, most: int | None = None) -> list[Run]:
-        """A run from every start, or so many at `most`, with every size free; and what different optima they are."""
+        """Return a run from every start, or `most` of them, with every size free; note which optima differ."""
         runs = NeighboringOptima(self.optimizer).improve(self._from_starts(most))
         self._take(runs)
         return runs
 
     def _from_starts(self, most: int | None) -> list[Run]:
-        """A run from every start, or so many at `most`."""
+        """Return a run from every start, or `most` of them."""
         runs: list[Run] = []
         count = self.optimizer.study.solver.starts
         second_try = SecondTry(self.optimizer)
@@ -114,11 +114,11 @@ class Relaxation:
         return runs
 
     def _late(self, run: Run) -> bool:
-        """Whether a design's switch ends beyond the horizon."""
+        """Return whether a design's switch ends beyond the horizon."""
         return ending_in_time(self.optimizer.study, self.optimizer, run) is not None
 
     def from_other_records(self, others: Iterable[Relaxation]) -> list[Run]:
-        """A run from the best optimum with other records, where no start came to one with these.
+        """Return a run from the best optimum with other records, if no start reached an optimum with these.
 
         Without an optimum every box of sizes is searched, from where the starts broke their limits least.
         """
@@ -146,7 +146,7 @@ class Relaxation:
         self._sort_records()
 
     def _from_one_of_each(self, begin: Array) -> Run:
-        """The best design from a start, with the records that it has most of first, and then with all of them.
+        """Return the best design from a start: first with the records of the largest shares, then with all.
 
         A mixture that IPOPT begins in the middle of takes several times as long, and ends in worse optima.
         """
@@ -189,7 +189,7 @@ class Relaxation:
         return {**records, **{name: low for name, (low, _) in self.sizes.numbers(box).items()}}
 
     def values(self, run: Run) -> dict[str, float]:
-        """The listed numbers where a run ended, and where it lies among the records."""
+        """Return the listed numbers at the end of a run, and its place among the records."""
         return self.sizes.values(self._named_inputs(run.inputs))
 
     @property
@@ -201,7 +201,7 @@ class Relaxation:
         return dict(zip(self.optimizer.model.names, inputs.tolist(), strict=True))
 
     def best_within(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
-        """The best design within a box, warm from a run nearby; and where there is none, whether that is certain.
+        """Return the best design within a box, warm from a run nearby; if there is none, whether that is certain.
 
         Certain means that limits which depend on no switch cannot be kept, or that searches from the run nearby and
         from every free optimum all came to points where nothing brings the limits nearer. A warm run that is over
@@ -236,8 +236,8 @@ class Relaxation:
         return None, all(status == NO_DESIGN for status in statuses)
 
     def _from_elsewhere(self, ends: Mapping[str, Ends]) -> tuple[Run | None, bool]:
-        """The best design within some ends where no run could begin, from where differential evolution leads; and
-        where there is none, whether that is certain: no module at all, or none that keeps the arithmetic limits.
+        """Return the best design within some ends if no run could start, from the end of differential evolution.
+        If there is none, return whether that is certain: no module exists, or none satisfies the arithmetic limits.
         """
         if self.sizes.mixtures or self.optimizer.deadline.passed:
             return None, False
@@ -251,17 +251,17 @@ class Relaxation:
         return (run, True) if run.start.converged else (None, run.start.status == NO_DESIGN)
 
     def closest(self, box: Box) -> Run:
-        """A run for one combination whether there is a design or not."""
+        """Return a run for one combination, feasible or not."""
         best = self.optima[0] if self.optima else None
         return self._named(self._solved(self.sizes.ends(box), warm=best), box)
 
     def exactly(self, box: Box, near: Run | None) -> tuple[Run | None, bool]:
-        """The best design of one combination, with its choices said."""
+        """Return the best design of one combination, its choices named; if there is none, whether that is certain."""
         run, certain = self.best_within(box, near)
         return (run and self._named(run, box)), certain
 
     def thoroughly(self, box: Box, near: Run | None) -> Run | None:
-        """The best design of one combination: warm from a run nearby, cold from every optimum and the study's start.
+        """Return the best design of one combination: warm from a run nearby, cold from optima and start.
 
         A walk from neighbour to neighbour may end in a worse optimum and stay there; what begins afresh does not.
         """
@@ -277,7 +277,7 @@ class Relaxation:
         return [begin for begin in begins if np.isfinite(self._screen.broken(begin))] or list(begins)
 
     def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
-        """Whether the limits that depend on no switch cannot be kept, from any of some inputs.
+        """Return whether the limits that depend on no switch cannot be satisfied from any of some inputs.
 
         Nor from where a short differential evolution over the box leads: other optima mostly lie outside it, and are
         put to its edge.
@@ -326,7 +326,7 @@ class Relaxation:
         return self.optimizer.model.mixed(point)
 
     def _beside(self, ends: Mapping[str, Ends], near: Run, point: Array) -> Run:
-        """A run within some ends from one nearby: warm, or with its states alone where its records are not in them."""
+        """Return a run within some ends from one nearby: warm, or from its states alone if its records lie outside."""
         index, shares = self.optimizer.model.index, [name for one in self.sizes.mixtures for name in one.shares]
         places = [index[name] for name in shares]
         if np.all(np.abs(near.inputs[places] - point[places]) < _SAME_RECORDS):
@@ -339,13 +339,13 @@ class Relaxation:
         return run
 
     def _searched(self, ends: Mapping[str, Ends], begin: Array) -> Run:
-        """A search within some ends that begins afresh."""
+        """Return a new search within some ends."""
         return self._in_boxes(ends, begin) if self.found_in_boxes else self._solved(ends, begin=begin)
 
     def _in_boxes(
         self, ends: Mapping[str, Ends], begin: Array, leads_away: Callable[[Run], bool] = lambda _: False
     ) -> Run:
-        """A search in boxes, where no start came to an optimum; it ends where it leads away."""
+        """Return a search in boxes, if no start reached an optimum; it ends where it leads away."""
         run = BoxSearch(self.optimizer, ends, leads_away).run(begin)
         self.work.count(run.start, warm=False)
         return run

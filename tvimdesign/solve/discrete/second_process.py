@@ -86,7 +86,7 @@ class ParallelSolver:
         threading.Thread(target=self._hand_on, daemon=True).start()
 
     def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
-        """The answers, in the order of the tasks."""
+        """Return the answers in the order of the tasks."""
         with self._changed:
             begun = {self._under_way.key} if self._under_way else set()
             known = begun | self._heard.keys()
@@ -97,7 +97,7 @@ class ParallelSolver:
         return [mine[task.key] if task.key in mine else self._used(task) for task in tasks]
 
     def _next_of(self, tasks: Sequence[Task]) -> Task | None:
-        """One of these tasks that nobody has begun; None once the other process has answered the last of them.
+        """Return a task that is not started; None once the other process has answered the last of them.
 
         Once the time is over its task is taken from it, as it would have to be waited for: here it ends at once.
         """
@@ -117,7 +117,7 @@ class ParallelSolver:
                 self._changed.wait(min(_LOOK_AGAIN, deadline.remaining))
 
     def _used(self, task: Task) -> Answer:
-        """The other process's answer; what it took counts as work of the tree here."""
+        """Return the other process's answer; its effort counts as work of the tree here."""
         heard = self._heard[task.key]
         tree = self._trees[task.place]
         tree.work = SolverEffort.total([tree.work, heard.work])
@@ -160,7 +160,7 @@ def second_process(
     deadline: Deadline,
     combinations: int,
 ) -> contextlib.AbstractContextManager[ParallelSolver | None]:
-    """A second process where it is worth one; not in a child of ours, as that shares the processors with others."""
+    """Return a second process if it pays off; none in a child process, which shares the processors with others."""
     if combinations < WORTH or (os.cpu_count() or 1) < 2 or PARENT in os.environ:
         return contextlib.nullcontext()
     return ParallelSolver(ProblemSpec(study.model_dump_json(), reference, list(objectives), deadline.remaining))

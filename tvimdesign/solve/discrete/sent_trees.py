@@ -15,7 +15,7 @@ from tvimdesign.study import Study
 
 
 class ProblemSpec(NamedTuple):
-    """What the problems are built from."""
+    """Data that the problems are built from."""
 
     study: str
     """As JSON."""
@@ -25,7 +25,7 @@ class ProblemSpec(NamedTuple):
     """Until the time is over."""
 
     def built(self) -> list[Relaxation]:
-        """The problems, of which nothing is solved yet."""
+        """Return the problems, with nothing solved."""
         study = Study.model_validate_json(self.study)
         sizes, families = discrete_sizes(study, study.table), families_of(study)
         deadline = Deadline(self.seconds)
@@ -33,7 +33,7 @@ class ProblemSpec(NamedTuple):
 
 
 class SearchState(NamedTuple):
-    """What the starts of one tree came to."""
+    """Results of the starts of one tree."""
 
     sizes: Sizes
     optima: list[Run]

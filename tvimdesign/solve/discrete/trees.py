@@ -38,7 +38,7 @@ class Trees:
     sizes: Sizes
 
     def of(self, families: Sequence[Family]) -> list[Relaxation]:
-        """The problem of each family, built once for all whose numbers alone differ.
+        """Return the problem of each family, built once for all families that differ in numbers alone.
 
         Raises InfeasibleError where every family breaks a limit that nothing free can mend, TimeOverError where the
         time is over before the first problem is built.
@@ -68,7 +68,7 @@ class Trees:
         return trees
 
     def exact(self) -> ExactCombinations:
-        """The problems of single combinations of records, over the reference of the families."""
+        """Return the problems of single combinations of records, over the reference of the families."""
         return ExactCombinations(self._optimizer, self.sizes)
 
     def _built(self, family: Family, trees: Sequence[Relaxation]) -> Optimizer:
@@ -117,7 +117,7 @@ def refuse_too_many(families: Sequence[Family], sizes: Sizes) -> None:
 
 
 def _beginnings(mixtures: Sequence[Mixture]) -> list[tuple[Mixture, ...]]:
-    """The mixtures as they are; then with another record of one of them first."""
+    """Return the mixtures as they are, then with another record of one of them first."""
     found = [tuple(mixtures)]
     for place, mixture in enumerate(mixtures):
         for first in range(1, len(mixture.records)):

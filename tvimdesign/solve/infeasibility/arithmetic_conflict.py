@@ -66,7 +66,7 @@ def _conflict(study: Study, deadline: Deadline | None) -> str:
 
 
 def _fixed(optimizer: Optimizer, conflict_set: ConflictSet) -> str:
-    """What to change where it moves the only limit's output most of all by a hundredth, and is not varied.
+    """Return advice on the fixed number that moves the only limit's output most per hundredth; empty if there is none.
 
     An input that could be varied, or the record bought whole that brings it along.
     """

@@ -1,4 +1,4 @@
-"""Why a study has no design: the design that breaks its limits least, and a smallest set of limits that conflict.
+"""Conflict of a study without a design: the design of least violation and a smallest set of conflicting limits.
 
 The set is found by deletion: of the limits that press on the least violation, each is left out in turn, and stays out
 where the rest still cannot be kept. Any one of those left, moved far enough, makes peace in the set; how far it must
@@ -32,7 +32,7 @@ _MOST_STARTS = 5
 
 @dataclass(frozen=True)
 class ConflictSearch:
-    """What came of asking: the run that breaks least with its conflict, or a run that keeps all limits."""
+    """Result of a search for a conflict: the run of least violation, or a run that satisfies all limits."""
 
     run: Run
     conflict_set: ConflictSet | None
@@ -61,7 +61,7 @@ class SecondTry:
     """Starts that ended nowhere, begun again from a design that keeps all limits; the elastic problem is built once."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Nothing is built before it is needed."""
+        """Start with nothing built."""
         self._optimizer = optimizer
 
     @cached_property
@@ -69,7 +69,7 @@ class SecondTry:
         return ElasticMode(self._optimizer)
 
     def from_conflict_search(self, run: Run) -> Run:
-        """A run that converged after all, else the one that did not; its start says how many iterations all took."""
+        """Return a run that converged after all, or else the failed one; its start counts the iterations of all."""
         settled = self._elastic.settle(_weights(self._elastic), _begin(self._optimizer, run))
         if not settled.conflict_search:
             return run
@@ -89,7 +89,7 @@ def _weights(elastic: ElasticMode) -> Array:
 
 
 def _least_violation(elastic: ElasticMode, failed: Sequence[Run]) -> ElasticSolution | None:
-    """The least sum of slacks from where the starts ended, else from where they began."""
+    """Return the least sum of slacks from the ends of the starts, or else from their beginnings."""
     weights = _weights(elastic)
     found: list[ElasticSolution] = []
     for run in failed[:_MOST_STARTS]:
@@ -111,11 +111,11 @@ def _begin(optimizer: Optimizer, run: Run) -> Array:
 
 
 def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int], Array]:
-    """An irreducible set of limits that cannot be kept together, and what the ends of ranges have to do with it."""
+    """Return an irreducible set of limits that conflict, and the part that the ends of ranges have in it."""
     limits, weights = elastic.limits, np.ones(elastic.count)
 
     def kept_apart(within: Collection[int]) -> ElasticSolution | None:
-        """The settlement where the limits cannot all be kept; None where they can, or it is not known."""
+        """Return the elastic solution if the limits conflict; None if they do not, or if that is unknown."""
         settled = elastic.settle(weights, least.run.inputs, least.run.unknowns, within)
         return None if settled.conflict_search or not settled.converged else settled
 
@@ -156,7 +156,7 @@ def _told(
 
 
 def _alone(elastic: ElasticMode, least: ElasticSolution, member: int) -> tuple[float | None, list[int]]:
-    """How far one limit must move, in its scale, for all others to hold; else which others do not, none if unknown."""
+    """Return the move of one limit, in its scale, that satisfies all others; else the violated others, if known."""
     weights = np.full(elastic.count, _HEAVY)
     weights[member] = 1.0
     settled = elastic.settle(weights, least.run.inputs, least.run.unknowns)
@@ -175,7 +175,7 @@ def _moved(optimizer: Optimizer, limit: Constraint, by: float, move: float | Non
 
 
 def _ends_in_words(optimizer: Optimizer, multipliers: Array) -> list[str]:
-    """The ends of ranges that press, those that press most first."""
+    """Return the ends of ranges that press, strongest first."""
     order = np.argsort(-np.abs(multipliers), kind="stable")
     found = []
     for i in (int(one) for one in order if abs(multipliers[one]) > _FAINT):
@@ -187,7 +187,7 @@ def _ends_in_words(optimizer: Optimizer, multipliers: Array) -> list[str]:
 
 
 def conflict_in_words(conflict_set: ConflictSet) -> list[str]:
-    """What cannot hold, how far each limit would have to move, and what keeps it from that."""
+    """Return lines on the conflict: the limits, the move each would need, and the ranges that prevent it."""
     seen, alone = "as far as the solver sees from its starts", len(conflict_set.sides) == 1
     if alone:
         side = conflict_set.sides[0]

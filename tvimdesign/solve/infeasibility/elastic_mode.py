@@ -33,7 +33,7 @@ _ROOM = 1e-2
 
 @dataclass(frozen=True)
 class ElasticSolution:
-    """What one run of the elastic problem came to."""
+    """Result of one run of the elastic problem."""
 
     run: Run
     """Without multipliers: those of the elastic problem say nothing of the study's objective."""
@@ -51,7 +51,7 @@ class ElasticSolution:
 
     @property
     def conflict_search(self) -> bool:
-        """Whether all limits that counted can be kept."""
+        """Whether all limits that counted can be satisfied."""
         return self.converged and bool(np.max(self.slacks, initial=0.0) <= FEASIBILITY_TOL)
 
 

@@ -1,4 +1,4 @@
-"""Whether any design within some ends keeps the limits that depend on no switch: a small problem, asked first.
+"""Feasibility screen: a small problem tells early if any design within some ends satisfies the static limits.
 
 The switch makes nearly all of the unknowns of a study's problem, and IPOPT takes longest where there is no design. The
 limits of arithmetic alone are a few dozen functions of the free numbers; what cannot keep those keeps no more of them.
@@ -65,14 +65,14 @@ class FeasibilityScreen:
         return Solver("screen", function.expand(), options, sizes)
 
     def broken(self, inputs: Array) -> float:
-        """The most by which some inputs break a limit, as a share of its scale; infinite at no geometry."""
+        """Return the largest violation of a limit at some inputs, as a share of scale; infinite without geometry."""
         optimizer = self._optimizer
         unknowns = [free.to_unknown(inputs[optimizer.model.index[free.name]]) for free in optimizer.free]
         residuals = np.asarray(self._at(unknowns)).ravel()
         return float(np.max(residuals, initial=-np.inf)) if np.all(np.isfinite(residuals)) else np.inf
 
     def worst(self, unknowns: Array) -> Array:
-        """The most by which designs break a limit, a column of the free numbers' unknowns each.
+        """Return the largest violation by each design, a column of the free numbers' unknowns each.
 
         Shares of records count by what they are of their sum.
         """
@@ -96,7 +96,7 @@ class FeasibilityScreen:
         return ca.vertcat(*(limit.residual(values[wanted.index(limit.output)]) for limit in limits))
 
     def impossible(self, within: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
-        """Whether no search from some inputs comes to a point that keeps the limits.
+        """Return whether no search from some inputs finds a point that satisfies the limits.
 
         That is so where the sum of breaches has a least value above nothing from each of them, and where the worst
         breach is not brought to nothing from the first and the last either. Nothing is said where a search for the
@@ -108,7 +108,7 @@ class FeasibilityScreen:
         return not any(self._least(self._worst, within, begin) <= ALGEBRAIC_TOLERANCE for begin in ends)
 
     def _least(self, solver: Solver, within: Mapping[str, Ends], begin: Array) -> float:
-        """The worst breach where a search from some inputs makes it, or the sum, least; NaN where it has no end."""
+        """Return the least worst violation, or sum of them, that a search from some inputs reaches; NaN if it fails."""
         optimizer = self._optimizer
         free, count = len(optimizer.free), solver.unknown_count - len(optimizer.free)
         lower, upper = (ends[:free] for ends in optimizer.vector.bounds(within))

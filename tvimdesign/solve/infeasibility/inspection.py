@@ -31,7 +31,7 @@ _RANDOM = 4
 
 @dataclass(frozen=True)
 class ValueRange:
-    """How far apart the sizes of rows, or columns, of a Jacobian are: (name, greatest entry)."""
+    """Range of the sizes of rows, or columns, of a Jacobian, with the names of the smallest and largest."""
 
     largest: tuple[str, float]
     smallest: tuple[str, float]
@@ -44,7 +44,7 @@ class ValueRange:
 
 @dataclass(frozen=True)
 class Conditioning:
-    """What limits and objective see of the free numbers, over the whole of their ranges, the equations kept."""
+    """Effect of the free numbers on limits and objective over their whole ranges, with the equations satisfied."""
 
     equations: float
     """Condition number of the equations that states and times follow from, rows scaled to one; 1-norm."""
@@ -63,13 +63,13 @@ class DerivativeCheck:
 
     @property
     def right(self) -> bool:
-        """Whether that explains all of it."""
+        """Return whether that explains all of it."""
         return all(error <= DERIVATIVE_TOLERANCE for _, _, error in self.worst)
 
 
 @dataclass(frozen=True)
 class Structure:
-    """What depends on nothing, and what nothing changes."""
+    """Free numbers without effect, and limits that no free number changes."""
 
     idle: tuple[str, ...]
     """Free numbers that neither a limit nor the objective depends on."""
@@ -108,7 +108,7 @@ class Inspection:
         return ValueRange(*((names[i], float(greatest[i])) for i in ends))
 
     def conditioning(self) -> Conditioning:
-        """The equations' condition number, and what limits and objective see of the free numbers."""
+        """Return the equations' condition number and the effect of the free numbers on limits and objective."""
         decided, along, equations = self._along()
         first = self.problem.equation_count
         seen = [*range(first, first + len(self.problem.limits)), len(self._rows) - 1]
@@ -125,12 +125,12 @@ class Inspection:
         return Conditioning(equations, float(values[0] / least) if least > 0.0 else np.inf, objectives)
 
     def _widths(self, decided: Sequence[int]) -> Array:
-        """How far each decision can go, in unknowns."""
+        """Return the range of each decision, in unknowns."""
         lower, upper = self.optimizer.vector.bounds({})
         return np.array([upper[i] - lower[i] for i in decided])
 
     def _along(self) -> tuple[list[int], Array, float]:
-        """The free numbers' places, derivatives of all unknowns by them, the condition number of the equations."""
+        """Return the free numbers' places, derivatives of all unknowns by them, and the equations' condition number."""
         problem = self.problem
         decided = [*range(len(problem.free))]
         stay = {i for _, place in self.optimizer.vector.places_of_currents() for i in range(place.start, place.stop)}
@@ -174,7 +174,7 @@ class Inspection:
         return np.append(point.rows, point.objective)
 
     def structure(self) -> Structure:
-        """What neither limits nor objective depend on, and what nothing changes."""
+        """Return the free numbers without effect on limits or objective, and the limits that no free number changes."""
         optimizer = self.optimizer
         table, free = optimizer.table, [one.name for one in optimizer.free]
         used = set(np.flatnonzero(np.any(self._jacobian != 0.0, axis=0)).tolist())

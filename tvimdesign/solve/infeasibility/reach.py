@@ -1,4 +1,4 @@
-"""Whether stated target impedances lie within what a study's variables can reach, asked before the search begins."""
+"""Reach of a study's variables: whether its target impedances lie within it, asked before the search starts."""
 
 from __future__ import annotations
 

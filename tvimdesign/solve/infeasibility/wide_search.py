@@ -44,7 +44,7 @@ def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lam
 
 
 def _broken(optimizer: Optimizer, inputs: Array) -> float:
-    """The most by which a design breaks a limit, its cycle simulated; infinite where its switch never ends."""
+    """Return the largest violation of a limit by a simulated design; infinite if its switch never ends."""
     cycle = optimizer.multistart.trial(inputs)
     if cycle is None:
         return np.inf
@@ -55,7 +55,7 @@ def _broken(optimizer: Optimizer, inputs: Array) -> float:
 
 
 def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> Array | None:
-    """The first design of a differential evolution that keeps the limits."""
+    """Return the first design of a differential evolution that satisfies the limits."""
     inputs, worst = least_broken(optimizer, screen, seed, {})
     return inputs if worst < 0.0 else None
 
@@ -63,8 +63,8 @@ def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> A
 def least_broken(
     optimizer: Optimizer, screen: FeasibilityScreen, seed: int, within: Mapping[str, Ends], most: int = _GENERATIONS
 ) -> tuple[Array, float]:
-    """Where a differential evolution of so many generations at `most` ends, some numbers within ends of their own: the
-    inputs, and the most by which they break an arithmetic limit. It ends at the first design that keeps them all.
+    """Run a differential evolution of `most` generations, some numbers within ends of their own.
+    Return the inputs at its end and the largest violation of an arithmetic limit. It ends at the first feasible design.
     """
     from scipy.optimize import Bounds, OptimizeResult, differential_evolution  # a search that ends well needs no scipy
 

@@ -41,12 +41,12 @@ class Constraint:
         return f"{self.output} {self.sense}"
 
     def residual(self, value: Any) -> Any:
-        """How far a value is beyond the limit, as a share of the scale; kept where <= 0. Floats and symbols."""
+        """Return the violation of a limit as a share of its scale, satisfied if <= 0. Accept floats and symbols."""
         beyond = value - self.limit if self.sense == "<=" else self.limit - value
         return beyond / self.scale
 
     def keeps(self, value: Any) -> Any:
-        """Whether values keep the limit; one that an optimum stands on is kept but for what the solver leaves of it."""
+        """Return whether values satisfy the limit; an active one has the solver's tolerance."""
         return self.residual(value) <= ALGEBRAIC_TOLERANCE
 
 
@@ -73,7 +73,7 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
 
 
 def _behind(table: Table, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
-    """The rows a limit is put on: the named one, those limited with it, or those it is the least of."""
+    """Return the rows of a limit: the named one, those limited with it, or those whose least it is."""
     row = table.output(name)
     parts = tuple(part for part in row.least_of if table.output(part).exists(options))
     rows = parts if parts and sense == ">=" else (name, *row.also_limited)
@@ -88,12 +88,12 @@ def _part_of(table: Table, name: str) -> str:
 
 
 def on_cycle(table: Table, output: str) -> bool:
-    """Whether an output depends on how a switch runs."""
+    """Return whether an output depends on how a switch runs."""
     return output.partition("@")[0] in table.behind_supplied
 
 
 def is_constant(limit: Constraint, table: Table, free: Iterable[str]) -> bool:
-    """Whether nothing free can change the output a limit stands on."""
+    """Return whether no free number changes the limited output."""
     return not on_cycle(table, limit.output) and not set(free) & table.ancestors(limit.output)
 
 

@@ -20,11 +20,11 @@ class DecisionVector:
     """Free numbers; for each free current its nodes and the logarithm of its time; the peaks of driven phases."""
 
     def __init__(self, problem: Problem, model: DeviceFunctions) -> None:
-        """What is not free is as in `model`, which differs from the problem's own where records do."""
+        """Set up. Fixed numbers come from `model`, which differs from the problem's own if records differ."""
         self.problem, self.model = problem, model
 
     def at(self, inputs: Array, cycle: Mapping[str, float]) -> Array:
-        """The unknowns at a design: the free numbers of its inputs, currents that are constant, and its times."""
+        """Return the unknowns at a design: the free numbers, the constant currents, and its times."""
         parts = [np.array([f.to_unknown(inputs[self.model.index[f.name]]) for f in self.problem.free])]
         for current in self.problem.free_currents:
             size = float(np.clip(inputs[self.model.index[current.row]], current.lower, current.upper))
@@ -54,12 +54,12 @@ class DecisionVector:
         return lower, upper
 
     def places_of_currents(self) -> Iterator[tuple[FreeCurrent, slice]]:
-        """Where the free currents stand among the unknowns."""
+        """Yield the free currents and their places among the unknowns."""
         for i, current in enumerate(self.problem.free_currents):
             yield current, self.problem.nodes_place(i)
 
     def current_profiles(self, unknowns: Array) -> dict[str, CurrentProfile]:
-        """The free currents over the time their phase takes."""
+        """Return the free currents over the time their phase takes."""
         found: dict[str, CurrentProfile] = {}
         for i, (current, place) in enumerate(self.places_of_currents()):
             sizes = np.clip(unknowns[place] * current.upper, current.lower, current.upper)
@@ -70,7 +70,7 @@ class DecisionVector:
         return found
 
     def inputs(self, unknowns: Array) -> Array:
-        """The inputs with the free numbers within their ranges, and the mean of each current."""
+        """Return the inputs with the free numbers within their ranges, and the mean of each current."""
         inputs = self.model.start.copy()
         for i, free in enumerate(self.problem.free):
             inputs[self.model.index[free.name]] = min(max(free.to_value(unknowns[i]), free.lower), free.upper)
@@ -79,7 +79,7 @@ class DecisionVector:
         return inputs
 
     def free_values(self, inputs: Array) -> dict[str, float]:
-        """The free numbers among the inputs, by name; shares of records are none of the table's."""
+        """Return the free numbers among the inputs by name; shares of records are not in the table."""
         shares = {name for mixture in self.problem.mixtures for name in mixture.shares}
         names = [free.name for free in self.problem.free if free.name not in shares]
         return {name: float(inputs[self.model.index[name]]) for name in names}

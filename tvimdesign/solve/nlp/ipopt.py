@@ -94,7 +94,7 @@ class Evaluated(Protocol):
 
     @property
     def objective(self) -> float:
-        """What is made small."""
+        """Return the value to minimise."""
 
     @property
     def gradient(self) -> Array:

@@ -1,4 +1,4 @@
-"""What the unknowns and rows of a problem are, in the order it has them: names for people instead of places."""
+"""Labels of the unknowns and rows of a problem, in its order."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ class Mixture:
         return tuple(f"share of {', '.join(one.values())}" for one in self.records)
 
     def in_order(self, order: Sequence[int]) -> Mixture:
-        """The same records in another order."""
+        """Return the records in another order."""
         return Mixture(
             tuple(self.records[i] for i in order),
             {name: tuple(values[i] for i in order) for name, values in self.numbers.items()},

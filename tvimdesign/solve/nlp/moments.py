@@ -24,7 +24,7 @@ _NOTHING = 1e-12
 def moments(
     model: DeviceFunctions, tolerances: Mapping[str, Tolerance], outputs: Sequence[str], sizes: Sequence[float]
 ) -> Any:
-    """The function inputs -> (shift of the mean, standard deviation) of each output; one column each.
+    """Return the function inputs -> (shift of the mean, standard deviation) of each output; one column each.
 
     `sizes` are the outputs' orders of magnitude. The outputs must not depend on a simulation.
     """

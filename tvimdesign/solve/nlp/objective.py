@@ -1,4 +1,4 @@
-"""What one run of a built problem is to make small, and below what it is to keep: the parameters of a trade-off."""
+"""Objective and reserves of one run of a built problem: the parameters of a trade-off."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Bound:
     limit: float
 
     def residual(self, values: Mapping[str, float]) -> float:
-        """How far it is broken; kept where <= 0."""
+        """Return the violation, satisfied if <= 0."""
         return sum(factor * values[name] for name, factor in self.factors.items()) - self.limit
 
 

@@ -64,7 +64,7 @@ class Problem:
         mixtures: Sequence[Mixture] = (),
         fineness: float = 1.0,
     ) -> None:
-        """Nothing is recorded yet; with twice the `fineness`, errors of the steps in time are an eighth.
+        """Start with nothing recorded; twice the `fineness` divides errors of the steps in time by eight.
 
         `minimize` names the outputs whose weighted sum is least. Those among the `objectives` get a row each that
         bounds a sum of them. The shares of records in a mixture are free numbers that add up to one.
@@ -199,7 +199,7 @@ class Problem:
         return ca.vertcat(*(ca.sum1(ca.vertcat(*(inputs[place] for place in one))) - 1.0 for one in places))
 
     def nodes_place(self, i: int) -> slice:
-        """Where the nodes of a free current stand among the unknowns; the logarithm of its time comes after them."""
+        """Return the places of a free current's nodes among the unknowns; the logarithm of its time follows them."""
         first = len(self.free) + sum(one.nodes + 1 for one in self.free_currents[:i])
         return slice(first, first + self.free_currents[i].nodes)
 
@@ -208,7 +208,7 @@ class Problem:
         return float(UNIT * np.exp(x[self.nodes_place(i).stop]))
 
     def _drives(self, x: Array, lanes: int) -> dict[str, Drive]:
-        """The free currents by phase, with their derivatives by the unknowns, or by none."""
+        """Return the free currents by phase, with or without their derivatives by the unknowns."""
         found = {}
         for i, current in enumerate(self.free_currents):
             phase, nodes = self.model.phases[current.phase].phase, self.nodes_place(i)
@@ -227,7 +227,7 @@ class Problem:
         return found
 
     def _slopes(self, x: Array) -> tuple[Array, Array]:
-        """How much steeper than allowed the free currents are, either way, as a share of what is allowed."""
+        """Return the slopes of the free currents beyond the allowed ones, either way, as a share of those."""
         rows, jacobian = [], []
         for i, current in enumerate(self.free_currents):
             nodes, over = self.nodes_place(i), current.upper * current.pieces / (self.pieces_time(x, i) * current.slew)
@@ -240,7 +240,7 @@ class Problem:
         return (np.concatenate(rows), np.concatenate(jacobian)) if rows else (np.zeros(0), np.zeros((0, len(x))))
 
     def _lateness(self, inputs: Array, cycle: Array, of_cycle: Array) -> tuple[Array, Array]:
-        """How much later than may be the events come whose time is not limited, as a share of that."""
+        """Return the lateness of events without a time limit, as a share of the allowed time."""
         place = [self.model.switch_names.index(name) for name in self.unlimited]
         latest = self._latest(inputs)
         return cycle[place] / latest - 1.0, of_cycle[place] / latest
@@ -266,7 +266,7 @@ class Problem:
 
     @cached_property
     def peaks(self) -> list[Peak]:
-        """What is highest in the driven phases, as far as the problem needs it."""
+        """Return the peaks of the driven phases that the problem needs."""
         return [
             Peak(row, current)
             for current in self.free_currents
@@ -275,7 +275,7 @@ class Problem:
         ]
 
     def samples(self, peak: Peak) -> int:
-        """How many samples a peak is held above."""
+        """Return the number of samples that a peak stays above."""
         return (peak.current.pieces + 1) * self._steps(peak.current) + 1
 
     def _steps(self, current: FreeCurrent) -> int:
@@ -322,7 +322,7 @@ class Problem:
         return found
 
     def simulated(self, inputs: Array) -> dict[str, float]:
-        """What the cycle supplies at some inputs, as far as the problem needs it, with constant currents.
+        """Return the outputs of a cycle at some inputs that the problem needs, with constant currents.
 
         Raises SimulationError.
         """

@@ -1,4 +1,4 @@
-"""What a problem is made of: its free numbers and currents, the parameters of a run, and its values at a point."""
+"""Parts of a problem: its free numbers and currents, the parameters of a run, and its values at a point."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Free:
 
     @property
     def logarithmic(self) -> bool:
-        """Whether the unknown is log(value/reference) rather than value/reference."""
+        """Return whether the unknown is log(value/reference) rather than value/reference."""
         return self.lower > 0.0
 
     def to_unknown(self, value: float) -> float:
@@ -55,7 +55,7 @@ class FreeCurrent:
 
 
 class Peak(NamedTuple):
-    """What is highest over a driven phase."""
+    """Highest value over a driven phase."""
 
     row: Path
     current: FreeCurrent

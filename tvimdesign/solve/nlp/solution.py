@@ -1,4 +1,4 @@
-"""What the solver found, as plain records: starts, limits that hold the design, the solution."""
+"""Records of a solution: starts, active limits, the solution."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Start:
 
 
 def same_optimum(start: Start, other: Start) -> bool:
-    """Whether two converged runs ended at the same optimum."""
+    """Return whether two converged runs ended at the same optimum."""
     return abs(start.objective - other.objective) <= SAME_OPTIMUM * abs(other.objective)
 
 
@@ -68,13 +68,13 @@ class ActiveConstraint:
 
     @property
     def margin(self) -> float:
-        """What is left of it, as a share of its scale."""
+        """Return the margin as a share of the scale."""
         return -self.residual
 
 
 @dataclass
 class SolverEffort:
-    """How many runs of the solver a search over listed choices took."""
+    """Number of solver runs of a search over listed choices."""
 
     warm: int = 0
     warm_iterations: int = 0
@@ -86,7 +86,7 @@ class SolverEffort:
 
     @classmethod
     def total(cls, build_plan: Iterable[SolverEffort]) -> SolverEffort:
-        """The work of several searches together."""
+        """Return the work of several searches together."""
         together = [astuple(work) for work in build_plan]
         return cls(*(sum(column) for column in zip(*together, strict=True)))
 
@@ -157,7 +157,7 @@ class Side:
 
 @dataclass(frozen=True)
 class ConflictSet:
-    """What is known of a study that has no design."""
+    """Facts known of a study that has no design."""
 
     broken: tuple[Side, ...]
     """What the design that breaks least breaks."""
@@ -189,7 +189,7 @@ class LostTo:
 
 @dataclass(frozen=True)
 class YieldReached:
-    """What modules drawn at random keep of a design of which a yield was asked for, and what that cost."""
+    """Yield of random modules of a design, against the requested yield, and its cost."""
 
     asked: float
     modules: int
@@ -207,7 +207,7 @@ class YieldReached:
 
     @property
     def reached(self) -> bool:
-        """Whether as many modules as asked keep every limit."""
+        """Return whether as many modules as asked keep every limit."""
         return self.together >= self.asked
 
 
@@ -257,7 +257,7 @@ class Solution:
         )
 
     def reached(self, optimum: Start) -> int:
-        """How many of the free starts ended at an optimum."""
+        """Return the number of free starts that ended at an optimum."""
         return sum(same_optimum(start, optimum) for start in self.free_starts if start.converged)
 
     def distinct_optima(self) -> list[Start]:

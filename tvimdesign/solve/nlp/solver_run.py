@@ -1,4 +1,4 @@
-"""What a solver leaves behind at one start, and what of it another one can begin from."""
+"""End of a solver run at one start, and the part from which another run can start."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Ends = tuple[float, float]
 
 
 class Trace(NamedTuple):
-    """What a run left behind for another one to begin from, warm."""
+    """State of a run for another one to start from, warm."""
 
     unknowns: Array
     multipliers: Array
@@ -29,7 +29,7 @@ class Trace(NamedTuple):
 
 @dataclass
 class Run:
-    """What IPOPT left behind at one start."""
+    """Result of IPOPT at one start."""
 
     start: Start
     inputs: Array
@@ -49,7 +49,7 @@ class Run:
 
     @property
     def trace(self) -> Trace:
-        """Where another run may begin."""
+        """Return the state from which another run can start."""
         return Trace(self.unknowns, self.multipliers, self.bound_multipliers)
 
 

@@ -1,4 +1,4 @@
-"""What spreads, and the three answers to it: worst case, root-sum-square and Monte Carlo, for any function of columns.
+"""Spread of inputs, with worst case, root-sum-square and Monte Carlo for any function of columns.
 
 A function takes one row for each contributor and one column a module, and returns one row for each output. Nothing here
 knows what a module is; `solve/uncertainty/tolerance.py` does.
@@ -86,7 +86,7 @@ class WorstCase:
 
 @dataclass(frozen=True)
 class MonteCarlo:
-    """What many modules come to, by output."""
+    """Outputs of many modules."""
 
     values: Array
     """One row an output, one column a module."""
@@ -143,7 +143,7 @@ def shares(contributors: Sequence[Contributor], derivatives: Array) -> tuple[Arr
 
 
 def monte_carlo(function: Columns, contributors: Sequence[Contributor], samples: int, seed: int) -> MonteCarlo:
-    """What modules come to that are drawn by scrambled Sobol points, a power of two of them."""
+    """Return the outputs of modules drawn by scrambled Sobol points; their number is a power of two."""
     return moments_of(drawn_values(function, contributors, samples, seed))
 
 
@@ -168,7 +168,7 @@ def _sobol(count: int, seed: int) -> Any:
 
 
 def sobol_points(count: int, samples: int, seed: int) -> Array:
-    """The points of the unit cube that modules are drawn at, a row an input, a column a module."""
+    """Return points of the unit cube to draw modules at, an input a row, a module a column."""
     return np.ascontiguousarray(_sobol(count, seed).random(samples).T)
 
 
@@ -186,7 +186,7 @@ def moments_of(values: Array) -> MonteCarlo:
 
 
 def power_of_two(samples: int) -> int:
-    """The least power of two that is no less: Sobol points are even only in such numbers."""
+    """Return the least power of two that is not less; Sobol points are even only in such numbers."""
     return 1 << max(samples - 1, 1).bit_length()
 
 

@@ -14,7 +14,7 @@ _WORSE = 1e-6
 
 
 def put_at_bounds(optimizer: Optimizer, run: Run) -> Run:
-    """A converged run whose numbers that press on an end are at it, all others found again beside them.
+    """Return a converged run with the numbers that press on an end fixed at it and all others solved again.
 
     At an interior point the room times the multiplier is the barrier's parameter: what presses more than it has room is
     at its end. Multipliers stay those of the run as it was, as a number that is fixed has none.
@@ -34,7 +34,7 @@ def put_at_bounds(optimizer: Optimizer, run: Run) -> Run:
 
 
 def _pressed(optimizer: Optimizer, run: Run) -> dict[str, Ends]:
-    """The ends that free numbers press on, each twice, as it fixes the number; none of those that are fixed already."""
+    """Return the ends that free numbers press on, each twice to fix the number; none that is already fixed."""
     found: dict[str, Ends] = {}
     lower, upper = optimizer.vector.bounds(run.within)
     for i, free in enumerate(optimizer.problem.free):

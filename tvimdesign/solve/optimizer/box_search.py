@@ -33,13 +33,13 @@ class BoxSearch:
         within: Mapping[str, Ends] | None = None,
         leads_away: Callable[[Run], bool] = lambda _: False,
     ) -> None:
-        """Nothing is solved yet; a search ends at an optimum of a box that `leads_away`, and tells that."""
+        """Start with nothing solved; a search ends, and reports it, at an optimum of a box that `leads_away`."""
         self._optimizer, self._within, self._leads_away = optimizer, dict(within or {}), leads_away
         self.runs: list[Run] = []
         """What each run of the solver came to."""
 
     def run(self, begin: Array) -> Run:
-        """Where boxes lead to from some inputs: converged where that is an optimum of the whole problem."""
+        """Return the end of a search in boxes from some inputs: converged if it is an optimum of the whole problem."""
         inputs, unknowns, width = begin, self._optimizer.guess(begin), _FIRST
         best: Run | None = None
         held = True
@@ -80,7 +80,7 @@ class BoxSearch:
         return ends
 
     def _held(self, run: Run, box: Mapping[str, Ends]) -> bool:
-        """Whether a side of the box holds a number that might go on."""
+        """Return whether a side of the box stops a number that might go on."""
         for place, free in enumerate(self._optimizer.free):
             near = _AT_A_SIDE * (free.to_unknown(free.upper) - free.to_unknown(free.lower))
             for side, end in zip(box[free.name], self._within.get(free.name, (free.lower, free.upper)), strict=True):
@@ -89,7 +89,7 @@ class BoxSearch:
         return False
 
     def _whole(self, best: Run, *, held: bool) -> Run:
-        """The optimum of the whole problem at that of the last box; a design that is no optimum where none is found."""
+        """Return the optimum of the whole problem from that of the last box; else a design that is no optimum."""
         found = self._optimizer.solve(self._within, warm=best)
         self.runs.append(found)
         if found.start.converged:

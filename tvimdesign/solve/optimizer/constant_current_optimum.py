@@ -8,11 +8,12 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 
 
 class ConstantCurrentOptimum:
-    """The same problem with constant currents: solved first, it is where a search for profiles begins, and what
-    they are held against."""
+    """Optimum with constant currents. It is solved first: a search for profiles starts there and
+    is compared with it.
+    """
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Nothing to do where no current follows a profile."""
+        """Set up; do nothing if no current follows a profile."""
         self.optimizer = optimizer.with_constant_currents()
         self.best: Run | None = None
 
@@ -28,7 +29,7 @@ class ConstantCurrentOptimum:
         return run.inputs
 
     def found(self) -> Constant | None:
-        """The best optimum with constant currents, simulated; None where there is none."""
+        """Return the best simulated optimum with constant currents; None if there is none."""
         if self.optimizer is None or self.best is None:
             return None
         cycle = self.optimizer.simulator.run(self.best.inputs)

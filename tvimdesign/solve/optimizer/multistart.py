@@ -1,4 +1,4 @@
-"""Where searches begin: the study's own start, and points between the bounds whose switch ends."""
+"""Starts of searches: the study's own start, and points between the bounds whose switch ends."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ class Multistart:
         return self.model.mixed(point) if isinstance(self.model, MixedDevice) else point
 
     def _exists(self, point: Array) -> bool:
-        """Whether there is such a module."""
+        """Return whether the module exists."""
         values = self.model.values(point, self.cycle)
         numbers = [value for name, value in values.items() if not on_cycle(self.model.table, name)]
         return (
@@ -118,11 +118,11 @@ class Multistart:
         )
 
     def heats(self, inputs: Array) -> bool:
-        """Whether every body that takes heat in the problem's phases is one, and no link is below zero."""
+        """Return whether every heated body of the problem's phases exists and no link is below zero."""
         return self._bodies(inputs) and bool(np.all(self._links(inputs) > 0.0))
 
     def _heats_as_the_start(self, inputs: Array) -> bool:
-        """Whether every body that takes heat is one, and no link is below zero that is not so at the study's start.
+        """Return whether every heated body exists and no link is below zero that is not so at the study's start.
 
         A link that corrects another one may be; any other would cost seconds to simulate.
         """
@@ -141,8 +141,8 @@ class Multistart:
         return np.concatenate(links) if links else np.zeros(0)
 
     def trial(self, inputs: Array) -> dict[str, float] | None:
-        """What the switch at a point supplies, None where it does not end, or is over before it begins: that tells
-        nothing of it.
+        """Return the outputs of the switch at a point; None if it does not end, or is over before it starts.
+        In the second case it shows nothing.
         """
         try:
             cycle = self.cycle if inputs is self.model.start else self.problem.simulated(inputs)

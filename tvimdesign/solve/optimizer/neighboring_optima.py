@@ -35,7 +35,7 @@ class NeighboringOptima:
     """Tries what lies beside the ends of the starts, from the states that were found there."""
 
     def __init__(self, optimizer: Optimizer) -> None:
-        """Nothing is solved yet."""
+        """Start with nothing solved."""
         self._optimizer = optimizer
         self._periods: dict[int, float] = {}
         """By place among the free numbers."""
@@ -51,7 +51,7 @@ class NeighboringOptima:
         """Optima that starts came to, each with the best one that neighbors led to from there."""
 
     def improve(self, runs: list[Run]) -> list[Run]:
-        """The runs, each where its neighbors lead to; and where two of them together lead further, that one beside."""
+        """Return each run's best neighbor; if two of them together lead further, add that run."""
         if all(run.start.status == NO_DESIGN for run in runs) or self._optimizer.deadline.passed:
             return runs
         improved = [self._beside(run) for run in runs]
@@ -61,7 +61,7 @@ class NeighboringOptima:
         return [*found, shaken] if shaken else found
 
     def _shaken(self, optima: list[Run]) -> Run | None:
-        """The best of some searches that begin at random a little beside the best optimum; None where none is better.
+        """Return the best of random searches a little beside the best optimum; None if none is better.
 
         Source: Wales and Doye, J. Phys. Chem. A 101 (1997) 5111 (basin hopping).
         """
@@ -83,7 +83,7 @@ class NeighboringOptima:
         return None if found is best else found
 
     def _beside(self, run: Run) -> Run:
-        """The best run that steps of a period lead to; the run itself where none is better.
+        """Return the best run that steps of a period lead to; the run itself if none is better.
 
         Steps end at an optimum that others were taken from before.
         """
@@ -96,12 +96,12 @@ class NeighboringOptima:
         return best
 
     def _known_end(self, run: Run) -> Run | None:
-        """The best run that neighbors led to from where a run ended; None where no steps were taken there."""
+        """Return the best run reached by neighbors of a run's end; None if no steps were taken there."""
         known = (end for begin, end in self._improved if run.start.converged and same_optimum(run.start, begin.start))
         return next(known, None)
 
     def _step(self, run: Run, left: set[tuple[int, int]]) -> Run | None:
-        """The first run beside one that is better, None where none is; no period that was `left` is gone back to."""
+        """Return the first better run beside another, None if none is; do not return to a period that was `left`."""
         left |= {(place, self._periods_in(place, self._value(place, run))) for place in self._periods}
         for place, value in self._values_beside(run):
             if (place, self._periods_in(place, value)) in left or self._optimizer.deadline.passed:
@@ -114,7 +114,7 @@ class NeighboringOptima:
         return self._ramped_further(run)
 
     def _ramped_further(self, run: Run) -> Run | None:
-        """The optimum whose ramps lead to at least half of where currents rise to after them; None if none is better.
+        """Return the optimum whose ramps reach half of where currents rise after them; None if none is better.
 
         That bound, which presses on no optimum worth having, is left out again.
         """
@@ -132,7 +132,7 @@ class NeighboringOptima:
         return _told(tried, run, run.start, bounded.start, tried.start) if _better(tried, run) else None
 
     def _values_beside(self, run: Run) -> Iterator[tuple[int, float]]:
-        """Each periodic number a period below and above, or at the end of its range where half a period is left."""
+        """Yield each periodic number a period below and above, or at the end of its range if half a period is left."""
         for place, period in self._periods.items():
             free, value = self._optimizer.free[place], self._value(place, run)
             for end, step in ((free.lower, -period), (free.upper, period)):
@@ -141,15 +141,15 @@ class NeighboringOptima:
                     yield place, value + step if room >= period else end
 
     def _value(self, place: int, run: Run) -> float:
-        """Where a run ended in the free number at a place."""
+        """Return the value of the free number at a place at the end of a run."""
         return float(run.inputs[self._optimizer.model.index[self._optimizer.free[place].name]])
 
     def _periods_in(self, place: int, value: float) -> int:
-        """The whole periods in a value."""
+        """Return the whole periods in a value."""
         return math.floor(value / self._periods[place])
 
     def _crossed(self, runs: list[Run]) -> Run | None:
-        """The best design found from parts of the best run and of another; None where none is better."""
+        """Return the best design from parts of the best run and of another; None if none is better."""
         optima: list[Run] = []
         for run in sorted(runs, key=lambda run: run.start.objective):
             if not any(same_optimum(run.start, other.start) for other in optima):
@@ -164,7 +164,7 @@ class NeighboringOptima:
         return found
 
     def _with_part(self, whole: Run, lender: Run, places: list[int]) -> Run:
-        """A run that begins at the end of another, with one part as a third has it."""
+        """Return a run from the end of another, with one part taken from a third."""
         unknowns = whole.unknowns.copy()
         unknowns[places] = lender.unknowns[places]
         begin = self._optimizer.vector.inputs(unknowns)
@@ -174,14 +174,14 @@ class NeighboringOptima:
 
 
 def _better(run: Run, other: Run) -> bool:
-    """Whether a run is an optimum, and another one than the other and better."""
+    """Return whether a run is a different and better optimum than the other."""
     if not (run.start.converged and other.start.converged):
         return run.start.converged
     return run.start.objective < other.start.objective - SAME_OPTIMUM * abs(other.start.objective)
 
 
 def _told(run: Run, before: Run, *parts: Start) -> Run:
-    """A run as one that began where another did, with the work of the parts that led there."""
+    """Return a run with the start of another and the work of the parts that led there."""
     start = replace(
         run.start, begin=before.start.begin, by_neighbor=True, crossed=before.start.crossed,
         iterations=sum(part.iterations for part in parts), seconds=sum(part.seconds for part in parts),

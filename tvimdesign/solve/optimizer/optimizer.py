@@ -91,7 +91,7 @@ class Optimizer:
         return MixedDevice(*known, self.mixtures) if self.mixtures else DeviceFunctions(*known)
 
     def with_constant_currents(self) -> Optimizer | None:
-        """The same problem with currents that do not change over a phase; None where they do not anyway."""
+        """Return the problem with currents constant over a phase; None if they already are."""
         if not self.currents:
             return None
         study = self.study.model_copy(update={"profile": ProfileOptions()})
@@ -117,7 +117,7 @@ class Optimizer:
         return FreeCurrent(phase, row, pieces, vary.lower, vary.upper, slew)
 
     def with_records(self, study: Study) -> Optimizer | None:
-        """The same problem for a study that differs in its records alone, where their numbers are all that counts.
+        """Return the problem for a study that differs in its records alone, if only their numbers count.
 
         Nothing is built: such numbers are parameters. None where a row reads a table of a record that differs, or an
         option. Raises InfeasibleError as a new one does.
@@ -143,7 +143,7 @@ class Optimizer:
         )  # fmt: skip
 
     def kept_constraints(self, limits: list[Constraint]) -> list[Constraint]:
-        """The limits without those that nothing free can change, which are checked here and now."""
+        """Return the limits without those that no free number changes; check those now."""
         constant = self._constant(limits)
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
         values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
@@ -154,7 +154,7 @@ class Optimizer:
         return [limit for limit in limits if limit not in constant]
 
     def _constant(self, limits: list[Constraint]) -> list[Constraint]:
-        """The limits that nothing free can change: by the table, or with these records and options."""
+        """Return the limits that no free number changes, by the table or with these records and options."""
         free = [*(f.name for f in self.free), *(current.row for current in self.currents)]
         outputs = list(dict.fromkeys(limit.output for limit in limits if not on_cycle(self.table, limit.output)))
         rows, columns = self.model.outputs(outputs).jac_sparsity(0, 0).get_triplet()
@@ -163,7 +163,7 @@ class Optimizer:
         return [limit for limit in limits if limit.output in outputs and limit.output not in moved]
 
     def _begin(self) -> None:
-        """What knows the numbers of the records: where to begin, and how the vector of unknowns is read."""
+        """Build the parts that know the records' numbers: where to start, and how to read the vector of unknowns."""
         asked = self.study.solver
         self.multistart = Multistart(self.problem, self.model, asked, self.progress, self.deadline)
         self.vector = DecisionVector(self.problem, self.model)
@@ -172,7 +172,7 @@ class Optimizer:
         """What is minimised, at the study's start."""
 
     def guess(self, inputs: Array) -> Array:
-        """The unknowns at a design; where its switch does not end, with the start's times."""
+        """Return the unknowns at a design; with the start's times if its switch does not end."""
         cycle = self.multistart.trial(inputs) if self.currents else None
         return self.vector.at(inputs, cycle or self.multistart.cycle)
 
@@ -185,7 +185,7 @@ class Optimizer:
         return value if value != 0.0 else 1.0
 
     def _solver(self, beginning: Beginning) -> ProgrammeSolver:
-        """The solver, built when it is first needed."""
+        """Return the solver, built when it is first needed."""
         if beginning not in self._solvers:
             problem = self.problem
             self._solvers[beginning] = solver_of(problem.unknown_count, problem.row_count, self.study.solver, beginning)
@@ -268,13 +268,13 @@ class Optimizer:
         return x
 
     def _never_ends(self, x: Array, parameters: Parameters) -> bool:
-        """Whether there is a module and its switch never ends."""
+        """Return whether the module exists and its switch never ends."""
         point = self.problem.at(x, parameters)
         values = (value for name, value in point.values.items() if not on_cycle(self.table, name))
         return any(np.isinf(time) for time in point.times.values()) and bool(np.all(np.isfinite(list(values))))
 
     def _settled(self, x: Array, parameters: Parameters) -> bool:
-        """Whether steps that are placed anew at an optimum leave it where it is."""
+        """Return whether new steps at an optimum leave it where it is."""
         before = self.problem.at(x, parameters)
         self.problem.place_grids(x, parameters)
         after = self.problem.at(x, parameters)
@@ -282,7 +282,7 @@ class Optimizer:
         return bool(np.max(moved) < SETTLED)
 
     def _checked(self, x: Array, parameters: Parameters, most: Array) -> tuple[dict[str, Any], dict[str, Any]]:
-        """The answer of a solver where nothing is free: whether the rows are no more than they may be."""
+        """Return the answer of a solver if nothing is free: whether the rows are within their bounds."""
         self.problem.place_grids(x, parameters)
         point = self.problem.at(x, parameters)
         good = bool(np.all(point.rows <= most + self.study.solver.tolerance))
@@ -321,7 +321,7 @@ class Optimizer:
         self, answer: Mapping[str, Any], stats: Mapping[str, Any], inputs: Array, seconds: float,
         parameters: Parameters,
     ) -> Run:  # fmt: skip
-        """What a solver left behind that was run from some inputs; raises KeyboardInterrupt where one reached it.
+        """Return the solver's result from some inputs. Raise KeyboardInterrupt if one arrived.
 
         CasADi takes an interrupt that comes while it evaluates a function for a failure of that.
         """
@@ -343,16 +343,16 @@ class Optimizer:
         return Run(start, end, current_profiles, ends, unknowns, multipliers, of_bounds, times, grids=grids)
 
     def _limits_less_margins(self) -> Array:
-        """What the limits' residuals may come to: zero, or so far within as their margins say."""
+        """Return the bounds on the limits' residuals: zero, or less by their margins."""
         return -np.array([self.margins.get(limit.name, 0.0) for limit in self.problem.limits])
 
     def parameters(self, objective: Objective) -> Parameters:
-        """The problem's parameters: the study's inputs, weights over the references, factors of what is traded."""
+        """Return the problem's parameters: the study's inputs, weights over references, factors of a trade-off."""
         over = [objective.weights.get(name, 0.0) / self.reference[name] for name in self.problem.minimize]
         return Parameters(self.model.start, np.array(over), objective.factors(self.problem.objectives))
 
     def derivatives(self, run: Run) -> Derivatives:
-        """The problem's values and derivatives where a run of the study's own objective ended.
+        """Return the problem's values and derivatives at the end of a run of the study's own objective.
 
         Second derivatives of the Lagrangian are differences of its gradients.
         """

@@ -27,7 +27,7 @@ _PRESSES = 1e-6
 
 @dataclass(frozen=True)
 class Moved:
-    """Where a moved problem has its optimum, and what holds it there."""
+    """Optimum of a moved problem and its active constraints."""
 
     run: Run
     binding: tuple[str, ...]
@@ -37,7 +37,7 @@ class Moved:
 
     @property
     def converged(self) -> bool:
-        """Whether IPOPT says that it is an optimum."""
+        """Whether IPOPT reports an optimum."""
         return self.run.start.converged
 
 
@@ -52,7 +52,7 @@ class ParametricOptimizer:
         self._shape = _shape(study)
 
     def fits(self, study: Study) -> bool:
-        """Whether nothing but numbers differs from the study that was built."""
+        """Return whether only numbers differ from the study that was built."""
         return _shape(study) == self._shape
 
     def solve(
@@ -62,7 +62,7 @@ class ParametricOptimizer:
         reference: Mapping[str, float] | None = None,
         near: Mapping[str, float] | None = None,
     ) -> Moved:
-        """The optimum of a study, from the `last` one; what is minimised is divided by `reference`.
+        """Return the optimum of a study from the `last` one; minimised outputs are divided by `reference`.
 
         Where there is no last one it is looked for from the variables `near` [SI], and then from the study's start.
         Limits that nothing free can change are no part of the problem, and whoever asks has to look after them.
@@ -86,7 +86,7 @@ class ParametricOptimizer:
 
     @staticmethod
     def _clipped(at: Mapping[str, float], optimizer: Optimizer, ranges: Mapping[str, Range]) -> Array:
-        """A design within the ranges of now, to begin at without an optimum's multipliers."""
+        """Return a design within the present ranges, to start at without an optimum's multipliers."""
         begin = optimizer.model.start.copy()
         for name, value in at.items():
             ends = ranges.get(name)
@@ -94,7 +94,7 @@ class ParametricOptimizer:
         return begin
 
     def _moved(self, study: Study, reference: Mapping[str, float] | None) -> Optimizer:
-        """The built optimizer with other parameters: nothing of what was compiled changes."""
+        """Return the built optimizer with other parameters; nothing compiled changes."""
         built = self.optimizer
         numbers = given(study)
         moved, model, problem = copy(built), copy(built.model), copy(built.problem)
@@ -107,7 +107,7 @@ class ParametricOptimizer:
         return moved
 
     def _margins(self, limits: list[Constraint]) -> dict[str, float]:
-        """How far within the built limits to stay, so that it is the moved ones that are kept."""
+        """Return the margins within the built limits that satisfy the moved ones."""
         margins = {}
         for moved in limits:
             built = self._limits.get(moved.name)
@@ -125,7 +125,7 @@ class ParametricOptimizer:
 
 
 def _within(free: Free, study: Study) -> Free:
-    """A free number between the ends of now; what its unknown is divided by stays."""
+    """Return a free number between its present ends; its unknown keeps its divisor."""
     ends = study.vary[free.name]
     return replace(free, lower=ends.lower, upper=ends.upper) if isinstance(ends, Range) else free
 
@@ -145,7 +145,7 @@ def _ends(run: Run, optimizer: Optimizer) -> dict[str, str]:
 
 
 def _shape(study: Study) -> dict[str, Any]:
-    """All of a study that is built into its problem: words and whole numbers, names of limits, signs of ranges."""
+    """Return the parts of a study that its problem is built from: words, whole numbers, limits, signs of ranges."""
     table = study.table
     numbers = {row.name for row in table.inputs if isinstance(row, Input) and not row.integer}
     values = given(study)

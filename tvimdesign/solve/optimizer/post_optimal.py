@@ -1,4 +1,4 @@
-"""How an optimum answers when a limit moves: the implicit function theorem on its optimality conditions.
+"""Response of an optimum to a moved limit: the implicit function theorem on its optimality conditions.
 
 Where the active limits stay the same, the optimum is an implicit function of where they stand.
 Source: Fiacco, Introduction to Sensitivity and Stability Analysis in Nonlinear Programming (1983), ch. 3.
@@ -30,7 +30,7 @@ _UNDETERMINED = 1e-6
 
 
 class Response:
-    """What each minimised output does, at one optimum, when limits are eased."""
+    """Change of each minimised output, at one optimum, when limits are eased."""
 
     def __init__(self, optimizer: Optimizer, run: Run) -> None:
         """Linearise the optimality conditions of a converged run."""
@@ -58,7 +58,7 @@ class Response:
         }
 
     def _unclear(self, derivatives: Derivatives) -> bool:
-        """Whether it cannot be told of some limit or bound that it is active: it hardly presses, with hardly any room.
+        """Return whether some limit or bound is not clearly active: it hardly presses and has hardly any room.
 
         Where the objective is flat along a limit, one that is wrongly taken for slack changes every saving.
         """
@@ -105,7 +105,7 @@ class Response:
         return along
 
     def _active(self, derivatives: Derivatives, along: Array, tied: list[int]) -> tuple[list[Place], Array]:
-        """Every place that presses on the optimum, and its derivatives by the decisions."""
+        """Return every place that presses on the optimum, and its derivatives by the decisions."""
         run, problem = self._run, self._optimizer.problem
         places: list[Place] = [
             ("row", i)
@@ -128,7 +128,7 @@ class Response:
 
     @staticmethod
     def _presses(multiplier: float, room: float) -> bool:
-        """Whether a limit is active: at IPOPT's end multiplier times room is one small number for all of them."""
+        """Return whether a limit is active: at IPOPT's end, multiplier times room is one small number for all."""
         return bool(multiplier > max(room, _FAINT))
 
     def _solve(self, derivatives: Derivatives, along: Array, rows: Array) -> dict[str, Array]:

@@ -1,4 +1,4 @@
-"""What a design is beyond of what its materials and bought parts are rated for, and what that makes of an optimum."""
+"""Ratings of materials and bought parts that a design exceeds, and the consequence for an optimum."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from tvimdesign.study import Study, given
 
 
 def happened(name: str, values: Mapping[str, float], table: Table) -> bool:
-    """Whether there is anything to say of an output: the peak of a phase that never began is none."""
+    """Return whether an output has a value: the peak of a phase that never started has none."""
     peaks = (need for need in table.output(name).needs if isinstance(table.quantity(need), Path))
     return not np.isnan(values[name]) and all(np.isfinite(values[peak]) for peak in peaks)
 
 
 def kept(limit: Constraint, value: float, table: Table) -> bool:
-    """Whether a value keeps a limit, to the precision it is computed with."""
+    """Return whether a value satisfies a limit, to the precision of its computation."""
     tolerance = CYCLE_TOLERANCE if on_cycle(table, limit.output) else ALGEBRAIC_TOLERANCE
     return bool(limit.residual(value) <= tolerance)
 
 
 def exceeded(values: Mapping[str, float], table: Table) -> tuple[Constraint, ...]:
-    """The ratings that a design is beyond; `values` holds every input and output in SI by full name."""
+    """Return the ratings that a design exceeds; `values` holds every input and output in SI by full name."""
     return tuple(
         limit
         for limit in ratings_of(table)
@@ -44,7 +44,7 @@ def sorted_by_acceptance(names: Collection[str], accept: Collection[str]) -> tup
 
 
 def exceeded_at_start(study: Study) -> dict[str, float]:
-    """What the module a study starts from is beyond and the study does not accept: value (SI) by the rating's name.
+    """Return the ratings that the start exceeds and the study does not accept: value (SI) by the rating's name.
 
     One working cycle is simulated. A rating that the study requires to be kept is left out. Raises SimulationError.
     """

@@ -10,7 +10,7 @@ from tvimdesign.study import Options, Study
 
 
 def listed_records(study: Study, table: Table) -> dict[str, list[str]]:
-    """The records and options a study lists, by the choice's name."""
+    """Return the records and options a study lists, by the choice's name."""
     return {
         name: [str(value) for value in vary.values]
         for name, vary in study.vary.items()
@@ -19,13 +19,13 @@ def listed_records(study: Study, table: Table) -> dict[str, list[str]]:
 
 
 def discrete_records(study: Study, table: Table) -> list[dict[str, str]]:
-    """Every combination of the records and options a study lists; one that chooses nothing where it lists none."""
+    """Return every combination of listed records and options; one empty combination if none is listed."""
     listed = listed_records(study, table)
     return [dict(zip(listed, combination, strict=True)) for combination in itertools.product(*listed.values())]
 
 
 def with_records(study: Study, records: Mapping[str, str]) -> Study:
-    """The study with some records chosen."""
+    """Return the study with some records chosen."""
     if not records:
         return study
     vary = {name: value for name, value in study.vary.items() if name not in records}

@@ -27,7 +27,7 @@ NO_MODULE = "Invalid_Number_Detected"
 
 
 class Meaning(NamedTuple):
-    """What a status says, and the next step; the step is empty where there is nothing to do."""
+    """Meaning of a status and the next step, which is empty if there is nothing to do."""
 
     words: str
     step: str
@@ -83,5 +83,5 @@ MEANINGS = {
 
 
 def meaning(status: str) -> Meaning:
-    """What a status means; one of a later IPOPT is shown as it is."""
+    """Return the meaning of a status; one of a later IPOPT is shown as it is."""
     return MEANINGS.get(status, Meaning(f"ended with {status.replace('_', ' ').lower()}", _REPORT))

@@ -77,7 +77,7 @@ def _active(
 
 
 def _savings(response: Response | None, places: list[Place], per_scale: float = 1.0) -> dict[str, float]:
-    """What easing the places by a step saves of each minimised output, in percent: a step is a hundredth of a scale."""
+    """Return the saving of each minimised output, in percent, if places are eased by a hundredth of a scale."""
     found = response.sensitivity(places) if response else {}
     return {name: share * per_scale for name, share in found.items()}
 
@@ -100,7 +100,7 @@ def _active_constraints(
 
 
 def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
-    """The ends of the ranges; a listed size has no end to move."""
+    """Return the active ends of ranges; a listed size has no end to move."""
     found = []
     senses: tuple[tuple[Literal["<=", ">="], float], ...] = (("<=", 1.0), (">=", -1.0))
     for i, free in enumerate(optimizer.free):
@@ -126,7 +126,7 @@ def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) ->
 
 
 def _active_currents(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
-    """The ends of the range of a free current, all its nodes together, and the supply's slew."""
+    """Return the active ends of a free current's range, all its nodes together, and the supply's slew."""
     found = []
     objective = run.start.objective or 1.0
     for current, place in optimizer.vector.places_of_currents():
@@ -166,7 +166,7 @@ def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
 
 
 def _price_of_slew(optimizer: Optimizer, run: Run, slew: float) -> float:
-    """What the objective falls with the slew, per share of it: a difference of the Lagrangian, as ramps hang on it."""
+    """Return the fall of the objective per share of slew: a difference of the Lagrangian, as ramps depend on it."""
     problem, parameters = optimizer.problem, optimizer.parameters(Objective(optimizer.study.minimize))
     found = []
     for share in (1.0 - _SLEW_STEP, 1.0 + _SLEW_STEP):

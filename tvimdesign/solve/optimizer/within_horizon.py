@@ -18,7 +18,7 @@ _AT_IT = 1e-6
 
 
 def ending_in_time(study: Study, optimizer: Optimizer, run: Run) -> Study | None:
-    """The study with limits on the times that a run has at the horizon; None where it has none, or no design."""
+    """Return the study with limits on the times that a run has at the horizon; None if no times or no design."""
     latest = LATEST * float(optimizer.model.start[optimizer.model.index["horizon"]])
     limited = {one.output for one in study.require if one.sense == "<=" and one.limit <= latest}
     times = run.times

@@ -77,12 +77,12 @@ class Front:
 
 
 def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:
-    """A front of about `count` points, of two or three of the outputs a trade-off can trade."""
+    """Return a front of about `count` points, of two or three outputs that a trade-off can trade."""
     return _Tracer(trade, tuple(outputs), count).front()
 
 
 def completed(front: Front, trade: Tradeoff) -> Front:
-    """A front whose points have every output, those too that no objective and no limit hangs on."""
+    """Return a front whose points have every output, also those that no objective or limit depends on."""
     found = [trade.completed(point) for point in front.points]
     failures = tuple(one for one in found if isinstance(one, Failure))
     return replace(
@@ -104,7 +104,7 @@ class _Tracer:
         self.first = trade.asked
 
     def front(self) -> Front:
-        """The whole front, or what there is of it."""
+        """Return the whole front, or the part that exists so far."""
         self._seek_ends()
         if self.failures:
             return self._done("an end has no design")
@@ -140,7 +140,7 @@ class _Tracer:
     # --- ends ---
 
     def _seek_ends(self) -> None:
-        """The least of each output; of three also which of the other two is made small first."""
+        """Find the least of each output; of three also by which of the other two is minimised first."""
         for name in self.outputs:
             for others in itertools.permutations([other for other in self.outputs if other != name]):
                 weights = {other: SIDE_WEIGHT ** (i + 1) for i, other in enumerate(others)}
@@ -232,11 +232,11 @@ class _Tracer:
         return Objective(self.trade.weights({first: 1.0, **dict.fromkeys(others, SIDE_WEIGHT)}), tuple(bounds))
 
     def _nearest(self, place: Array) -> list[Point]:
-        """All points, the nearest first; of equally near ones the one found first."""
+        """Return all points, nearest first; of equally near ones the first traced."""
         return sorted(self._all, key=lambda point: float(np.linalg.norm(self.frame.place(point.values) - place)))
 
     def _guess(self, points: Sequence[Point], place: Array) -> Trace | None:
-        """What the solver is to begin from: straight through the nearest points that descend from the same end."""
+        """Return a start for the solver: straight through the nearest points that descend from the same end."""
         near = points[0]
         if near.trace is None:
             return None
@@ -263,7 +263,7 @@ class _Tracer:
         self.between = [point for point in self.between if any(point is one for one in kept)]
 
     def _next_pair(self, tried: set[tuple[int, int]]) -> tuple[int, Point] | None:
-        """The place of a point, and a neighbour that descends from another end, not tried yet."""
+        """Return the place of a point and an untried neighbour that descends from another end."""
         points, first = self._all, len(self.ends)
         for i, j, _ in shape.neighbours(np.array([self.frame.shares(point.values) for point in points])):
             for one, other in ((i, j), (j, i)):
@@ -298,7 +298,7 @@ class _Tracer:
 
 
 def undominated(points: Sequence[Point], names: Sequence[str]) -> list[Point]:
-    """The points no other one is as good as in every named output (less is better); of equal ones the first."""
+    """Return the points that no other matches in every named output (less is better); of equal ones the first."""
     if not points:
         return []
     return [points[i] for i in shape.kept(np.array([[point.values[name] for name in names] for point in points]))]

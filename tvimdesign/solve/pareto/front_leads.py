@@ -1,4 +1,4 @@
-"""Where one front lies below the others: for which limits on one quantity which study does best in the other."""
+"""Lead of one front over others: the study that does best in one output for each limit on the other."""
 
 from __future__ import annotations
 
@@ -56,13 +56,13 @@ def leads(curves: Mapping[str, Curve]) -> list[Lead]:
 
 
 def reached(curve: Curve, limit: float) -> float:
-    """What a front reaches under a limit; infinite below its first point."""
+    """Return the value that a front reaches under a limit; infinite below its first point."""
     limits, values = zip(*curve, strict=True)
     return math.inf if limit < limits[0] else float(np.interp(limit, limits, values))
 
 
 def _intervals(curves: Mapping[str, Curve]) -> list[tuple[float, float]]:
-    """The limits between which every front is straight and none crosses another; the last has no end."""
+    """Return intervals of limits in which every front is straight and none crosses another; the last is open."""
     marks = {limit for curve in curves.values() for limit, _ in curve}
     for one, other in itertools.combinations(curves.values(), 2):
         for lower, upper in itertools.pairwise(sorted(marks)):

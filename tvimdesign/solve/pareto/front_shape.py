@@ -39,21 +39,21 @@ class Frame:
 
     @classmethod
     def of(cls, names: Sequence[str], ends: Sequence[Values]) -> Frame:
-        """The frame of the ends of a front."""
+        """Return the frame of the ends of a front."""
         numbers = np.array([[end[name] for name in names] for end in ends])
         return cls(tuple(names), numbers.min(axis=0), np.ptp(numbers, axis=0))
 
     def shares(self, values: Values) -> Array:
-        """A design's outputs, from 0 to 1."""
+        """Return a design's outputs, scaled from 0 to 1."""
         return (np.array([values[name] for name in self.names]) - self.least) / self.ranges
 
     def place(self, values: Values) -> Array:
-        """Where a design lies, seen along the direction in which every output falls alike."""
+        """Return the place of a design, seen along the direction in which every output falls alike."""
         shares = self.shares(values)
         return np.asarray(shares - shares.mean())
 
     def bounds(self, place: Array, reference: Values) -> tuple[Bound, ...]:
-        """What holds a design to the line through a place: no output lies further above the first than there.
+        """Return bounds that hold a design to the line through a place: no output lies further above the first.
 
         The sums are in shares of the output's reference, so that they are as large as the solver's other rows.
         """
@@ -78,7 +78,7 @@ def kept(rows: Array) -> list[int]:
 
 
 def spread(shares: Array) -> float:
-    """The largest gap between neighbours over the mean one; 1 is even. Neighbours are joined by the shortest tree."""
+    """Return the largest gap between neighbours over the mean one; 1 is even. The shortest tree joins neighbours."""
     gaps = neighbours(shares)
     return max(gap for *_, gap in gaps) / (sum(gap for *_, gap in gaps) / len(gaps)) if gaps else 1.0
 
@@ -106,7 +106,7 @@ def little_traded(numbers: Array) -> list[int]:
 
 
 def knee(shares: Array) -> int | None:
-    """The point that lies furthest below the chord of the ends, or their plane; None where none lies far from it.
+    """Return the point furthest below the chord or plane of the ends; None if no point lies far from it.
 
     The end of an output is the point that has the least of it.
     """
@@ -131,7 +131,7 @@ def affine(places: Array, target: Array) -> Array:
 
 
 def thin(places: Array) -> bool:
-    """Whether places lie nearly on a line: a front of three outputs that is a curve, no surface."""
+    """Return whether places lie nearly on a line: a front of three outputs that is a curve."""
     sizes = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
     return bool(sizes[1] < _THIN * sizes[0])
 
@@ -149,7 +149,7 @@ def candidates(ends: Array) -> Array:
 
 
 def farthest(places: Array, taken: Array) -> tuple[Array, float]:
-    """The place that is farthest from all that are taken, and how far."""
+    """Return the place farthest from all taken ones, and its distance."""
     distances = np.linalg.norm(places[:, None, :] - taken[None, :, :], axis=2).min(axis=1)
     best = int(np.argmax(distances))
     return places[best], float(distances[best])

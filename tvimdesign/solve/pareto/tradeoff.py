@@ -60,10 +60,10 @@ class Failure:
 
 
 class Memory(Protocol):
-    """What keeps the answers of a trade-off, so that one that was killed goes on where it was."""
+    """Store of a trade-off's answers, so that a killed run can resume."""
 
     def recall(self, number: int, objective: Objective) -> Point | Failure | None:
-        """The answer to a question, counted from 0; None where it is not known."""
+        """Return the answer to a question, counted from 0; None if it is unknown."""
 
     def keep(self, number: int, objective: Objective, found: Point | Failure) -> None:
         """Note an answer."""
@@ -109,7 +109,7 @@ class Tradeoff:
     def best(
         self, objective: Objective, where: str, near: Point | None = None, guess: Trace | None = None
     ) -> Point | Failure:
-        """The best design for an objective: from a guess, a point nearby, or the study's optima and start.
+        """Return the best design for an objective: from a guess, a point nearby, or the study's optima and start.
 
         Where a design that was found before keeps the bounds and is better, this has ended in a worse optimum: then
         also from there.
@@ -135,7 +135,7 @@ class Tradeoff:
         self.optimizer.deadline.leave(self.optimizer.seconds["set_up"] * (2 + len(self.found)))
 
     def again(self, point: Point, other: Point) -> Point | None:
-        """A point sought once more from another one; None where nothing better is found."""
+        """Return a point solved again from another one; None if no better one results."""
         assert point.objective is not None  # the study's own optimum is never asked for again
         number, self.asked = self.asked, self.asked + 1
         found = self._memory.recall(number, point.objective) if self._memory else None
@@ -154,7 +154,7 @@ class Tradeoff:
         return replace(found, where=point.where, root=other.root)
 
     def completed(self, point: Point) -> Point | Failure:
-        """A point with the whole working cycle simulated: every output of it, whether the problem needs it or not."""
+        """Return a point with every output of the whole working cycle, needed by the problem or not."""
         if self.optimizer.deadline.late.passed:
             return Failure(point.where, OUT_OF_TIME)
         inputs = self._inputs(point)
@@ -186,16 +186,16 @@ class Tradeoff:
         return found
 
     def _better(self, one: Point, other: Point, objective: Objective) -> bool:
-        """Whether a design is better than another by more than the simulation's tolerance."""
+        """Return whether a design is better than another by more than the simulation's tolerance."""
         return self._value(one, objective) < self._value(other, objective) * (1.0 - ONE_POINT)
 
     def _value(self, point: Point, objective: Objective) -> float:
-        """What an objective makes small."""
+        """Return the value that an objective minimises."""
         built = self.optimizer.reference
         return sum(weight * point.values[name] / built[name] for name, weight in objective.weights.items())
 
     def _from(self, point: Point, objective: Objective, where: str, beaten: float) -> Point | Failure:
-        """The best design from a point, if it costs less than what is to be beaten."""
+        """Return the best design from a point, if it costs less than the value to beat."""
         run = self._cold(self._inputs(point), objective) if point.trace is None else self._warm(point.trace, objective)
         if run.start.converged and not run.start.objective < beaten * (1.0 - ONE_POINT):
             return Failure(where, "no better")
@@ -211,7 +211,7 @@ class Tradeoff:
         return self.optimizer.solve(self._fixed, begin=begin, objective=objective)
 
     def _checked(self, runs: Sequence[Run], objective: Objective, where: str) -> Point | Failure:
-        """The best of some runs that keeps every limit when it is simulated, or why there is none."""
+        """Return the best of some runs that satisfies every limit in simulation, or the reason why there is none."""
         reason = f"not converged: {meaning(runs[-1].start.status).words}" if runs else "nothing to begin from"
         for run in self._robust(
             sorted((run for run in runs if run.start.converged), key=lambda r: r.start.objective), objective
@@ -240,7 +240,7 @@ class Tradeoff:
                 yield settled
 
     def _simulated(self, run: Run, objective: Objective, where: str) -> Point | str:
-        """The design simulated and held against every limit again; in words which one it breaks."""
+        """Return the simulated design after a check of every limit, or the violated limit in words."""
         optimizer, problem = self.optimizer, self.optimizer.problem
         try:
             cycle = optimizer.simulator.run(run.inputs, run.current_profiles, phases=problem.phases)

@@ -1,1 +1,1 @@
-"""What outputs owe to inputs: exact derivatives, level sets, ratios of two modules."""
+"""Sensitivity of outputs to inputs: exact derivatives, level sets, ratios of two modules."""

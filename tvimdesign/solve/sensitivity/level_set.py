@@ -78,7 +78,7 @@ def level_set(
 
 
 def _first_root(function: Callable[[float], float], at: Sequence[float], known: Sequence[float], close: float) -> float:
-    """Where a function passes zero first, its values at some points being known; nan where it does not."""
+    """Return the first zero of a function with known values at some points; nan if there is none."""
     for i in range(len(at) - 1):
         if known[i] <= 0.0 < known[i + 1]:
             return _root(function, (at[i], known[i]), (at[i + 1], known[i + 1]), close)
@@ -88,7 +88,7 @@ def _first_root(function: Callable[[float], float], at: Sequence[float], known: 
 def _root(
     function: Callable[[float], float], low: tuple[float, float], high: tuple[float, float], close: float
 ) -> float:
-    """Where a function passes zero between two points (x, value), to `close` in its value: the Illinois method.
+    """Return the zero of a function between two points (x, value), to `close` in its value, by the Illinois method.
 
     Halves the interval while the value at its upper end is infinite.
     """

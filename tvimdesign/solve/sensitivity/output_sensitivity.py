@@ -30,7 +30,7 @@ _NOTHING = 1e-4
 
 @dataclass(frozen=True)
 class OutputSensitivity:
-    """What one variable does to one output, all else the same."""
+    """Effect of one variable on one output, all else the same."""
 
     output: str
     variable: str
@@ -45,7 +45,7 @@ class OutputSensitivity:
 
 @dataclass(frozen=True)
 class OutputSensitivities:
-    """What every variable does to every output at one design; rows `outputs`, columns `variables`."""
+    """Effects of every variable on every output at one design; rows `outputs`, columns `variables`."""
 
     outputs: tuple[str, ...]
     variables: tuple[str, ...]
@@ -110,7 +110,7 @@ class OutputDerivatives:
 
 
 def entries(found: OutputSensitivities, resolved: ResolvedModule) -> list[OutputSensitivity]:
-    """One record for each output and variable, in the order of the table."""
+    """Return one record for each output and variable, in the order of the table."""
     records = []
     table = resolved.table
     sizes = [_has_size(table.unit(name), value) for name, value in zip(found.variables, found.at, strict=True)]
@@ -130,7 +130,7 @@ def _has_size(unit: str, value: float) -> bool:
 
 
 def _is_variable(resolved: ResolvedModule, model: DeviceFunctions, name: str) -> bool:
-    """What a study may vary and this module has; a count is no variable."""
+    """Return whether a study may vary a number and this module has it; a count is no variable."""
     row = resolved.table.quantity(name)
     return name in model.index and getattr(row, "variable", False) and not getattr(row, "integer", False)
 
@@ -141,7 +141,7 @@ def _supplied_behind(model: DeviceFunctions, name: str) -> set[str]:
 
 
 def behind_profiles(table: Table, driven: Collection[str]) -> set[str]:
-    """The supplied rows of phases whose current follows a profile, and of phases that come after or are like them."""
+    """Return the rows of phases whose current follows a profile, and of phases that come after or are like them."""
     touched = set(driven)
     for phase in table.phases:
         if phase.after in touched or phase.like in touched:

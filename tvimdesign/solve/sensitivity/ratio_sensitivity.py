@@ -1,4 +1,4 @@
-"""What the response times of two modules, and their ratio, owe to an input that both or one of them have.
+"""Sensitivity of two modules' response times, and of their ratio, to an input of both or one of them.
 
 Their derivatives are those of the engine's steps; tests hold them against the implicit function theorem on the
 collocated heat equation.
@@ -31,7 +31,7 @@ class Span:
 
 @dataclass(frozen=True)
 class Influence:
-    """What one input does while all others stay: times [s] of the first and the second module."""
+    """Effect of one input while all others stay: times [s] of the first and the second module."""
 
     span: Span
     value: float
@@ -46,7 +46,7 @@ class Influence:
 
     @property
     def reach(self) -> float:
-        """How far apart the two ratios are, as a factor of one and more."""
+        """Return the factor between the two ratios, at least one."""
         low, high = sorted(self.ratios)
         return high / low
 
@@ -60,7 +60,7 @@ class Pair:
     """Two modules whose inputs of one name move together."""
 
     def __init__(self, first: DeviceFunctions, second: DeviceFunctions) -> None:
-        """Nothing is simulated yet."""
+        """Start with nothing simulated."""
         self.models = (first, second)
         self._simulators = tuple(Simulator(model) for model in self.models)
         self._times: dict[tuple[int, str, tuple[tuple[str, float], ...]], float] = {}
@@ -74,7 +74,7 @@ class Pair:
         return found.pop()
 
     def switches(self, changes: Mapping[str, float] | None = None) -> tuple[dict[str, float], dict[str, float]]:
-        """Every value of the heating of both modules, with some inputs changed."""
+        """Return every value of the heating of both modules, with some inputs changed."""
         first, second = (self._switch(i, changes or {}) for i in range(2))
         return first, second
 

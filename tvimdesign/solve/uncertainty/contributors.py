@@ -12,7 +12,7 @@ FREE_ANGLE = "preload_angle"
 
 
 def contributors_of(resolved: ResolvedModule, adjusted: bool | None = None) -> list[spread.Contributor]:
-    """The study's tolerances at this design; `adjusted` says of all that can be adjusted whether they are.
+    """Return the study's tolerances at this design; `adjusted` decides on all those that can be adjusted.
 
     A constant current in whose place one follows a profile spreads nothing.
     """
@@ -34,7 +34,7 @@ def contributors_of(resolved: ResolvedModule, adjusted: bool | None = None) -> l
 
 
 def plus_minus(resolved: ResolvedModule, value: float, tolerance: Tolerance) -> float:
-    """A tolerance to either side [SI] of an input that has this value."""
+    """Return a tolerance to either side [SI] of an input with this value."""
     if tolerance.row is not None:
         return float(resolved.quantity(tolerance.row))
     return abs(value) * tolerance.share if tolerance.share is not None else float(tolerance.plus_minus or 0.0)

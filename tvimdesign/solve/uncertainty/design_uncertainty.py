@@ -1,4 +1,4 @@
-"""How sure one design is, by many modules: what varies from part to part, and, apart from it, what nobody knows."""
+"""Uncertainty of one design by many modules: part-to-part variation and, separately, unmeasured inputs."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ DRAWS = 1 << 9
 
 @dataclass(frozen=True)
 class DesignUncertainty:
-    """What spreads and, apart from it, what nobody has measured come to at one design."""
+    """Spread and, separately, effect of unmeasured inputs at one design."""
 
     together: spread.Yield | None
     """Modules that keep every limit, parts within their tolerances and all else as assumed; None where no limit depends
@@ -75,7 +75,7 @@ class UncertaintyModel:
         self._pace: Pace | None = None
 
     def fits(self, resolved: ResolvedModule) -> bool:
-        """Whether a module differs from the recorded one in nothing but what may."""
+        """Return whether a module differs from the recorded one only in inputs that may change."""
         before, now = self._resolved.values, resolved.values
         same = self._resolved.study.tolerances == resolved.study.tolerances and before.keys() == now.keys()
         return same and all(before[name] == now[name] for name in before if name not in self.names)
@@ -159,18 +159,18 @@ class UncertaintyModel:
 
 
 def _kept(limits: Sequence[Constraint], outputs: Sequence[str], values: Array) -> NDArray[np.bool_]:
-    """Whether each module (column) keeps each limit (row)."""
+    """Return whether each module (column) satisfies each limit (row)."""
     with np.errstate(invalid="ignore"):
         return np.array([limit.keeps(values[outputs.index(limit.output)]) for limit in limits])
 
 
 def _behind(table: Table, output: str, names: set[str]) -> bool:
-    """Whether an output is, or depends on, one of some quantities."""
+    """Return whether an output is, or depends on, one of some quantities."""
     return bool(names & {output.partition("@")[0], *table.ancestors(output)})
 
 
 def _phases_of(table: Table, outputs: Sequence[str]) -> set[str]:
-    """The phases of the cycle that some outputs ask for, and those before them."""
+    """Return the phases of the cycle that some outputs need, and those before them."""
     needed = {row.phase for row in table.supplied if any(_behind(table, output, {row.name}) for output in outputs)}
     before = {phase.after for phase in table.phases if phase.name in needed and phase.after}
     while not before <= needed:

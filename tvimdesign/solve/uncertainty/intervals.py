@@ -1,4 +1,4 @@
-"""What the ranges of unmeasured inputs come to in each output: one at a time, all together, and what to measure first.
+"""Intervals of outputs from ranges of unmeasured inputs: one at a time, all together, and what to measure first.
 
 A function takes one row for each input and one column a module, and returns one row for each output; nothing here knows
 what a module is. All together, inputs are drawn evenly from their ranges, each for itself: nothing is known of their
@@ -30,7 +30,7 @@ _LEAST = 0.02
 
 @dataclass(frozen=True)
 class Swing:
-    """What an output is with one input at the low and at the high end of its range, all else as drawn; SI."""
+    """Output with one input at the low and at the high end of its range, all else as drawn; SI."""
 
     moved: UnmeasuredInput
     at_low: float
@@ -45,7 +45,7 @@ class Swing:
 
 @dataclass(frozen=True)
 class Interval:
-    """What an output may be, given what nobody has measured; SI, infinite where it may never happen."""
+    """Range of an output under unmeasured inputs; SI, infinite if it may never happen."""
 
     nominal: float
     low: float
@@ -90,7 +90,7 @@ def one_at_a_time(function: Columns, inputs: Sequence[UnmeasuredInput]) -> tuple
 
 
 def draw(inputs: Sequence[UnmeasuredInput], count: int, seed: int) -> Array:
-    """A Latin hypercube over all ranges, one row an input; the same for the same seed.
+    """Return a Latin hypercube over all ranges, one input a row; a seed gives the same points.
 
     Every input is as even as in Sobol points, and no two go together: some pairs of the fiftieth coordinates of a few
     hundred Sobol points do, and one input would be told to carry what is another's.
@@ -107,7 +107,7 @@ def draw(inputs: Sequence[UnmeasuredInput], count: int, seed: int) -> Array:
 def intervals(
     function: Columns, inputs: Sequence[UnmeasuredInput], drawn: Array, values: Array, instead: float
 ) -> list[Interval]:
-    """The interval of each output. `values` are the outputs of `drawn`; `instead` stands for what never happens."""
+    """Return the interval of each output. `values` are outputs of `drawn`; `instead` replaces what never happens."""
     nominal, ends = one_at_a_time(function, inputs)
     return [
         _interval(inputs, float(as_drawn), at_ends, drawn, row, instead)

@@ -119,7 +119,7 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
 
 
 def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
-    """The optimum with other margins, warm from the one before and else from its inputs."""
+    """Return the optimum with other margins, warm from the last optimum or else from its inputs."""
     found = optimizer.solve(within, warm=run, objective=objective)
     return found if found.start.converged else optimizer.solve(within, begin=run.inputs, objective=objective)
 
@@ -133,7 +133,7 @@ def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
 
 
 def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
-    """How far within its limits to stay at a run's design, by limit [shares of its scale]."""
+    """Return the margins within its limits at a run's design, by limit [shares of its scale]."""
     sigma = optimizer.study.robust.sigma if optimizer.study.robust else None
     assert sigma is not None
     timed: list[Constraint] = []

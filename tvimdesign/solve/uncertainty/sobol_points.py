@@ -11,7 +11,7 @@ from tvimdesign.base.compile_cache import find_code, keep_code
 
 
 def sobol_points(dimensions: int, count: int, seed: int) -> NDArray[np.float64]:
-    """The first points of a sequence in the unit cube, one a row; `count` is a power of two."""
+    """Return the first points of a sequence in the unit cube, one a row; `count` is a power of two."""
     told = (f"scipy {version('scipy')}, numpy {version('numpy')}", f"Sobol {dimensions} {count} {seed}")
     kept = find_code(*told)
     if kept is not None:

@@ -35,7 +35,7 @@ class Kept:
 
 @dataclass(frozen=True)
 class Spread:
-    """What the spread of the inputs comes to; arrays are one row an output, one column a contributor."""
+    """Spread of outputs from that of the inputs; arrays have one output a row, one contributor a column."""
 
     contributors: tuple[spread.Contributor, ...]
     outputs: tuple[str, ...]
@@ -62,7 +62,7 @@ class Spread:
 
 @dataclass(frozen=True)
 class Preload:
-    """What the free angle's tolerance means to the joint, and what adjusting the preload does about it."""
+    """Effect of the free angle's tolerance on the joint, with and without adjusting the preload."""
 
     as_bought: float
     """Tolerance to either side [rad]."""
@@ -138,7 +138,7 @@ class Tolerancing:
         self.horizon = float(resolved.values["horizon"])
 
     def _asked(self) -> list[str]:
-        """What the study minimises and requires; of one that asks for nothing, what a summary shows up to the switch.
+        """Return the minimised and required outputs; without any, those that a summary shows up to the switch.
 
         What comes after the switch costs ten times as much, and is looked at where it is asked for.
         """
@@ -157,12 +157,12 @@ class Tolerancing:
         return any(contributor.name == name for contributor in contributors_of(self.resolved, adjusted=False))
 
     def _moves(self, output: str, names: Sequence[str]) -> bool:
-        """Whether an output depends on anything that spreads."""
+        """Return whether an output depends on anything that spreads."""
         above = {output.partition("@")[0], *self.resolved.table.ancestors(output)}
         return any(name.partition("@")[0] in above for name in names)
 
     def _on_preload(self, limit: Constraint) -> bool:
-        """Whether a limit is on an output that changes with the free angle."""
+        """Return whether a limit is on an output that changes with the free angle."""
         return bool(self.exact[self.outputs.index(limit.output), self.names.index(FREE_ANGLE)] != 0.0)
 
     @property
@@ -218,7 +218,7 @@ class Tolerancing:
         )  # fmt: skip
 
     def _kept(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
-        """Each limit, and all together."""
+        """Return each limit, and all together."""
         found = []
         every = np.ones(drawn.values.shape[1], dtype=bool)
         for limit in self.limits:
@@ -231,7 +231,7 @@ class Tolerancing:
         return tuple(found), spread.share_kept(every)
 
     def preload(self, samples: int, seed: int) -> Preload | None:
-        """The free angle as bought and adjusted; None where the study gives it no tolerance, or nothing hangs on it."""
+        """Return the free angle as bought and adjusted; None if it has no tolerance, or nothing depends on it."""
         draws = self.on_preload
         if draws is None:
             return None

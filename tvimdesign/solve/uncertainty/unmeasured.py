@@ -36,11 +36,11 @@ class UnmeasuredInput:
 
     @property
     def logarithmic(self) -> bool:
-        """Whether only the order of magnitude is known."""
+        """Return whether only the order of magnitude is known."""
         return self.low > 0.0 and self.high >= DECADE * self.low
 
     def ppf(self, share: Any) -> Array:
-        """The value below which a share of the range lies: even over the range, or over its logarithm."""
+        """Return the value below which a share of the range lies: even over the range, or over its logarithm."""
         share = np.asarray(share, dtype=float)
         if self.logarithmic:
             drawn: Array = self.low * np.exp(share * math.log(self.high / self.low))
@@ -50,7 +50,7 @@ class UnmeasuredInput:
 
 
 def unmeasured_inputs(resolved: ResolvedModule) -> list[UnmeasuredInput]:
-    """The inputs that still have the value of a chosen record, or of the table, which comes with a range.
+    """Return the inputs that still have the value of a record, or of the table, that comes with a range.
 
     A value that the study sets is the study's own. One that was `measured` counts with the interval its record has, and
     is known where it has none.
@@ -80,7 +80,7 @@ def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
 
 
 def before_measuring(inputs: Sequence[UnmeasuredInput]) -> list[UnmeasuredInput]:
-    """The same inputs with the ranges they would have had without measurements; values outside go to the nearer end."""
+    """Return the inputs with their ranges before measurements; values outside move to the nearer end."""
     return [
         one
         if one.before is None
@@ -90,7 +90,7 @@ def before_measuring(inputs: Sequence[UnmeasuredInput]) -> list[UnmeasuredInput]
 
 
 def _before(row: Input, record: Any, field: str) -> tuple[float, float] | None:
-    """The range of a measured value in the record its own is based on, where nobody had measured it there.
+    """Return the range of a measured value in the record it is based on, if nobody had measured it there.
 
     Of a record that is based on none, the range the input has without a record.
     """
@@ -124,7 +124,7 @@ def _entry(record: Any, field: str) -> Entry | None:
 def _within(
     row: Input, resolved: ResolvedModule, value: float, ends: tuple[float, float], status: str
 ) -> UnmeasuredInput | None:
-    """The input where its value is still the one the range belongs to, and a number that counts."""
+    """Return the input if its value is still that of the range, and a number that counts."""
     if row.name in resolved.study.module or resolved.values[row.name] != value:
         return None
     return UnmeasuredInput(row.name, value, max(ends[0], row.lower), min(ends[1], row.upper), status)

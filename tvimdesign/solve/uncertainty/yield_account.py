@@ -1,4 +1,4 @@
-"""What a yield that was asked for came to: how many modules keep the limits, what they are lost to, what it cost."""
+"""Account of a requested yield: modules that satisfy the limits, limits that lose the others, and the cost."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
 
 
 def _lost(drawn: Drawn, optimizer: Optimizer) -> list[LostTo]:
-    """The limits that most modules break, the worst first, with what spreads them most."""
+    """Return the limits that most modules violate, the worst first, with the strongest contributors to their spread."""
     worst = sorted(drawn.limits, key=lambda limit: drawn.shares[limit.name])[:_NAMED]
     return [
         LostTo(in_words(limit, optimizer.table), drawn.shares[limit.name], _first(drawn.carriers(limit.name)))

@@ -92,7 +92,7 @@ def _settled(
     optimizer: Optimizer, yields: Yields, run: Run, drawn: Drawn, within: Mapping[str, Ends], aim: float,
     objective: Objective | None, moves: Mapping[str, float], halvings: int,
 ) -> Run:  # fmt: skip
-    """The optimum whose margins hold for the modules that are predicted of it; the run itself where none is found."""
+    """Return the optimum whose margins fit its predicted modules; the run itself if there is none."""
     begun = run
     for _ in range(PREDICTIONS):
         margins = dict(optimizer.margins)
@@ -112,7 +112,7 @@ def _settled(
 
 
 def _no_better(found: Sequence[Robust]) -> bool:
-    """Whether the last two rounds reached the yield at the same objective."""
+    """Return whether the last two rounds reached the yield at the same objective."""
     last = found[-2:]
     return len(last) > 1 and all(one.reached for one in last) and same_optimum(last[0].run.start, last[1].run.start)
 
@@ -141,7 +141,7 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: C
 
 
 def _shifts(ordered: Array, place: int, may_give: NDArray[np.bool_]) -> Array:
-    """What each limit's residual must fall by for so many modules to keep it; it may rise where the limit may give."""
+    """Return the fall of each limit's residual that so many modules need; it may rise where the limit has room."""
     beyond = ordered[:, place]
     return np.where(may_give, beyond, np.maximum(beyond, 0.0))
 
@@ -165,7 +165,7 @@ def _tightened(
 
 
 def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
-    """The limits that hold a design."""
+    """Return the active limits of a design."""
     first, limits = optimizer.problem.equation_count, optimizer.problem.limits
     of_limits = run.multipliers[first : first + len(limits)]
     return {limit.name for limit, multiplier in zip(limits, of_limits, strict=True) if multiplier > _PRESSING}

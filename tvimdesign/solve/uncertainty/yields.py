@@ -1,4 +1,4 @@
-"""How many modules keep a study's limits at any of its designs: recorded once, drawn from scrambled Sobol points."""
+"""Yield of a study's limits at any of its designs: recorded once, drawn from scrambled Sobol points."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ class Yields:
         return replace(drawn, residuals=np.where(np.isfinite(drawn.residuals), moved, linear))
 
     def _linear(self, inputs: Array) -> Array:
-        """The limits' residuals in the modules of a design, to first order."""
+        """Return the limits' residuals in the modules of a design, to first order."""
         key = inputs.tobytes()
         if key not in self._first_orders:
             model = self._model
@@ -157,8 +157,8 @@ class Yields:
 
 
 def yields_of(optimizer: Optimizer) -> Yields:
-    """How many modules keep the limits at any design of a problem: recorded when first asked for, then kept as long as
-    the problem is.
+    """Return the yield of the limits at any design of a problem.
+    It is recorded at the first request and lives as long as the problem.
     """
     if optimizer not in _RECORDED:
         optimizer.progress("recording the equations, to draw modules")
