@@ -24,7 +24,7 @@ solver: {cells: 6, starts: 2}
 
 
 @pytest.mark.parametrize("first", [True, False])
-def test_a_design_within_all_limits_is_told_before_a_better_one_that_breaks_some(
+def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
     monkeypatch: pytest.MonkeyPatch, first: bool
 ) -> None:
     study = read_study_text(STUDY, "test")

@@ -19,7 +19,7 @@ def account(seconds: float) -> dict[str, Any]:
     return _plain(found)
 
 
-def test_an_account_tells_of_every_start_and_is_the_same_however_long_it_took() -> None:
+def test_an_account_lists_every_start_whatever_time_it_took() -> None:
     assert account(0.7) == account(31.0)
     first, second = account(0.7)["starts"]
     assert (first["number"], first["iterations"], first["end"]) == (1, 21, {"wire_diameter": 1.1e-3})

@@ -34,7 +34,7 @@ def test_the_pads_unpowered_are_a_module_with_no_cooling_current() -> None:
     assert "by the air alone: no current cools" in stiff(air)
 
 
-def test_a_foil_heater_cannot_cool_and_heats_whichever_way_its_current_flows() -> None:
+def test_a_foil_heater_heats_with_either_sign_of_its_current() -> None:
     alone, heated = module(FOIL), module(f"{FOIL}, peltier_seebeck: 1e-9 V/K, cooling_current: 0.1 A")
     assert alone.design.values["cooling_current"] == 0.0
     assert (alone.cooling.able, alone.cooling.used, alone.cooling.unpowered) == (False, False, {})

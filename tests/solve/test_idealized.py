@@ -53,7 +53,7 @@ def test_a_study_as_drawn_has_none() -> None:
     assert not any(row["idealized"] for row in results(found, TABLE)["values"].values())
 
 
-def test_every_idealization_of_the_table_is_no_default_and_says_what_it_leaves_out() -> None:
+def test_every_idealization_is_no_default_and_names_its_omission() -> None:
     idealized = {row.name: row for mode in ("shear", "compression") for row in table_for(mode).choices if row.idealized}
     assert set(idealized) == {"leg_model", "transmission", "phase_model"}
     for row in idealized.values():

@@ -74,7 +74,7 @@ def kelvins(solution: Solution, phase: str, line: Trajectory, i: int) -> np.ndar
 
 
 @pytest.mark.slow
-def test_more_pieces_are_never_slower_than_fewer_and_any_beats_a_constant_current() -> None:
+def test_more_pieces_are_never_slower_and_beat_a_constant_current() -> None:
     # Nodes of four pieces are nodes of eight; each is also free to stay constant.
     times = [solve(with_pieces(pieces)).values["response_time"] for pieces in (0, 1, 4, 8)]
     assert all(solve(with_pieces(pieces)).status == "optimal" for pieces in (0, 1, 4, 8))
@@ -135,7 +135,7 @@ def test_the_told_times_are_those_of_the_drives_simulated_again() -> None:
 
 
 @pytest.mark.slow
-def test_a_cycle_with_profiles_is_no_longer_than_one_with_constant_currents() -> None:
+def test_a_cycle_with_profiles_is_not_longer_than_with_constants() -> None:
     # A constant current must be small from the beginning, as the pads come to their temperature in the end; one that
     # falls takes all the power the supply has until they do.
     constant, profile = solve(CYCLE.replace("profile: {softening: 4, stiffening: 4}\n", "")), solve(CYCLE)
@@ -203,7 +203,7 @@ def test_ten_random_starts_find_one_profile() -> None:
 
 
 @pytest.mark.slow
-def test_ten_random_starts_of_the_whole_cycle_end_in_optima_that_are_all_told() -> None:
+def test_ten_random_starts_of_the_cycle_end_in_reported_optima() -> None:
     solution = solve(CYCLE.replace("starts: 1", "starts: 11"))
     assert sum(start.converged for start in solution.starts) >= 10
     reported = [start.objective for start in solution.distinct_optima()]

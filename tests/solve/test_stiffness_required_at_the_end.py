@@ -56,7 +56,7 @@ def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_optimiser_keeps_a_stiffness_at_the_end_that_the_simulation_confirms() -> None:
+def test_simulation_confirms_the_stiffness_required_at_the_end() -> None:
     free = _answer().design.values["softened_stiffness"]
     limit = free - 0.25 * (free - 4.0)
     held = _answer(f', softened_stiffness: "<= {limit:.6f} N.m/rad"')

@@ -37,7 +37,7 @@ def liquid_impedance(found: StudyResult, celsius: float) -> complex:
 
 
 @pytest.mark.slow
-def test_softening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_time() -> None:
+def test_softening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
     found = answered("current: 1.5 A", hot=60.0)
     low, high = found.intervals["softening_time"]
     target = abs(liquid_impedance(found, 60.0))
@@ -48,7 +48,7 @@ def test_softening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_tim
 
 
 @pytest.mark.gate
-def test_stiffening_to_a_point_in_the_melting_range_takes_from_to_and_not_one_time() -> None:
+def test_stiffening_to_a_point_in_the_melting_range_takes_an_interval() -> None:
     found = answered("current: 1.5 A", cold=60.0)
     low, high = found.intervals["stiffening_time"]
     assert 0.0 < low < found.design.value("stiffening_time") < high
@@ -63,7 +63,7 @@ def test_a_switch_that_never_ends_has_no_advice_on_what_never_began() -> None:
     assert not [check.text for check in found.warnings if not np.isfinite(check.value)]
 
 
-def test_the_sweep_over_temperature_reaches_from_liquid_up_inside_the_melting_range_and_is_a_line_outside() -> None:
+def test_the_temperature_sweep_is_a_band_in_the_melting_range_only() -> None:
     found = answered("current: 1.5 A")
     sweep = {name: np.array(column) for name, column in found.sweep.items()}
     inside = (sweep["temperature"] >= 45.0) & (sweep["temperature"] <= 70.0)
@@ -77,7 +77,7 @@ def test_the_sweep_over_temperature_reaches_from_liquid_up_inside_the_melting_ra
 
 
 @pytest.mark.gate
-def test_a_limit_that_only_some_histories_keep_is_undecided_and_the_design_carries_both_ends() -> None:
+def test_a_limit_that_only_some_histories_satisfy_is_undecided() -> None:
     points = "operating_points: {warm: {temperature: 60 degC}}\n"
     require = "require: {joint_stiffness@warm: '>= 100 N.m/rad', joint_stiffness@hot: '>= 1 N.m/rad'}\n"
     study = read_study_text(f"mode: shear\nmodule: {{{STIFF}}}\n{points}{require}", "a test")

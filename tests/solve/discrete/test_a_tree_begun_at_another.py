@@ -25,7 +25,7 @@ def trees() -> list[Relaxation]:
 
 
 @pytest.mark.slow
-def test_modules_that_no_limit_rules_out_come_to_an_optimum_from_their_own_starts(trees: list[Relaxation]) -> None:
+def test_modules_that_no_limit_excludes_reach_an_optimum_from_own_starts(trees: list[Relaxation]) -> None:
     # A mixed start whose joint is soft before it is heated was no place to begin from.
     for tree in trees:
         tree.starts()

@@ -163,7 +163,7 @@ def test_a_box_is_split_where_a_number_is_farthest_from_its_sizes(
     assert BranchAndBound(cast("list[Relaxation]", [bowl]), 1)._division(node).halves(node.box) == halves
 
 
-def test_a_box_that_was_never_solved_is_split_in_the_middle_of_its_longest_list() -> None:
+def test_an_unsolved_box_is_split_in_the_middle_of_its_longest_list() -> None:
     bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
     search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, solved=False)
     assert search._division(node).halves(node.box) == (((0, 2), (0, 1)), ((0, 2), (2, 3)))
@@ -193,7 +193,7 @@ def test_a_combination_solved_afresh_counts_where_it_is_better(again: float | No
     assert search.inside == pytest.approx(inside)
 
 
-def test_listed_numbers_have_their_sizes_from_the_smallest_up_and_records_have_none() -> None:
+def test_listed_numbers_have_ascending_sizes_and_records_have_none() -> None:
     study = read_study_text(
         "mode: shear\nminimize: module_mass\nvary:\n  wire_diameter: {choose: [2.5 mm, 2 mm]}\n"
         "  pcl_grade: {choose: [pcl_80k, pcl_50k]}\n  current: [1 A, 2 A]\n",

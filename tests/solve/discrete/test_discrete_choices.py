@@ -225,7 +225,7 @@ def test_the_price_is_that_of_the_combination_that_margins_led_to(found: Solutio
     assert "not known of wire_diameter 1 mm" in price_in_words(choosing, TABLE, unknown)
 
 
-def test_records_whose_numbers_alone_differ_share_a_problem_and_come_to_the_same() -> None:
+def test_records_that_differ_in_numbers_share_a_problem_and_optimum() -> None:
     text = POWERFUL.replace("vary:", "module: {structure_material: STUFF}\nvary:")
     petg, metal = (listed(text.replace("STUFF", name)) for name in ("petg", "aluminum_6061_t6"))
     first = Optimizer(petg)
@@ -267,7 +267,7 @@ def test_where_no_combination_has_a_design_that_is_said() -> None:
     assert choosing.without_design == choosing.combinations
 
 
-def test_where_a_design_lies_between_listed_sizes_the_study_is_infeasible_and_told_what_to_list() -> None:
+def test_a_design_between_listed_sizes_is_infeasible_with_advice() -> None:
     """By hand: the rate goes as the wire's diameter to the fourth, 3.56 N.m/rad at most with 2.6 mm, so that 2.4 mm has
     2.58 at most and 2.33 at least; between 2.65 and 3.1 the stroke fits at 2.5 mm, with neither of the two."""
     study = read_study_text(
@@ -301,7 +301,7 @@ def test_the_screen_refuses_what_arithmetic_alone_refuses() -> None:
     assert 4.0 * rate < 5.0 or stress > 0.5 * 2211e6 / 1.6**0.145 / 1.2
 
 
-def test_more_combinations_than_can_be_searched_are_refused_with_what_to_do() -> None:
+def test_too_many_combinations_are_refused_with_advice() -> None:
     text = LISTED.replace("{from: 3, to: 4, step: 0.5}", "{from: 3, to: 8, step: 0.03}").replace(
         "[12 mm, 30 mm]", "{from: 12 mm, to: 22 mm, step: 0.1 mm}"
     )

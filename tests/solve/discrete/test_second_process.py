@@ -125,7 +125,7 @@ def test_one_process_answers_in_the_order_of_the_tasks() -> None:
     assert [one.certain for one in OneProcess(trees).solve(tasks)] == [False, True, False]
 
 
-def test_a_task_of_the_other_process_is_not_waited_for_once_the_time_is_over(
+def test_no_wait_for_the_other_process_s_task_once_time_is_up(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     class Tree:

@@ -38,7 +38,7 @@ def tree() -> tuple[Relaxation, Run]:
     ("cold", "box", "certain", "searches"),
     [(NO_DESIGN, ((1, 1),), True, 2), (OVER, ((1, 1),), False, 2), (NO_DESIGN, ((0, 1),), False, 1)],
 )  # fmt: skip
-def test_a_warm_run_that_is_cut_short_leaves_several_combinations_open_and_not_one(
+def test_a_warm_run_cut_short_leaves_several_combinations_open(
     tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch,
     cold: str, box: Box, certain: bool, searches: int,
 ) -> None:  # fmt: skip
@@ -60,7 +60,7 @@ def test_a_warm_run_that_is_cut_short_leaves_several_combinations_open_and_not_o
     assert asked == [OVER] + [cold] * searches
 
 
-def test_no_search_begins_where_there_is_no_module_if_another_place_has_one(
+def test_no_search_starts_without_a_module_if_another_place_has_one(
     tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     relaxation, near = tree
@@ -86,7 +86,7 @@ def beginning_nowhere(relaxation: Relaxation, monkeypatch: pytest.MonkeyPatch, n
     return endings
 
 
-def test_where_no_run_can_begin_differential_evolution_finds_a_module_to_begin_at(
+def test_if_no_run_can_start_differential_evolution_finds_a_module(
     tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Legs that do not reach their pins, say: the run nearby with another size in it is no module."""
@@ -100,7 +100,7 @@ def test_where_no_run_can_begin_differential_evolution_finds_a_module_to_begin_a
     assert len(endings) == 2
 
 
-def test_a_combination_that_differential_evolution_finds_no_module_of_has_no_design_for_certain(
+def test_no_module_by_differential_evolution_is_certainly_no_design(
     tree: tuple[Relaxation, Run], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     relaxation, near = tree

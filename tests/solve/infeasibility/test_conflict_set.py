@@ -68,7 +68,7 @@ def test_a_limit_that_cannot_hold_is_named_with_what_the_ranges_allow() -> None:
     assert figure == f"{lightest:.4g}"  # in the digits that are printed
 
 
-def test_what_is_fixed_and_would_move_a_limit_most_is_named_and_doing_so_helps() -> None:
+def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
     text = (
         "mode: shear\nvary: {coil_diameter: [16 mm, 30 mm]}\n"
         'require: {envelope_diameter: "<= 137 mm"}\nminimize: module_mass\n'
@@ -105,7 +105,7 @@ def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None
     refuse_infeasible(_study(text.replace('spring_index: "<= 6", ', "")))
 
 
-def test_a_limit_nothing_varied_can_change_is_told_before_anything_is_built() -> None:
+def test_a_limit_that_nothing_varied_changes_is_reported_before_building() -> None:
     said = _refusal(
         "mode: shear\nvary: {pcl_thickness: [0.6 mm, 2 mm]}\n"
         'require: {envelope_diameter: "<= 100 mm"}\nminimize: pcl_mass\n'

@@ -32,7 +32,7 @@ def screen() -> FeasibilityScreen:
      ([0.1, 0.2, 0.1], [0.1, 0.0], False, 5), ([0.1, 0.2, 0.1], [np.nan, np.nan], True, 5)],
     ids=["neither finds one", "the sum finds one", "a sum has no least", "a worst finds one", "a worst has no least"],
 )  # fmt: skip
-def test_limits_cannot_be_kept_where_neither_measure_finds_a_point_that_keeps_them(
+def test_limits_are_infeasible_if_neither_measure_finds_a_point(
     screen: FeasibilityScreen, monkeypatch: pytest.MonkeyPatch,
     sums: list[float], worsts: list[float], impossible: bool, asked: int,
 ) -> None:  # fmt: skip

@@ -66,7 +66,7 @@ def test_without_a_current_profile_there_is_no_equation_to_condition(inspection:
     assert inspection.conditioning().equations == 1.0
 
 
-def test_a_driven_phase_s_time_follows_from_its_current_and_the_free_numbers() -> None:
+def test_a_driven_phase_s_time_follows_from_current_and_free_numbers() -> None:
     """Conditioning is by the free numbers alone: the time of the pieces is what the equation makes it."""
     text = TIMED.replace("minimize:", "profile: {softening: 3}\nminimize:")
     driven = Inspection(Optimizer(_study(text)))
@@ -94,7 +94,7 @@ solver: {starts: 1}
     assert {name for names in conditioning.objectives for name in names} == {"placement_radius", "wall_thickness"}
 
 
-def test_what_limits_see_of_the_free_numbers_is_that_of_differences_of_the_table() -> None:
+def test_effects_of_free_numbers_on_limits_match_differences() -> None:
     """Over the whole of the ranges, in logarithms, every row scaled to one; rows nothing changes are left out."""
     text = """
 mode: shear

@@ -75,7 +75,7 @@ def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.
     assert found.objective <= usual.objective * (1.0 + 1e-6)
 
 
-def test_of_the_designs_drawn_those_are_taken_that_break_their_limits_least(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_drawn_designs_of_least_violation_are_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = [float(number) for number in range(_DRAWN)]
     breaks = {5.0: 0.1, 2.0: 0.2, 9.0: 0.3}  # the switch of all others never ends
     monkeypatch.setattr(wide_search, "FeasibilityScreen", lambda _: None)

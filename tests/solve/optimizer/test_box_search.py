@@ -117,7 +117,7 @@ def test_a_search_ends_where_boxes_lead_nowhere(optimizer: Optimizer, design: Ar
 
 
 @pytest.mark.gate
-def test_a_study_none_of_whose_starts_comes_to_a_design_is_searched_in_boxes(optimizer: Optimizer) -> None:
+def test_a_study_without_a_feasible_start_is_searched_in_boxes(optimizer: Optimizer) -> None:
     """From designs all over the ranges, until two come to the same optimum."""
     study = optimizer.study
     tree = Relaxation(0, optimizer, {}, discrete_sizes(study, study.table), SolverEffort())

@@ -19,7 +19,7 @@ solver: {{cells: 6, starts: 1}}
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
-def test_a_limit_on_the_torque_is_put_on_the_core_s_foot_and_beside_each_set_of_holes(mode: str) -> None:
+def test_a_torque_limit_applies_at_the_core_s_foot_and_at_all_holes(mode: str) -> None:
     study = read_study_text(STUDY.format(mode=mode), "test")
     limited = {limit.output for limit in constraints_of(study, study.table)}
     assert set(CORE_PARTS) < limited
@@ -28,7 +28,7 @@ def test_a_limit_on_the_torque_is_put_on_the_core_s_foot_and_beside_each_set_of_
     assert parts["core_holding_torque"] == min(parts[name] for name in CORE_PARTS)
 
 
-def test_a_search_over_the_kink_between_a_core_s_foot_and_its_holes_comes_to_an_end() -> None:
+def test_a_search_over_the_kink_between_foot_and_holes_ends() -> None:
     """As one limit on the core it runs out of 300 iterations; its foot and its holes apart take some thirty."""
     run = Optimizer(read_study_text(STUDY.format(mode="shear").replace("[7 mm", "[6 mm"), "test")).solve()
     assert run.start.converged

@@ -53,14 +53,14 @@ def drawn(count: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("starts", [1, 4])
-def test_the_study_s_own_start_comes_first_and_the_others_are_even_in_the_logarithm(starts: int) -> None:
+def test_the_study_s_start_comes_first_and_others_are_log_even(starts: int) -> None:
     found, said = searches(starts)
     assert sizes(found) == pytest.approx([2.0, *drawn(starts - 1)])
     assert found.passed_over == {"switch never ends": 0, "no such module": 0}
     assert said == []
 
 
-def test_points_whose_switch_never_ends_are_passed_over_and_counted_the_own_start_too() -> None:
+def test_points_whose_switch_never_ends_are_skipped_and_counted() -> None:
     found, said = searches(3, own=2.0, takes=lambda size: np.inf if size < 10.0 else size)
     ends = [size for size in drawn(50) if size >= 10.0][:3]
     tried = 1 + list(drawn(50)).index(ends[-1]) + 1
@@ -69,7 +69,7 @@ def test_points_whose_switch_never_ends_are_passed_over_and_counted_the_own_star
     assert said == ["the switch of the study's own start never ends, or takes no time: starting elsewhere"]
 
 
-def test_points_at_which_there_is_no_such_module_are_passed_over_unsimulated() -> None:
+def test_points_without_a_module_are_skipped_unsimulated() -> None:
     simulated: list[float] = []
 
     def takes(size: float) -> float:
@@ -102,7 +102,7 @@ def test_where_no_point_will_do_the_search_begins_at_the_study_s_own() -> None:
     assert found.passed_over["no such module"] == MAX_DRAWS
 
 
-def test_a_point_that_can_be_simulated_takes_the_place_of_a_start_that_cannot() -> None:
+def test_a_point_that_simulates_replaces_a_start_that_does_not() -> None:
     def takes(size: float) -> float:
         if size < 10.0:
             raise SimulationError("it cannot be simulated")

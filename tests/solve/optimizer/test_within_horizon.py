@@ -59,7 +59,7 @@ LISTED = STUDY.replace("}\nmin", ", pcl_thickness: {from: 0.8 mm, to: 1.2 mm, st
 
 
 @pytest.mark.gate
-def test_a_search_that_goes_beyond_the_horizon_begins_again_before_it_looks_through_lists(
+def test_a_search_beyond_the_horizon_restarts_before_it_searches_lists(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # A random study (20264018) was through its 60 s with the lists of a switch that never ends.

@@ -156,9 +156,7 @@ def test_no_point_of_two_fronts_beats_one_of_the_other(pair: Front, triple: Fron
                 assert not all(there.values[name] < point.values[name] * 0.995 for name in (TIME, MASS, SIZE))
 
 
-def test_every_point_is_once_completed_a_whole_design_that_keeps_what_the_study_requires(
-    solved: Solved, pair: Front
-) -> None:
+def test_every_completed_point_is_a_design_that_satisfies_the_study(solved: Solved, pair: Front) -> None:
     table, whole = table_for(solved.study.mode), completed(pair, solved.trade())
     for partly, point in zip(pair.points, whole.points, strict=True):
         assert {TIME, MASS} <= partly.values.keys() < point.values.keys()

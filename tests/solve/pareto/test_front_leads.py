@@ -29,7 +29,7 @@ def test_two_lines_cross_where_their_equations_say() -> None:
     assert found[2].most == pytest.approx(4.25 / 2.0)
 
 
-def test_a_front_reaches_nothing_below_its_first_point_and_stays_beyond_its_last() -> None:
+def test_a_front_is_infinite_below_its_first_point_and_flat_past_its_last() -> None:
     assert reached(FALLING, 0.99) == math.inf
     assert reached(FALLING, 3.0) == pytest.approx(6.0)
     assert reached(FALLING, 50.0) == 2.0

@@ -55,7 +55,7 @@ def test_spread_is_the_largest_gap_over_the_mean_one_whatever_the_order() -> Non
     assert shape.spread(points[::-1]) == pytest.approx(1.5)
 
 
-def test_a_line_leads_through_its_place_and_every_output_falls_alike_along_it() -> None:
+def test_every_output_falls_alike_along_the_line_through_a_place() -> None:
     names, reference = ("a", "b", "c"), {"a": 2.0, "b": 30.0, "c": 0.4}
     ends = [{"a": 1.0, "b": 50.0, "c": 0.6}, {"a": 3.0, "b": 10.0, "c": 0.5}, {"a": 2.0, "b": 40.0, "c": 0.1}]
     frame = Frame.of(names, ends)
@@ -102,7 +102,7 @@ def test_ends_on_a_line_make_a_thin_front() -> None:
     assert not shape.thin(np.array([[-2.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -2.0]]))
 
 
-def test_the_knee_is_deepest_below_the_plane_of_the_ends_however_that_leans() -> None:
+def test_the_knee_is_deepest_below_any_plane_of_the_ends() -> None:
     # The plane through the ends has the normal (0.36, 0.2, 0.2); the fifth point has the smallest sum, the fourth lies
     # 0.144 below the plane in that measure, the fifth 0.088.
     ends = [[0.0, 1.0, 1.0], [1.0, 0.0, 0.2], [1.0, 0.2, 0.0]]

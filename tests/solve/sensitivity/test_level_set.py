@@ -43,7 +43,7 @@ def test_a_point_on_a_line_takes_the_time_when_it_is_simulated(model: DeviceFunc
     assert points >= 4
 
 
-def test_where_the_line_has_a_gap_no_thickness_of_the_grid_is_on_either_side(found: LevelSet) -> None:
+def test_no_grid_thickness_lies_beside_a_gap_of_the_line(found: LevelSet) -> None:
     gaps = 0
     for place in PLACES:
         for times, thickness in zip(found.times[place], found.line[place], strict=True):

@@ -23,7 +23,7 @@ def module() -> ResolvedModule:
     return resolve_study(read_study_text(TEXT, "a test"))
 
 
-def test_half_time_and_slope_of_freezing_are_moved_and_what_is_one_fact_with_them_is_not(
+def test_half_time_and_slope_of_freezing_move_without_their_dependents(
     module: ResolvedModule,
 ) -> None:
     names = {one.name for one in unmeasured_inputs(module)}

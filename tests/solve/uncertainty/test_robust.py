@@ -76,7 +76,7 @@ def _together(study: str, seed: int) -> float:
 
 
 @pytest.mark.slow
-def test_a_yield_is_of_all_limits_together_and_an_independent_draw_finds_it() -> None:
+def test_an_independent_draw_confirms_the_yield_of_all_limits_together() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.8 N.m/rad"]')
     assert _together(band, 11) < 0.55
     assert 0.9 <= _together(f"{band}robust: {{yield: 90 %}}\n", 11) < 0.93
@@ -114,7 +114,7 @@ def test_what_a_yield_costs_is_told() -> None:
     assert line.endswith(f"({share:+.2g} %)")
 
 
-def test_a_yield_that_cannot_be_reached_says_which_limit_loses_it_and_by_which_tolerance() -> None:
+def test_an_unreachable_yield_names_the_limit_and_the_tolerance() -> None:
     band = ALGEBRAIC.replace('">= 5 N.m/rad"', '[">= 5 N.m/rad", "<= 5.1 N.m/rad"]')
     study = read_study_text(f"{band}robust: {{yield: 95 %}}\n", "a test")
     found = answer(study)
@@ -129,7 +129,7 @@ def test_a_yield_that_cannot_be_reached_says_which_limit_loses_it_and_by_which_t
 
 
 @pytest.mark.slow
-def test_every_point_of_a_front_keeps_limits_on_times_by_as_much_as_the_optimum_does() -> None:
+def test_every_point_of_a_front_has_the_optimum_s_margin_on_times() -> None:
     study = read_study_text(f"{TIMED}robust: {{sigma: 1.5}}\n", "a test")
     objectives = ("peak_power", "response_time")
     # Its optimum is far from the limit on the time, where the time spreads less: that margin is too small for others.

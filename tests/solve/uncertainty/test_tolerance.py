@@ -166,7 +166,7 @@ def test_a_study_that_asks_for_one_thing_is_told_of_that_alone(
     assert _asked(resolved(f"tolerances:\n{SPRINGS}{asks}")) == ["module_mass"]
 
 
-def test_a_study_that_asks_for_nothing_is_told_what_spreads_up_to_the_switch(
+def test_without_requirements_the_spread_of_the_switch_is_reported(
     resolved: Callable[[str], ResolvedModule],
 ) -> None:
     module = resolved("tolerances: {pcl_thickness: 0.05 mm}\n")
