@@ -195,21 +195,22 @@ def test_a_requirement_nothing_can_change_is_named_with_what_could(tvimdesign: C
 def test_conflicting_requirements_end_in_exit_code_3_and_keep_the_results(process: Command, tmp_path: Path) -> None:
     file = tmp_path / "impossible.yaml"
     file.write_text(
-        "mode: shear\nmodule: {placement_radius: 62 mm, pin_diameter: 6 mm}\n"
-        "vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], coil_count: [3, 8]}\n"
-        'require: {spring_stiffness: ">= 20 N.m/rad", spring_fatigue_safety: ">= 3"}\nminimize: module_mass\n'
-        "solver: {starts: 1, max_iterations: 60}\n"
+        "mode: shear\nvary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm], current: [0.5 A, 2 A]}\n"
+        'require: {response_time: "<= 150 s", peak_power: "<= 9 W", spring_stiffness: ">= 5 N.m/rad"}\n'
+        "minimize: module_mass\nsolver: {cells: 8, starts: 1}\n"
+        "accept: [structure_temperature_margin, stiffening_structure_margin, peltier_temperature_margin]\n"
     )
+    assert process("check", file).returncode == 0  # only the search can tell
     done = process("run", file, "--no-cad", "--no-plots", "--out", tmp_path / "out")
     assert done.returncode == 3
     assert "These cannot hold together" in done.stderr
-    assert re.search(r"spring_stiffness >= 20 N·m/rad: alone it would have to move to >= \d", done.stderr)
+    assert re.search(r"peak_power <= 9 W: alone it would have to move to <= \d", done.stderr)
     reported = json.loads((tmp_path / "out/results.json").read_text())
     assert reported["status"].startswith("infeasible")
     assert not reported["feasible"]
     assert {side["limit"].split(" ")[0] for side in reported["conflict_set"]["cannot_hold_together"]} == {
-        "spring_stiffness",
-        "spring_fatigue_safety",
+        "response_time",
+        "peak_power",
     }
     assert (tmp_path / "out/design.json").exists()
 

@@ -57,6 +57,7 @@ def optimize(
     keep: Keep = lambda *_: None,
     objectives: Sequence[str] = (),
     deadline: Deadline | None = None,
+    checked: bool = False,
 ) -> Solution:
     """Find the best design of a study: every start, every listed choice. Raises InputError, InfeasibleError.
 
@@ -64,13 +65,16 @@ def optimize(
     `keep` is handed the problem, with its solvers, that the best design came from, and the runs of its starts; outputs
     that are `traded` can be weighed and bounded with it afterwards. An interrupt comes out as SearchInterrupted, which
     has the best design so far.
+    A study that is `checked` has passed `refuse_infeasible` and `refuse_unreachable`, which are not asked again.
     The search ends in time for its design to be verified before the `deadline`: the study's time limit from now on
     unless given. Raises TimeOverError where there is no time to search.
     """
     trees: list[Relaxation] = []
     try:
         whole = deadline or Deadline(study.solver.time_limit)
-        return _optimize(study, progress, reference, keep, objectives, trees, whole)
+        if not checked:
+            refuse_unreachable(study, whole.leaving(_TO_VERIFY * whole.seconds))
+        return _optimize(study, progress, reference, keep, objectives, trees, whole, checked)
     except (KeyboardInterrupt, Exception) as error:
         if isinstance(error, KeyboardInterrupt) or interrupt_came():  # a library raises something else for one
             raise SearchInterrupted(best_so_far(study, trees)) from error
@@ -85,10 +89,10 @@ def _optimize(
     objectives: Sequence[str],
     trees: list[Relaxation],
     whole: Deadline,
+    checked: bool,
 ) -> Solution:
     """Optimise up to a deadline; fill `trees` with the problems of the search."""
     deadline = whole.leaving(_TO_VERIFY * whole.seconds)
-    refuse_unreachable(study, deadline)
     sizes, families = discrete_sizes(study, study.table), families_of(study)
     refuse_too_many(families, sizes)
     combinations = sizes.count * sum(family.count for family in families)
@@ -116,7 +120,7 @@ def _optimize(
     if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
-        return _optimize(in_time, progress, reference, keep, objectives, trees, whole)
+        return _optimize(in_time, progress, reference, keep, objectives, trees, whole, checked)
     relaxation, run = min(found, key=lambda one: order(one[1]))
     recorded = [*free, *(found if listed else [])]
     nominal = run
@@ -127,7 +131,7 @@ def _optimize(
             recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
     margined = study.robust is not None and study.robust.share is not None and run is not nominal
     run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
-    if start_infeasible and conflict_set is None and not (run.start.converged or deadline.passed):
+    if start_infeasible and conflict_set is None and not (checked or run.start.converged or deadline.passed):
         refuse_infeasible(study, deadline)
     settled = put_at_bounds(relaxation.optimizer, run)
     recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled

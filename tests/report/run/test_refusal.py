@@ -1,4 +1,4 @@
-"""What `check` refuses, `run` finds before it searches, and leaves its reason in the folder."""
+"""A run ends before its search with what `check` refuses; a later refusal leaves its reason in the folder."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.run import answered_study
 from tvimdesign.report.run import run_study as module
+from tvimdesign.report.run.check_study import check_study
 
 STUDY = """mode: shear
 vary: {wire_diameter: [1.2 mm, 3.2 mm], coil_diameter: [8 mm, 32 mm]}
@@ -28,27 +29,21 @@ def _run(path: Path, out: Path, *, as_json: bool = False) -> None:
     module.run_study(path, out, overwrite=False, cad=False, plots=False, as_json=as_json)
 
 
-@pytest.mark.gate
-def test_one_start_of_thirty_is_enough_for_what_check_refuses(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_what_check_refuses_ends_a_run_before_its_folder_is_touched(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(answered_study, "answer", lambda *_, **__: pytest.fail("it searched"))
     path, out = tmp_path / "impossible.yaml", tmp_path / "out"
     path.write_text(STUDY)
-    with pytest.raises(InfeasibleError, match="envelope_diameter <= 120 mm cannot hold") as refused:
+    with pytest.raises(InfeasibleError, match="envelope_diameter <= 120 mm cannot hold") as checked:
+        check_study(path, as_json=False)
+    with pytest.raises(InfeasibleError) as refused:
         _run(path, out, as_json=True)
-    assert refused.value.exit_code == 3
-    reported = json.loads((out / "results.json").read_text())
-    jsonschema.validate(reported, results_schema())
-    assert reported["feasible"] is False
-    assert len(json.loads((out / "design.json").read_text())["solution"]["starts"]) == 1
-    (limit,) = reported["conflict_set"]["cannot_hold_together"]
-    assert limit["limit"] == "envelope_diameter <= 120 mm"
-    assert "envelope_diameter" in (out / "summary.txt").read_text()
-    assert "Infeasible because diameter &lt;= 120 mm cannot hold" in (out / "report.html").read_text()
-    assert (out / "study.yaml").read_text() == STUDY
+    assert (str(refused.value), refused.value.exit_code) == (str(checked.value), 3)
+    assert not out.exists()
     said = json.loads(capsys.readouterr().out)
     jsonschema.validate(said, results_schema())
-    assert said["folder"] == str(out)
+    assert (said["status"], said["reason"]) == ("infeasible", str(checked.value))
 
 
 def test_a_reason_that_ends_the_run_early_is_left_in_the_folder(

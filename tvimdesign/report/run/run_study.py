@@ -24,7 +24,8 @@ from tvimdesign.base.extras import how_to_install
 from tvimdesign.report.command import done_in_part, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.study import read_tree
+from tvimdesign.report.run.check_study import refuse_what_cannot_be
+from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import read_design, write_design
 from tvimdesign.study.tree import tree_of_file
 
@@ -45,14 +46,18 @@ def run_study(
     path: Path, out: Path, *, overwrite: bool, cad: bool, plots: bool, as_json: bool, sensitivities: bool = False,
     resume: bool = False, prove: bool = False, full: bool = False, settings: Sequence[str] = (),
 ) -> None:  # fmt: skip
-    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done."""
+    """Answer a study and write its folder. Raises InputError, InfeasibleError, and TvimError for what is not done.
+
+    A study that `check` refuses ends there, before the folder is touched.
+    """
     began = time.perf_counter()
     tree = tree_of_file(path, settings)
     study = read_tree(tree)
+    deadline = Deadline(study.solver.time_limit)
+    _check(study, deadline, as_json=as_json)
     without = how_to_install("cad") if cad and study.write.cad else ""
     with ExitStack() as stack:
         folder = stack.enter_context(ResultsFolder(out, overwrite, resume))
-        deadline = Deadline(study.solver.time_limit)
         # Begun before what solves and reports is loaded here: both take their time to load as much.
         making = stack.enter_context(_parts_ahead(study.mode)) if cad and study.write.cad and not without else None
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
@@ -74,7 +79,7 @@ def run_study(
                 prove=prove,
                 sensitivities=sensitivities,
                 folder=folder,
-                search=partial(optimize, deadline=deadline),
+                search=partial(optimize, deadline=deadline, checked=True),
                 early=best.note,
                 designed=_asked_of_design(making, folder, uncertainty),
                 deadline=deadline,
@@ -105,6 +110,18 @@ def run_study(
         finish(folder, answered)
     _say_last(answered, folder.out, failures, without if found.found else "", as_json=as_json)
     _end_as(answered)
+
+
+def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
+    """Raise what `check` raises; print the JSON of a study whose limits conflict."""
+    try:
+        refuse_what_cannot_be(study, deadline=deadline)
+    except InfeasibleError as error:
+        if as_json:
+            from tvimdesign.report.run.write_answer import refused_run
+
+            print(json.dumps(refused_run(study, error), indent=2))
+        raise
 
 
 def _parts_ahead(mode: str) -> BackgroundPartsJob:

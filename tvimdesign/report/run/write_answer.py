@@ -65,6 +65,14 @@ def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:
     return {"study": path, **records} if path else records
 
 
+def refused_run(study: Study, error: InfeasibleError) -> RefusedRun:
+    """Return the content of results.json for a study that was refused."""
+    return {
+        "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
+        "status": "infeasible", "feasible": False, "reason": str(error),
+    }  # fmt: skip
+
+
 @contextmanager
 def write_failure(
     folder: ResultsFolder, tree: StudyTree, study: Study, progress: Progress, *, as_json: bool
@@ -77,10 +85,7 @@ def write_failure(
         from tvimdesign.report.run.run_page import refused_page
 
         progress("")  # raises KeyboardInterrupt where a solver swallowed one, and its failure looks like a conflict
-        refused: RefusedRun = {
-            "format": FORMAT, "units": UNITS, "name": study.name, "mode": study.mode,
-            "status": "infeasible", "feasible": False, "reason": str(error),
-        }  # fmt: skip
+        refused = refused_run(study, error)
         folder.write("study.yaml", study_file(tree))
         folder.write("study.resolved.json", study.model_dump_json(indent=2) + "\n")
         folder.write_json("results.json", refused)
