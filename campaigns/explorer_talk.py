@@ -68,5 +68,5 @@ def not_kept(conversation: Conversation, study: Path, folder: Path) -> list[str]
         there = open_history(folder, source.text, source.first).state.at
     except TvimError as error:
         return [f"cannot be opened again: {error}"]
-    told = [{**source.first.at, **changes} for changes in (conversation.kept, conversation.asked)]
+    told = [{**source.first.at, **changes} for changes in (conversation.history, conversation.asked)]
     return [] if there in told else [f"kept {there}, said {told[0]}"]

@@ -142,7 +142,7 @@ class Talking:
         """What an explorer that is opened again does not have of what it said that it kept."""
         self._thread.join(10.0)
         if not (self._own / "out/explore.json").exists():
-            return ["nothing is kept"] if self._conversation.kept else []
+            return ["nothing is kept"] if self._conversation.history else []
         return explorer_talk.not_kept(self._conversation, SMALL, self._own / "out")
 
 
@@ -286,17 +286,22 @@ class Through:
     """Of the processor."""
 
 
+def prepare(command: str, folder: Path) -> None:
+    """Make the results that a command works on, beside the folders of its tries."""
+    place, words = FIRST.get(command, ("", []))
+    if place and not (folder / place).exists():
+        (folder / place).mkdir()
+        if start(words, folder / place).wait():
+            sys.exit(f"what {command} needs ends badly: {(folder / place / 'said.txt').read_text()}")
+
+
 def run_through(command: str, folder: Path) -> Through:
     """Run a command to its end, which must be a good one; an explorer has none."""
     own = folder / f"{command}-through"
     own.mkdir()
     if command == SERVES:
         return Through(own / "out", SERVED)
-    place, words = FIRST.get(command, ("", []))
-    if place and not (folder / place).exists():
-        (folder / place).mkdir()
-        if start(words, folder / place).wait():
-            sys.exit(f"what {command} needs ends badly: {(folder / place / 'said.txt').read_text()}")
+    prepare(command, folder)
     if command in KEPT and start(COMMANDS[command], own, KEPT[command]).wait() == 0:  # what is kept is no part of a try
         shutil.rmtree(own / "out")
     before = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -47,7 +47,10 @@ from tvimdesign.explore.states.source import open_source
 def test_a_command_that_is_ended_leaves_nothing_behind(
     command: str, number: signal.Signals, after: float, tmp_path: Path
 ) -> None:
-    assert kills.faults_after(Try(command, number, after), tmp_path) == []
+    kills.prepare(command, tmp_path)
+    own = tmp_path / "one"
+    own.mkdir()
+    assert kills.faults_after(Try(command, number, after), own) == []
 
 
 def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -59,11 +62,9 @@ def test_the_campaign_refuses_a_command_that_fails_by_itself(tmp_path: Path, mon
 @pytest.mark.slow
 @pytest.mark.parametrize("number", kills.SIGNALS)
 def test_parts_of_cells_that_are_ended_leave_nothing_behind(number: signal.Signals, tmp_path: Path) -> None:
-    place, words = kills.FIRST["cells"]
+    kills.prepare("cells", tmp_path)
     own = tmp_path / "one"
-    for folder in (tmp_path / place, own):
-        folder.mkdir()
-    assert kills.start(words, tmp_path / place).wait() == 0
+    own.mkdir()
     assert kills.faults_after(Try("cells", number, 8.0), own) == []
 
 
