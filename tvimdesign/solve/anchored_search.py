@@ -71,19 +71,19 @@ class AnchoredSearch:
     @cached_property
     def _anchor(self) -> Anchor | None:
         """The anchor's optimum; None where it has none."""
-        kept: list[Anchor] = []
+        alive: list[Anchor] = []
 
         def remember(optimizer: Optimizer, runs: list[Run]) -> None:
             converged = [run for run in runs if run.start.converged]
             if converged:
                 best = min(converged, key=lambda run: run.start.objective)
-                kept.append(Anchor(self._anchor_study, optimizer, best))
+                alive.append(Anchor(self._anchor_study, optimizer, best))
 
         try:
             optimize(self._anchor_study, reference=self._reference, keep=remember)
         except (InfeasibleError, InputError, TimeOverError):
             return None
-        return kept[0] if kept else None
+        return alive[0] if alive else None
 
     def _warm(self, study: Study, table: Table) -> Solution | None:
         """Return the optimum sought from the anchor's; None if that is impossible or no optimum results."""
@@ -127,8 +127,8 @@ def _problem(study: Study, table: Table) -> dict[str, Any]:
     """Return a study's data without its name and its fixed numbers."""
     shape = {name: value for name, value in study.module.items() if not _is_number(name, table)}
     points = tuple(study.operating_points)
-    kept = study.model_dump(exclude={"name", "description", "module", "operating_points", "write", "tolerances"})
-    return {**kept, "module": shape, "points": points}
+    data = study.model_dump(exclude={"name", "description", "module", "operating_points", "write", "tolerances"})
+    return {**data, "module": shape, "points": points}
 
 
 def _is_number(name: str, table: Table) -> bool:

@@ -20,10 +20,10 @@ class SearchInterrupted(KeyboardInterrupt):
 
 def best_so_far(study: Study, trees: Sequence[Relaxation]) -> Study | None:
     """Return the study started at the best design its problems have reached; None if there is none yet."""
-    found = [(order(tree.best), tree.place, tree) for tree in trees if tree.best is not None]
-    if not found:
+    bests = [(order(tree.best), tree.place, tree) for tree in trees if tree.best is not None]
+    if not bests:
         return None
-    tree = min(found)[-1]
+    tree = min(bests)[-1]
     assert tree.best is not None
     values = dict(zip(tree.optimizer.model.names, tree.best.inputs.tolist(), strict=True))
     return started_at(study, values, tree.best.start.choices)

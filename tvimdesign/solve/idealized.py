@@ -46,7 +46,7 @@ def idealizations(
 ) -> tuple[Idealization, ...]:
     """Return the idealizations of a module, each alone; `values` are with all of them, `inputs` in their order."""
     table = resolved.table
-    found = []
+    rows = []
     for row in table.choices:
         word = resolved.values[row.name]
         if isinstance(word, str) and word in row.idealized:
@@ -55,8 +55,8 @@ def idealizations(
             if not without:
                 needing = [other.name for other in table.outputs if row.name in table.ancestors(other.name)]
                 changed = {name: np.nan for name in values if name.partition("@")[0] in needing}
-            found.append(Idealization(row.name, word, row.default, row.idealized[word], changed))
-    return tuple(found)
+            rows.append(Idealization(row.name, word, row.default, row.idealized[word], changed))
+    return tuple(rows)
 
 
 def _without(

@@ -31,7 +31,7 @@ def at_its_start(study: Study) -> dict[str, float] | None:
 
 def common(starts: Sequence[Values | None]) -> dict[str, float]:
     """Geometric mean of every output over the studies, whatever their order; of nothing but zeros, one."""
-    found = [values for values in starts if values is not None]
-    names = dict.fromkeys(name for values in found for name in values)
-    sizes = {name: [abs(values[name]) for values in found if values[name] != 0.0] for name in names}
+    known = [values for values in starts if values is not None]
+    names = dict.fromkeys(name for values in known for name in values)
+    sizes = {name: [abs(values[name]) for values in known if values[name] != 0.0] for name in names}
     return {name: math.exp(math.fsum(map(math.log, of)) / len(of)) if of else 1.0 for name, of in sizes.items()}

@@ -145,8 +145,8 @@ def answer(
     except KeyboardInterrupt as interrupt:
         if solution.status not in {OPTIMAL, BELOW_YIELD}:
             raise
-        found = dict(zip(solution.model.names, solution.inputs.tolist(), strict=True))
-        raise SearchInterrupted(started_at(study, found, _choices(solution.model, study.table))) from interrupt
+        inputs = dict(zip(solution.model.names, solution.inputs.tolist(), strict=True))
+        raise SearchInterrupted(started_at(study, inputs, _choices(solution.model, study.table))) from interrupt
 
 
 def _result(study: Study, solution: Solution | None, designed: Designed) -> StudyResult:

@@ -97,19 +97,19 @@ class CycleKernel:
         With `only` some phases, by name, what belongs to the others is infinite. Raises TimeOverError at the deadline.
         """
         count = columns.shape[1]
-        found = np.empty((len(self.names), count))
+        results = np.empty((len(self.names), count))
         starts = range(0, count, BLOCK)
 
         def fill(start: int) -> None:
             deadline.check("all modules were drawn")
             values = self._block(np.ascontiguousarray(columns[:, start : start + BLOCK]), pace, only)
             for i, name in enumerate(self.names):
-                found[i, start : start + BLOCK] = values[name]
+                results[i, start : start + BLOCK] = values[name]
 
         with ThreadPoolExecutor(workers) as pool:
             for _ in pool.map(fill, starts):
                 pass
-        return found
+        return results
 
     def fitted(self, pace: Pace, column: Array) -> Pace:
         """Choose the steps of each phase for designs about one, as coarse as is exact enough for all values."""
@@ -129,7 +129,7 @@ class CycleKernel:
             known = np.isfinite(longest)
             slopes = np.linalg.lstsq(drawn[:, known].T, longest[known] / longest[0] - 1.0)[0]
             some = _of(columns, known), None if before is None else _of(before, known), usual, balance
-            values = {row: found[known] for row, found in exact.values.items()}
+            values = {row: values_of_row[known] for row, values_of_row in exact.values.items()}
             for steps in COARSE:
                 fits[name] = Fit(steps, column, slopes, shares)
                 if _apart(phase.run(*some, fits[name], until=LATE * usual).values, values) < CLOSE:
@@ -138,9 +138,9 @@ class CycleKernel:
 
     def course(self, column: Array, pace: Pace) -> tuple[dict[str, float], dict[str, Course]]:
         """Values of `names` for one design, and its states step by step through each phase to what ends it."""
-        kept: dict[str, Course] = {name: [] for name in self.phases}
-        values = self._block(np.ascontiguousarray(column[:, None]), pace, None, kept)
-        return {name: float(found[0]) for name, found in values.items()}, kept
+        courses: dict[str, Course] = {name: [] for name in self.phases}
+        values = self._block(np.ascontiguousarray(column[:, None]), pace, None, courses)
+        return {name: float(samples[0]) for name, samples in values.items()}, courses
 
     def _block(
         self, columns: Array, pace: Pace, only: Collection[str] | None, keep: Mapping[str, Course] | None = None
@@ -157,7 +157,7 @@ class CycleKernel:
                 columns, before, pace.times[name], pace.balances.get(name), pace.fits.get(name), course
             )
             ended = ~np.isnan(before[0]) if before is not None else np.ones(columns.shape[1], dtype=bool)
-            values |= {row: np.where(ended, found, np.inf) for row, found in passed[name].values.items()}
+            values |= {row: np.where(ended, reached, np.inf) for row, reached in passed[name].values.items()}
         return {name: values[name] for name in self.names}
 
 

@@ -29,8 +29,8 @@ class Kernel:
     def __init__(self, function: Any) -> None:
         """Record. Raises ValueError for an operation that the interpreter does not know."""
         scalar = function if function.is_a("SXFunction") else function.expand()
-        arguments = [ca.densify(one) for one in scalar.sx_in()]
-        results = [ca.densify(one) for one in scalar.call(arguments, True, False)]
+        arguments = [ca.densify(argument) for argument in scalar.sx_in()]
+        results = [ca.densify(result) for result in scalar.call(arguments, True, False)]
         self._tape = Tape.of(arguments, results)
         self._places = np.arange(self._tape.arguments[-1])
         self._results = np.concatenate(self._tape.results)
@@ -42,20 +42,20 @@ class Kernel:
         rows, count = given.shape
         if rows != self.rows_in:
             raise ValueError(f"the kernel takes {self.rows_in} rows, got {rows}")
-        found = np.empty((self.rows_out, count))
+        results = np.empty((self.rows_out, count))
 
         def fill(start: int) -> None:
             end = min(start + _BLOCK, count)
-            evaluate(self._tape.code, lanes_of(self._tape), self._places, given, self._results, found, start, end)
+            evaluate(self._tape.code, lanes_of(self._tape), self._places, given, self._results, results, start, end)
 
         if workers == 1 or count <= _BLOCK:
             for start in range(0, count, _BLOCK):
                 fill(start)
-            return found
+            return results
         with ThreadPoolExecutor(workers) as pool:
             for _ in pool.map(fill, range(0, count, _BLOCK)):
                 pass
-        return found
+        return results
 
 
 def of_columns(function: Any, base: Sequence[Array], moving: Sequence[tuple[int, int]]) -> Any:

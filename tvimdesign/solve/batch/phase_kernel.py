@@ -48,7 +48,8 @@ class PhaseKernel:
         self.events, self.steadies = list(events), list(steadies)
         reduced = {row.name: row.reduce for row in phase.paths if row.name in paths}
         self.integrals, self.highest, self.at_end = (
-            [name for name, reduce in reduced.items() if reduce == one] for one in ("integral", "maximum", "end")
+            [name for name, reduce in reduced.items() if reduce == reduction]
+            for reduction in ("integral", "maximum", "end")
         )
         self.ends = phase.phase.ends if phase.phase.ends in self.events else None
         self.horizon = float(model.start[model.index["horizon"]])
@@ -66,9 +67,9 @@ class PhaseKernel:
 
     def begin(self, columns: Array, before: Array | None) -> tuple[Array, Array, Array]:
         """Return current, constants of the motion and first states of some designs."""
-        found = self._evaluated(self._given, columns, self._moving, 0)
+        results = self._evaluated(self._given, columns, self._moving, 0)
         count = len(self._given.results[0])
-        constants, first = found[:count], found[count + 1 :]
+        constants, first = results[:count], results[count + 1 :]
         if before is not None and self._begin is not None:
             size = int(self._begin.arguments[1])
             places = np.concatenate([np.arange(size), size + self._moving])
@@ -83,9 +84,9 @@ class PhaseKernel:
         w = lanes_of(tape)
         w[inputs_from : inputs_from + len(self.start)] = self.start[:, None]
         results = np.concatenate(tape.results)
-        found = np.empty((len(results), given.shape[1]))
-        evaluate(tape.code, w, places, given, results, found, 0, given.shape[1])
-        return found
+        evaluated = np.empty((len(results), given.shape[1]))
+        evaluate(tape.code, w, places, given, results, evaluated, 0, given.shape[1])
+        return evaluated
 
     def watched(self, names: Sequence[str], states: Array, watched: Array) -> Array:
         """Quantities at an instant, a row each."""
@@ -121,16 +122,16 @@ class PhaseKernel:
         if balance is None or self.ends is None:
             return dict.fromkeys(self.steadies, np.full(count, np.inf))
         staying = self.size + self.engine.lip
-        rest, currents = np.nan_to_num(run.end[:staying]), np.full(count, balance[-1])
-        rest[: self.size] = balance[:-1, None]
+        state, currents = np.nan_to_num(run.end[:staying]), np.full(count, balance[-1])
+        state[: self.size] = balance[:-1, None]
         exists, watch = np.zeros(count, dtype=bool), run.watches[self.ends]
         lane_events.settle(
             run.motion.system, run.room.slopes, run.room.rates, run.places, run.given, watch.code, watch.registers,
-            watch.result, self.watching, run.watched, self.size, rest, currents, exists,
+            watch.result, self.watching, run.watched, self.size, state, currents, exists,
         )  # fmt: skip
-        found = self.watched(self.steadies, rest, np.concatenate([currents[None], run.watched[1:]]))
+        steady = self.watched(self.steadies, state, np.concatenate([currents[None], run.watched[1:]]))
         exists &= ~np.isnan(run.end[0])
-        return {name: np.where(exists, found[i], np.inf) for i, name in enumerate(self.steadies)}
+        return {name: np.where(exists, steady[i], np.inf) for i, name in enumerate(self.steadies)}
 
 
 class _Watch:
@@ -201,33 +202,33 @@ class _Run:
 
     def _cross(self, name: str, watch: _Watch) -> None:
         """Find when an event happens in the step that it happens in."""
-        begun, passed = watch.high == 0, (watch.high != NOWHERE) & (watch.high > 0)
+        started, passed = watch.high == 0, (watch.high != NOWHERE) & (watch.high > 0)
         shares, ends = np.zeros(self.count), np.empty(self.states.shape[1:])
-        ends[:, begun] = self.states[0][:, begun]
+        ends[:, started] = self.states[0][:, started]
         lane_events.cross(
             self.motion.system, self.room.slopes, self.room.rates, self.places, self.given, self.states,
             self.lengths[: self.reached], self.scales, watch.code, watch.registers, watch.result, self.phase.watching,
             self.watched, self.phase.size, passed, watch.low, watch.below, watch.above, shares, ends,
         )  # fmt: skip
         step = np.clip(watch.low, 0, len(self.lengths) - 1)
-        times = np.where(begun, 0.0, self.scales * (self.times[step] + shares * self.lengths[step]))
+        times = np.where(started, 0.0, self.scales * (self.times[step] + shares * self.lengths[step]))
         passed &= times <= self.phase.horizon
-        self.at[name] = np.where(begun | passed, times, np.inf)
+        self.at[name] = np.where(started | passed, times, np.inf)
         if name == self.phase.ends:
-            ended = begun | passed
+            ended = started | passed
             self.end[:, ended], self.last[ended] = ends[:, ended], watch.low[ended]
 
     def reduced(self) -> dict[str, Array]:
         """Paths by name: what they add up to or are at the end, and what they reach on the way."""
         phase, never = self.phase, np.isnan(self.end[0])
         first = phase.size + phase.engine.lip
-        found = {name: self.end[first + phase.engine.integrals.index(name)] for name in phase.integrals}
+        values_by_name = {name: self.end[first + phase.engine.integrals.index(name)] for name in phase.integrals}
         if phase.at_end:
-            found |= dict(zip(phase.at_end, phase.watched(phase.at_end, self.end, self.watched), strict=True))
-        found = {name: np.where(never, np.inf, values) for name, values in found.items()}
+            values_by_name |= dict(zip(phase.at_end, phase.watched(phase.at_end, self.end, self.watched), strict=True))
+        values_by_name = {name: np.where(never, np.inf, values) for name, values in values_by_name.items()}
         if phase.highest:
-            found |= dict(zip(phase.highest, self._highest(), strict=True))
-        return found
+            values_by_name |= dict(zip(phase.highest, self._highest(), strict=True))
+        return values_by_name
 
     def _highest(self) -> Array:
         """Return the highest values of quantities up to the end of the phase, or on their way if it has no end.
@@ -259,5 +260,5 @@ def _peak(times: Array, values: Array) -> Array:
         bend = (falling - rising) / (c - a)
         slope = rising + bend * (b - a)
         over = np.where((k == middle) & (bend < 0.0) & (c > b), -0.25 * slope**2 / bend, 0.0)
-    found: Array = (np.take_along_axis(values, k, 1) + over)[:, 0]
-    return found
+    peaks: Array = (np.take_along_axis(values, k, 1) + over)[:, 0]
+    return peaks

@@ -30,12 +30,12 @@ class Steps:
     def lengths(self, pace: float, horizon: float) -> Array:
         """Return the lengths of all steps up to the horizon."""
         usual = pace / self.of_pace
-        step, time, found = self.first * usual, 0.0, list[float]()
+        step, time, taken = self.first * usual, 0.0, list[float]()
         while time < horizon:
-            found.append(min(step, horizon - time))
-            time += found[-1]
+            taken.append(min(step, horizon - time))
+            time += taken[-1]
             step = step * _GROWTH if time > _LATE * pace else min(self.growth * step, usual)
-        return np.array(found)
+        return np.array(taken)
 
 
 @dataclass(frozen=True)
@@ -53,5 +53,5 @@ class Fit:
     def scales(self, columns: Array) -> Array:
         """About how long designs take, as a share of the time of that one."""
         off = np.divide(columns, self.about[:, None], out=np.ones(columns.shape), where=self.about[:, None] != 0.0)
-        found: Array = np.clip(1.0 + (self.slopes[:, None] * (off - 1.0)).sum(axis=0), 1.0 / LONGEST, LONGEST)
-        return found
+        factors: Array = np.clip(1.0 + (self.slopes[:, None] * (off - 1.0)).sum(axis=0), 1.0 / LONGEST, LONGEST)
+        return factors

@@ -89,16 +89,16 @@ class BranchAndBound:
     def run(self) -> None:
         """Search until no box promises better."""
         self._bounded = [np.zeros(relaxation.sizes.shape, dtype=bool) for relaxation in self.trees]
-        begun: list[Task] = []
+        started: list[Task] = []
         for relaxation in self.trees:
             whole = relaxation.sizes.whole
             for optimum in relaxation.optima:
                 self._add(relaxation, whole, optimum.start.objective, optimum, 0)
                 nearest = relaxation.sizes.nearest(relaxation.values(optimum), whole)
-                begun.append(Task(relaxation.place, nearest, optimum, "exactly"))
+                started.append(Task(relaxation.place, nearest, optimum, "exactly"))
             if not relaxation.optima:
                 self._add(relaxation, whole, -math.inf, None, 0)
-        self._try(begun)
+        self._try(started)
         while self._open and not self.stopped:
             node = min(self._open, key=self._urgency)
             self._open.remove(node)
@@ -171,12 +171,12 @@ class BranchAndBound:
     def _divide(self, node: Node) -> None:
         """Solve both halves of a box, and keep those that may hold better combinations."""
         division, tasks = self._halves(node)
-        solved = {task.box: found for task, found in zip(tasks, self._answers(tasks), strict=False)}
-        asked = {task.box for task in tasks}
+        solved = {task.box: task_answer for task, task_answer in zip(tasks, self._answers(tasks), strict=False)}
+        task_boxes = {task.box for task in tasks}
         for side, box in enumerate(division.halves(node.box)):
             if box in solved:
                 self._take(node, division, side, box, solved[box])
-            elif box not in asked:  # the best design lies in it
+            elif box not in task_boxes:  # the best design lies in it
                 self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
 
     def _halves(self, node: Node) -> tuple[Division, list[Task]]:
@@ -281,8 +281,8 @@ class BranchAndBound:
         left = len(self._open)
         best = min((run.start.objective for run in self.found.values()), default=None)
         so_far = "" if best is None else f", objective {best:.5g} so far"
-        said = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
-        relaxation.optimizer.progress(said)
+        message = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
+        relaxation.optimizer.progress(message)
 
 
 def _slices(box: Box) -> tuple[slice, ...]:

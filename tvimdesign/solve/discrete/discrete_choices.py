@@ -55,8 +55,8 @@ class Sizes:
     def mixed(self, mixtures: Sequence[Mixture]) -> Sizes:
         """Return the listed numbers and the records of mixtures."""
         numbers = len(self.names) - len(self.mixtures)
-        places = tuple(tuple(float(i + 1) for i in range(len(one.records))) for one in mixtures)
-        names = (*self.names[:numbers], *(one.name for one in mixtures))
+        places = tuple(tuple(float(i + 1) for i in range(len(mixture.records))) for mixture in mixtures)
+        names = (*self.names[:numbers], *(mixture.name for mixture in mixtures))
         return Sizes(names, (*self.sizes[:numbers], *places), tuple(mixtures))
 
     def numbers(self, box: Box) -> dict[str, Ends]:
@@ -78,15 +78,15 @@ class Sizes:
 
     def records(self, box: Box) -> dict[str, str]:
         """Return the records chosen in a box of one combination."""
-        found: dict[str, str] = {}
+        chosen: dict[str, str] = {}
         for mixture, (first, _) in zip(self.mixtures, self._places(box), strict=True):
-            found |= mixture.records[first]
-        return found
+            chosen |= mixture.records[first]
+        return chosen
 
     def values(self, inputs: Mapping[str, float]) -> dict[str, float]:
         """Return the listed numbers of a design and its place among the records of each mixture."""
-        found = {name: inputs[name] for name in self.names[: len(self.names) - len(self.mixtures)]}
-        return found | {one.name: _among([inputs[name] for name in one.shares]) for one in self.mixtures}
+        numbers = {name: inputs[name] for name in self.names[: len(self.names) - len(self.mixtures)]}
+        return numbers | {mixture.name: _among([inputs[name] for name in mixture.shares]) for mixture in self.mixtures}
 
     def apart(self, place: int, value: float, size: float) -> float:
         """Return the distance of a value from a size, relative to the size; relative to the largest size if it is zero.
@@ -108,20 +108,20 @@ class Sizes:
 
     def combination(self, number: int) -> Box:
         """Return the combination at a position, counted from 0, in the order of `each`."""
-        places, rest = [], number
+        places, remainder = [], number
         for count in reversed(self.shape):
-            turn, place = divmod(rest, count)
+            turn, place = divmod(remainder, count)
             places.append(place if turn % 2 == 0 else count - 1 - place)
-            rest = turn
+            remainder = turn
         return tuple((place, place) for place in reversed(places))
 
     def nearest(self, values: Mapping[str, float], box: Box) -> Box:
         """Return the combination in a box whose sizes are nearest to some values."""
-        found = []
+        places = []
         for name, sizes, (first, last) in zip(self.names, self.sizes, box, strict=True):
             place = min(range(first, last + 1), key=lambda i: abs(sizes[i] - values[name]))
-            found.append((place, place))
-        return tuple(found)
+            places.append((place, place))
+        return tuple(places)
 
     def are_sizes(self, values: Mapping[str, float], box: Box) -> bool:
         """Return whether values are the sizes of one combination in a box."""

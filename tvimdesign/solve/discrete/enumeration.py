@@ -53,7 +53,7 @@ def blocks_of(trees: Sequence[Relaxation]) -> list[Block]:
 
 def solved(tree: Relaxation, block: Block) -> SolvedBlock:
     """Solve the combinations of a block; those at its end are left where the time is over."""
-    found: dict[Box, Run] = {}
+    runs: dict[Box, Run] = {}
     chains: list[Run | None] = [*tree.optima] or [None]
     own, tree.work = tree.work, SolverEffort()
     for number in range(block.first, min(block.first + BLOCK, tree.sizes.count)):
@@ -67,10 +67,10 @@ def solved(tree: Relaxation, block: Block) -> SolvedBlock:
                     break
                 continue
             chains[place] = run
-            if box not in found or order(run) < order(found[box]):
-                found[box] = run
+            if box not in runs or order(run) < order(runs[box]):
+                runs[box] = run
     work, tree.work = tree.work, own
-    return SolvedBlock(found, work)
+    return SolvedBlock(runs, work)
 
 
 def enumerated_here(begin: Begin) -> Iterator[tuple[Block, SolvedBlock]]:

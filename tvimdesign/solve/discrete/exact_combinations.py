@@ -47,10 +47,10 @@ class ExactCombinations:
             runs.append(exact.optimizer.solve(ends, warm=carried, begin=begin))
         if runs and not runs[0].start.converged:
             runs.append(exact.optimizer.solve(ends, begin=begin))
-        found = min([*runs, carried], key=lambda one: not one.start.converged)
+        best = min([*runs, carried], key=lambda candidate: not candidate.start.converged)
         choices = exact.choices(box[: len(exact.sizes.names)])
-        found = replace(found, within=ends, start=replace(found.start, choices=choices, relaxed=False))
-        return exact, found
+        best = replace(best, within=ends, start=replace(best.start, choices=choices, relaxed=False))
+        return exact, best
 
     def closest(self, mixed: Relaxation, box: Box) -> tuple[Relaxation, Run]:
         """Return the solver's end for one combination, feasible or not."""
@@ -61,10 +61,10 @@ class ExactCombinations:
         """Return the best design with the same records and every size free, from the listed sizes; None if none."""
         if not exact.sizes.names:
             return None
-        found = exact.optimizer.solve(warm=run)
-        if not found.start.converged:
-            found = exact.optimizer.solve(begin=run.inputs)
-        return found if found.start.converged else None
+        free_run = exact.optimizer.solve(warm=run)
+        if not free_run.start.converged:
+            free_run = exact.optimizer.solve(begin=run.inputs)
+        return free_run if free_run.start.converged else None
 
 
 def _inputs(mixed: Optimizer, exact: Optimizer, run: Run) -> Array:
@@ -89,12 +89,12 @@ def _carried(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Run:
 
 def _trace(mixed: Optimizer, exact: Optimizer, run: Run, begin: Array) -> Trace:
     """Return a mixed problem's end as the exact problem's: without shares and their equations, with the limits left."""
-    kept = np.r_[0 : len(exact.free), len(mixed.free) : mixed.problem.unknown_count]
-    unknowns = run.unknowns[kept]
+    common = np.r_[0 : len(exact.free), len(mixed.free) : mixed.problem.unknown_count]
+    unknowns = run.unknowns[common]
     unknowns[: len(exact.free)] = [free.to_unknown(begin[exact.model.index[free.name]]) for free in exact.free]
     first = mixed.problem.equation_count
     places = {limit.name: first + i for i, limit in enumerate(mixed.problem.limits)}
     limits = [places[limit.name] for limit in exact.problem.limits]
-    rest = range(first + len(mixed.problem.limits), len(run.multipliers))
-    rows = [*range(first - len(mixed.mixtures)), *limits, *rest]
-    return Trace(unknowns, run.multipliers[rows], run.bound_multipliers[kept])
+    bounds = range(first + len(mixed.problem.limits), len(run.multipliers))
+    rows = [*range(first - len(mixed.mixtures)), *limits, *bounds]
+    return Trace(unknowns, run.multipliers[rows], run.bound_multipliers[common])

@@ -22,13 +22,13 @@ def possible(study: Study, family: Family) -> Family:
     """
     if not family.mixtures:
         return family
-    asked = with_records(study, family.records)
-    known = (study.table, given(asked), tuple(study.operating_points), study.solver.cells)
+    chosen = with_records(study, family.records)
+    known = (study.table, given(chosen), tuple(study.operating_points), study.solver.cells)
     model = MixedDevice(*known, family.mixtures)
-    limits = constraints_of(asked, study.table, model.words)
+    limits = constraints_of(chosen, study.table, model.words)
     records, mixtures = dict(family.records), []
     for mixture in family.mixtures:
-        left = _left(asked, model, mixture, _of_it_alone(study, model, limits, mixture))
+        left = _left(chosen, model, mixture, _of_it_alone(study, model, limits, mixture))
         records |= left.records[0]
         mixtures += [left] if len(left.records) > 1 else []
     return Family(records, tuple(mixtures))
@@ -49,19 +49,19 @@ def _of_it_alone(
     return [limit for limit in without_cycle if limit.output in own - moved]
 
 
-def _left(asked: Study, model: MixedDevice, mixture: Mixture, limits: Sequence[Constraint]) -> Mixture:
+def _left(study: Study, model: MixedDevice, mixture: Mixture, limits: Sequence[Constraint]) -> Mixture:
     """Return the records that satisfy the limits."""
     outputs = list(dict.fromkeys(limit.output for limit in limits))
     cycle = dict.fromkeys(model.switch_names, np.inf)
-    kept, told = [], []
+    places, messages = [], []
     for place in range(len(mixture.records)):
         inputs = model.start.copy()
         for other, name in enumerate(mixture.shares):
             inputs[model.index[name]] = float(other == place)
         values = model.some_values(outputs, inputs, cycle)
-        broken = [one for one in limits if not one.residual(values[one.output]) <= ALGEBRAIC_TOLERANCE]
-        told += [unchangeable(limit, model.table, values[limit.output], asked) for limit in broken]
-        kept += [] if broken else [place]
-    if not kept:
-        raise InfeasibleError("\n  ".join(dict.fromkeys(told)))
-    return mixture.in_order(kept)
+        broken = [limit for limit in limits if not limit.residual(values[limit.output]) <= ALGEBRAIC_TOLERANCE]
+        messages += [unchangeable(limit, model.table, values[limit.output], study) for limit in broken]
+        places += [] if broken else [place]
+    if not places:
+        raise InfeasibleError("\n  ".join(dict.fromkeys(messages)))
+    return mixture.in_order(places)

@@ -61,10 +61,10 @@ def _groups(study: Study, first: Records, listed: Mapping[str, Sequence[str]]) -
     groups: list[tuple[set[str], set[str]]] = []
     for name, values in listed.items():
         seen = [_facts(study, {**first, name: value}) for value in values]
-        changed = {one for one in seen[0] if any(other[one] != seen[0][one] for other in seen)}
+        changed = {name for name in seen[0] if any(other[name] != seen[0][name] for other in seen)}
         changed |= {row.name for row in _readers(study.table, changed)}
         names = {name}
-        for group in [one for one in groups if one[1] & changed]:
+        for group in [candidate for candidate in groups if candidate[1] & changed]:
             groups.remove(group)
             names, changed = names | group[0], changed | group[1]
         groups.append((names, changed))
@@ -75,41 +75,46 @@ def _classes(
     study: Study, first: Records, names: Sequence[str], listed: Mapping[str, Sequence[str]]
 ) -> list[Mixture]:  # fmt: skip
     """Return mixtures of the combinations of some choices, grouped by words that make the same structure."""
-    combinations = [dict(zip(names, one, strict=True)) for one in itertools.product(*(listed[name] for name in names))]
-    facts = [_facts(study, {**first, **one}) for one in combinations]
+    combinations = [
+        dict(zip(names, chosen, strict=True)) for chosen in itertools.product(*(listed[name] for name in names))
+    ]
+    facts = [_facts(study, {**first, **combination}) for combination in combinations]
     mixed = {name for name in facts[0] if isinstance(facts[0][name], float) and name not in study.vary}
-    words = [name for name in facts[0] if name not in mixed and any(one[name] != facts[0][name] for one in facts)]
+    words = [name for name in facts[0] if name not in mixed and any(fact[name] != facts[0][name] for fact in facts)]
     read = [name for name in words if any(_readers(study.table, [name]))]
     structure = [name for name in read if not _blends(study.table, name)]
-    found: dict[tuple[Any, ...], list[int]] = {}
-    for place, one in enumerate(facts):
-        endless = tuple(name for name in mixed if not math.isfinite(float(one[name])))
-        found.setdefault((*(one[name] for name in structure), endless), []).append(place)
-    return [_mixture(study, [combinations[i] for i in one], [facts[i] for i in one], first) for one in found.values()]
+    alike: dict[tuple[Any, ...], list[int]] = {}
+    for place, fact in enumerate(facts):
+        endless = tuple(name for name in mixed if not math.isfinite(float(fact[name])))
+        alike.setdefault((*(fact[name] for name in structure), endless), []).append(place)
+    return [
+        _mixture(study, [combinations[i] for i in places], [facts[i] for i in places], first)
+        for places in alike.values()
+    ]
 
 
 def _mixture(
     study: Study, records: Sequence[Records], facts: Sequence[Mapping[str, Any]], first: Records
 ) -> Mixture:  # fmt: skip
     numbers = {
-        name: tuple(one[name] for one in facts)
+        name: tuple(fact[name] for fact in facts)
         for name, value in facts[0].items()
-        if isinstance(value, float) and name not in study.vary and any(one[name] != value for one in facts)
+        if isinstance(value, float) and name not in study.vary and any(fact[name] != value for fact in facts)
     }
     changed = [name for name, value in facts[0].items() if not isinstance(value, float)
-               and any(one[name] != value for one in facts)]  # fmt: skip
-    chosen = [given(with_records(study, {**first, **one})) for one in records]
-    words = tuple({name: one[name] for name in changed} for one in chosen)
+               and any(fact[name] != value for fact in facts)]  # fmt: skip
+    chosen = [given(with_records(study, {**first, **record})) for record in records]
+    words = tuple({name: resolved[name] for name in changed} for resolved in chosen)
     readers = tuple(row.name for row in _readers(study.table, changed))
     return Mixture(tuple(records), numbers, words, readers)
 
 
 def _facts(study: Study, records: Records) -> dict[str, float | str]:
     """Return every number and word of a module with some records chosen; a record by its name."""
-    found = given(with_records(study, records))
+    module = given(with_records(study, records))
     return {
         name: float(value) if isinstance(value, int | float) else str(getattr(value, "name", value))
-        for name, value in found.items()
+        for name, value in module.items()
     }
 
 

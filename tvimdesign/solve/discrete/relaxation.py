@@ -81,11 +81,11 @@ class Relaxation:
         for number, begin in enumerate(islice(self.optimizer.multistart.points(), most)):
             if runs and self.optimizer.deadline.passed:
                 break
-            best = min((one.start.objective for one in runs if one.start.converged), default=None)
+            best = min((earlier.start.objective for earlier in runs if earlier.start.converged), default=None)
             so_far = "" if best is None else f", objective {best:.5g} so far"
             self.optimizer.progress(f"start {number + 1} of {count}{so_far}")
             run = self._from_one_of_each(self.constant_current_optimum.beyond(begin))
-            if not run.start.converged and count > FEW and any(one.start.converged for one in runs):
+            if not run.start.converged and count > FEW and any(earlier.start.converged for earlier in runs):
                 run = second_try.from_conflict_search(run)
             run.start = replace(run.start, begin=self.optimizer.vector.free_values(begin))
             runs.append(run)
@@ -327,7 +327,7 @@ class Relaxation:
 
     def _beside(self, ends: Mapping[str, Ends], near: Run, point: Array) -> Run:
         """Return a run within some ends from one nearby: warm, or from its states alone if its records lie outside."""
-        index, shares = self.optimizer.model.index, [name for one in self.sizes.mixtures for name in one.shares]
+        index, shares = self.optimizer.model.index, [name for mixture in self.sizes.mixtures for name in mixture.shares]
         places = [index[name] for name in shares]
         if np.all(np.abs(near.inputs[places] - point[places]) < _SAME_RECORDS):
             return self._solved(ends, warm=near)

@@ -88,8 +88,8 @@ class ParallelSolver:
     def solve(self, tasks: Sequence[Task], ahead: Sequence[Task] = (), /) -> list[Answer]:
         """Return the answers in the order of the tasks."""
         with self._changed:
-            begun = {self._under_way.key} if self._under_way else set()
-            known = begun | self._heard.keys()
+            started = {self._under_way.key} if self._under_way else set()
+            known = started | self._heard.keys()
             self._waiting = [task for task in (*tasks, *ahead) if task.key not in known]
             self._changed.notify_all()
         here = OneProcess(self._trees)
@@ -170,18 +170,18 @@ def main() -> None:
     """Build the problems, hear what the starts came to, and answer tasks until there are no more."""
     follow_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
-    heard, told = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    heard, sent = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not stand among the answers
-    asked: ProblemSpec = pickle.load(heard)
-    trees = asked.built()
-    for tree, begun in zip(trees, pickle.load(heard), strict=True):
-        begun.take(tree)
+    spec: ProblemSpec = pickle.load(heard)
+    trees = spec.built()
+    for tree, state in zip(trees, pickle.load(heard), strict=True):
+        state.take(tree)
     with contextlib.suppress(EOFError):
         while True:
             task: Task = pickle.load(heard)
-            found = answer(trees, task)
-            pickle.dump((found, trees[task.place].work), told)
-            told.flush()
+            result = answer(trees, task)
+            pickle.dump((result, trees[task.place].work), sent)
+            sent.flush()
             trees[task.place].work = SolverEffort()
 
 

@@ -73,10 +73,10 @@ class Trees:
 
     def _built(self, family: Family, trees: Sequence[Relaxation]) -> Optimizer:
         if not family.mixtures:
-            asked = with_records(self.study, family.records)
-            alike = (relaxation.optimizer.with_records(asked) for relaxation in trees if not relaxation.sizes.mixtures)
-            found = next(filter(None, alike), None)
-            return found or self._optimizer(family.records)
+            study = with_records(self.study, family.records)
+            alike = (relaxation.optimizer.with_records(study) for relaxation in trees if not relaxation.sizes.mixtures)
+            built = next(filter(None, alike), None)
+            return built or self._optimizer(family.records)
         error: SimulationError | None = None
         for first in _beginnings(family.mixtures):
             records = dict(family.records)
@@ -90,9 +90,9 @@ class Trees:
         raise error
 
     def _optimizer(self, records: Mapping[str, str], mixtures: Sequence[Mixture] = ()) -> Optimizer:
-        asked = with_records(self.study, records)
+        study = with_records(self.study, records)
         return Optimizer(
-            asked, self.reference, self.progress, objectives=self.objectives, deadline=self.deadline, mixtures=mixtures
+            study, self.reference, self.progress, objectives=self.objectives, deadline=self.deadline, mixtures=mixtures
         )  # fmt: skip
 
 
@@ -118,9 +118,9 @@ def refuse_too_many(families: Sequence[Family], sizes: Sizes) -> None:
 
 def _beginnings(mixtures: Sequence[Mixture]) -> list[tuple[Mixture, ...]]:
     """Return the mixtures as they are, then with another record of one of them first."""
-    found = [tuple(mixtures)]
+    beginnings = [tuple(mixtures)]
     for place, mixture in enumerate(mixtures):
         for first in range(1, len(mixture.records)):
-            rest = [i for i in range(len(mixture.records)) if i != first]
-            found.append((*mixtures[:place], mixture.in_order([first, *rest]), *mixtures[place + 1 :]))
-    return found
+            others = [i for i in range(len(mixture.records)) if i != first]
+            beginnings.append((*mixtures[:place], mixture.in_order([first, *others]), *mixtures[place + 1 :]))
+    return beginnings

@@ -28,14 +28,14 @@ def refuse_infeasible(study: Study, deadline: Deadline | None = None) -> None:
     records = discrete_records(study, study.table)
     if not study.vary or len(records) > _MOST_RECORDS:
         return
-    said: list[str] = []
+    messages: list[str] = []
     for chosen in records:
         reported = _conflict(with_records(study, chosen), deadline)
         if not reported:
             return
-        said.append(reported)
+        messages.append(reported)
     also = f"\nSo it is with every listed {' and '.join(records[0])}." if records[0] else ""
-    raise InfeasibleError(f"{study.name}: {said[0]}{also}")
+    raise InfeasibleError(f"{study.name}: {messages[0]}{also}")
 
 
 def _conflict(study: Study, deadline: Deadline | None) -> str:
@@ -56,11 +56,11 @@ def _conflict(study: Study, deadline: Deadline | None) -> str:
         runs.append(optimizer.solve(begin=begin, beginning="feasible"))
         if runs[-1].start.converged:
             return ""
-    found = find_conflicts(optimizer, runs, lambda _: None)
-    if found is None or found.conflict_set is None or optimizer.deadline.passed:
+    search = find_conflicts(optimizer, runs, lambda _: None)
+    if search is None or search.conflict_set is None or optimizer.deadline.passed:
         return ""
-    lines = conflict_in_words(found.conflict_set)
-    fixed = _fixed(optimizer, found.conflict_set)
+    lines = conflict_in_words(search.conflict_set)
+    fixed = _fixed(optimizer, search.conflict_set)
     ways = f"Ease a limit, widen a range, or {fixed}." if fixed else "Ease a limit, or widen a range."
     return "\n".join([*lines, ways])
 
@@ -79,7 +79,7 @@ def _fixed(optimizer: Optimizer, conflict_set: ConflictSet) -> str:
     value = model.outputs([output]).call([inputs, cycle], True, False)[0]
     slopes = np.asarray(ca.Function("slopes", [inputs], [ca.gradient(value, inputs)])(model.start)).ravel()
     moved = dict(zip(model.names, np.abs(slopes * model.start), strict=True))
-    free = [one.name for one in optimizer.free]
+    free = [number.name for number in optimizer.free]
     could = {row.name for row in table.inputs if row.variable}
     most = max((name for name in moved if name in could or name in free), key=moved.__getitem__)
     if most in free:

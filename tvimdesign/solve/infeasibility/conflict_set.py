@@ -54,7 +54,7 @@ def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progre
     progress("looking for the smallest set of limits that conflict")
     members, ends = _conflicting(elastic, least)
     least.run.start = replace(least.run.start, status="Infeasible_Problem_Detected", converged=False)
-    return ConflictSearch(least.run, _told(elastic, least, members, ends, progress))
+    return ConflictSearch(least.run, _conflict_set(elastic, least, members, ends, progress))
 
 
 class SecondTry:
@@ -91,16 +91,16 @@ def _weights(elastic: ElasticMode) -> Array:
 def _least_violation(elastic: ElasticMode, failed: Sequence[Run]) -> ElasticSolution | None:
     """Return the least sum of slacks from the ends of the starts, or else from their beginnings."""
     weights = _weights(elastic)
-    found: list[ElasticSolution] = []
+    solutions: list[ElasticSolution] = []
     for run in failed[:_MOST_STARTS]:
         settled = elastic.settle(weights, run.inputs, run.unknowns)
         if not settled.converged:
             settled = elastic.settle(weights, _begin(elastic.optimizer, run))
         if settled.converged:
-            found.append(settled)
+            solutions.append(settled)
         if settled.conflict_search:
             break
-    return min(found, key=lambda one: float(weights @ one.slacks), default=None)
+    return min(solutions, key=lambda solution: float(weights @ solution.slacks), default=None)
 
 
 def _begin(optimizer: Optimizer, run: Run) -> Array:
@@ -126,15 +126,17 @@ def _conflicting(elastic: ElasticMode, least: ElasticSolution) -> tuple[list[int
     else:
         candidates = [k for k in candidates if settled.pressing[k] > _FAINT]
     # The machine's rules leave first, and the study's requirements last: those are what a user can move.
-    for k in sorted(candidates, key=lambda one: (limits[one].origin == "require", least.slacks[one] > FEASIBILITY_TOL)):
-        fewer = [one for one in candidates if one != k]
+    for k in sorted(
+        candidates, key=lambda place: (limits[place].origin == "require", least.slacks[place] > FEASIBILITY_TOL)
+    ):
+        fewer = [other for other in candidates if other != k]
         without = kept_apart(fewer) if fewer else None
         if without is not None:
             candidates, settled = fewer, without
     return candidates, settled.ends
 
 
-def _told(
+def _conflict_set(
     elastic: ElasticMode, least: ElasticSolution, members: Sequence[int], ends: Array, progress: Progress
 ) -> ConflictSet:
     optimizer, limits = elastic.optimizer, elastic.limits
@@ -148,7 +150,7 @@ def _told(
     return ConflictSet(
         broken=tuple(
             _moved(optimizer, limits[k], float(least.slacks[k]), float(least.slacks[k]) if len(broken) == 1 else None)
-            for k in sorted(broken, key=lambda one: -least.slacks[one])
+            for k in sorted(broken, key=lambda place: -least.slacks[place])
         ),
         sides=tuple(sides),
         ends=tuple(_ends_in_words(optimizer, ends)),
@@ -177,13 +179,13 @@ def _moved(optimizer: Optimizer, limit: Constraint, by: float, move: float | Non
 def _ends_in_words(optimizer: Optimizer, multipliers: Array) -> list[str]:
     """Return the ends of ranges that press, strongest first."""
     order = np.argsort(-np.abs(multipliers), kind="stable")
-    found = []
-    for i in (int(one) for one in order if abs(multipliers[one]) > _FAINT):
+    lines = []
+    for i in (int(place) for place in order if abs(multipliers[place]) > _FAINT):
         free, upper = optimizer.free[i], multipliers[i] > 0.0
         sense: Literal["<=", ">="] = "<=" if upper else ">="
         limit = make_constraint(optimizer.table, free.name, sense, free.upper if upper else free.lower, "vary")
-        found.append(in_words(limit, optimizer.table))
-    return found
+        lines.append(in_words(limit, optimizer.table))
+    return lines
 
 
 def conflict_in_words(conflict_set: ConflictSet) -> list[str]:

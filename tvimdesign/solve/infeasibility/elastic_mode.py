@@ -105,14 +105,14 @@ class ElasticMode:
 
     def _settled(self, answer: dict[str, Any], begin: Array, parameters: Parameters, seconds: float) -> ElasticSolution:
         problem = self.optimizer.problem
-        size, found = problem.unknown_count, np.asarray(answer["x"]).ravel()
+        size, unknowns = problem.unknown_count, np.asarray(answer["x"]).ravel()
         first, last = self.equations, self.equations + len(self._slack_of)
         pressing = np.zeros(self.count)
         np.add.at(pressing, self._slack_of, np.asarray(answer["lam_g"]).ravel()[first:last])
         ends = np.asarray(answer["lam_x"]).ravel()[: len(self.optimizer.free)]
-        bare = {"x": found[:size], "f": answer["f"], "lam_g": np.zeros(problem.row_count), "lam_x": np.zeros(size)}
+        bare = {"x": unknowns[:size], "f": answer["f"], "lam_g": np.zeros(problem.row_count), "lam_x": np.zeros(size)}
         run = self.optimizer.record(bare, self._solver.stats(), begin, seconds, parameters)
-        return ElasticSolution(run, np.maximum(found[size:], 0.0), pressing, ends)
+        return ElasticSolution(run, np.maximum(unknowns[size:], 0.0), pressing, ends)
 
 
 class _Elastic:

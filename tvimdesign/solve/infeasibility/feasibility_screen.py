@@ -112,16 +112,16 @@ class FeasibilityScreen:
         optimizer = self._optimizer
         free, count = len(optimizer.free), solver.unknown_count - len(optimizer.free)
         lower, upper = (ends[:free] for ends in optimizer.vector.bounds(within))
-        start = np.array([one.to_unknown(begin[optimizer.model.index[one.name]]) for one in optimizer.free])
+        start = np.array([free.to_unknown(begin[optimizer.model.index[free.name]]) for free in optimizer.free])
         start = np.clip(start, lower, upper)
         broken = np.nan_to_num(np.maximum(np.asarray(self._at(start)).ravel(), 0.0))
         slacks = (broken if count == self._count else np.max(broken, initial=0.0, keepdims=True)) + _ROOM
         least, largest = optimizer.with_room_where_decided(np.zeros(len(optimizer.mixtures)), within)
-        found = solver(
+        answer = solver(
             optimizer.deadline, x0=np.append(start, slacks), lbg=np.append(least, np.full(self._count, -np.inf)),
             ubg=np.append(largest, np.zeros(self._count)), lbx=np.append(lower, np.zeros(count)),
             ubx=np.append(upper, np.full(count, np.inf)),
         )  # fmt: skip
         raise_pending()
-        left = np.max(np.asarray(found["x"]).ravel()[free:], initial=0.0)
+        left = np.max(np.asarray(answer["x"]).ravel()[free:], initial=0.0)
         return float(left) if solver.stats()["success"] else np.nan

@@ -155,13 +155,13 @@ class Inspection:
             others[:, :free] = 0.0
             directions += [("currents, times and peaks together", direction) for direction in others]
         sizes = np.linalg.norm(self._jacobian, axis=1)
-        found = []
+        differences = []
         for name, direction in directions:
             exact = self._jacobian @ direction
             error = np.abs(self._difference(direction) - exact) / np.maximum(sizes, _FLAT)
             worst = int(np.argmax(error))
-            found.append((self._rows[worst], name, float(error[worst])))
-        return DerivativeCheck(tuple(sorted(found, key=lambda one: -one[2])[:_WORST]))
+            differences.append((self._rows[worst], name, float(error[worst])))
+        return DerivativeCheck(tuple(sorted(differences, key=lambda difference: -difference[2])[:_WORST]))
 
     def _difference(self, direction: Array) -> Array:
         """(f(-2h) - 8 f(-h) + 8 f(h) - f(2h))/12h."""
@@ -176,7 +176,7 @@ class Inspection:
     def structure(self) -> Structure:
         """Return the free numbers without effect on limits or objective, and the limits that no free number changes."""
         optimizer = self.optimizer
-        table, free = optimizer.table, [one.name for one in optimizer.free]
+        table, free = optimizer.table, [number.name for number in optimizer.free]
         used = set(np.flatnonzero(np.any(self._jacobian != 0.0, axis=0)).tolist())
         current_profiles = [current.row for current in optimizer.currents]
         own = [limit for limit in constraints_of(optimizer.study, table) if limit.origin == "require"]

@@ -27,16 +27,18 @@ def refuse_unreachable(study: Study, deadline: Deadline | None = None) -> None:
         if reached is not None and sign * (reached - limit) > 0.0:
             end, most = ("softest", "least") if sign > 0.0 else ("stiffest", "largest")
             unit = study.table.unit(row)
-            asked, has, possible = (format_quantity(value, unit) for value in (target, reached, reached / factor**sign))
+            wanted, has, possible = (
+                format_quantity(value, unit) for value in (target, reached, reached / factor**sign)
+            )
             raise InputError(
-                f"{word}_impedance {asked} cannot be reached: the {end} joint within the ranges under `vary` and the "
+                f"{word}_impedance {wanted} cannot be reached: the {end} joint within the ranges under `vary` and the "
                 f"machine's rules has {has}; the {most} target is {possible}"
             )
 
 
 def _extreme(study: Study, row: str, sign: float, deadline: Deadline | None) -> float | None:
     """Least or largest value of a row within the ranges and the machine's rules; None where none is found in time."""
-    asked = study.model_copy(
+    extreme = study.model_copy(
         update={
             "module": {**study.module, "impedance_targets": "operating_points"},
             "require": (),
@@ -45,7 +47,7 @@ def _extreme(study: Study, row: str, sign: float, deadline: Deadline | None) -> 
         }
     )
     try:
-        optimizer = Optimizer(asked, deadline=deadline)
+        optimizer = Optimizer(extreme, deadline=deadline)
     except (InfeasibleError, TimeOverError):
         return None
     run = optimizer.solve()

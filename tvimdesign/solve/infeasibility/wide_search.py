@@ -31,7 +31,7 @@ def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lam
     into inputs. Raises KeyboardInterrupt where an interrupt came.
     """
     screen, seed = FeasibilityScreen(optimizer), optimizer.study.solver.seed
-    found: list[tuple[float, int, Array]] = []
+    designs: list[tuple[float, int, Array]] = []
     for number in range(_DRAWN):
         if optimizer.deadline.passed:
             break
@@ -39,8 +39,8 @@ def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lam
         if inputs is None:
             break
         inputs = mixed(inputs)
-        found.append((_broken(optimizer, inputs), number, inputs))
-    return [inputs for _, _, inputs in sorted(found, key=lambda one: one[:2])[:_DESIGNS]]
+        designs.append((_broken(optimizer, inputs), number, inputs))
+    return [inputs for _, _, inputs in sorted(designs, key=lambda design: design[:2])[:_DESIGNS]]
 
 
 def _broken(optimizer: Optimizer, inputs: Array) -> float:
@@ -79,11 +79,11 @@ def least_broken(
     def worst(unknowns: Array, *_: object) -> Any:
         return screen.worst(unknowns)
 
-    found = differential_evolution(
+    answer = differential_evolution(
         worst, Bounds(lower, upper), maxiter=most, popsize=_EACH, seed=seed,
         polish=False, tol=0.0, updating="deferred", vectorized=True, callback=look,
     )  # fmt: skip
     inputs: Array = optimizer.model.start.copy()
-    for free, unknown in zip(optimizer.free, found.x, strict=True):
+    for free, unknown in zip(optimizer.free, answer.x, strict=True):
         inputs[optimizer.model.index[free.name]] = free.to_value(unknown)
-    return inputs, float(found.fun)
+    return inputs, float(answer.fun)

@@ -56,14 +56,14 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     `chosen` are records and options by name, so that rules of what the module lacks are left out; without them only
     those are that the study itself says it lacks.
     """
-    said = study.module if chosen is None else chosen
-    options = {row.name: said.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
-    asked = [
+    words = study.module if chosen is None else chosen
+    options = {row.name: words.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    required = [
         replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(table, r.output))
         for r in study.require
         for output in _behind(table, r.output, r.sense, options)
     ]
-    own = list(dict.fromkeys(asked))
+    own = list(dict.fromkeys(required))
     taken = {(limit.output, limit.sense) for limit in own}
     for row in table.outputs:
         for rule in row.rules if row.rules and row.exists(options) else ():
@@ -117,9 +117,9 @@ def refuse_impossible(study: Study) -> None:
     table = study.table
     rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
     start = given(study)
-    found = impossible(table.evaluate(start, rows), table)
-    if found:
-        raise InputError("there is no such module:\n  " + "\n  ".join(found) + "\nChange what is under `module`.")
+    reasons = impossible(table.evaluate(start, rows), table)
+    if reasons:
+        raise InputError("there is no such module:\n  " + "\n  ".join(reasons) + "\nChange what is under `module`.")
     refuse_contradictory(study, start)
 
 
@@ -153,27 +153,27 @@ def _refuse_unreachable(start: Mapping[str, Any], table: Table) -> None:
     soft, stiff = (format_quantity(ends[f"joint_impedance@{point}"], "N*m/rad") for point in ("hot", "cold"))
     bad = [name for name in ("soft", "stiff") if ends[f"{name}_reach"] < 0.0]
     if bad:
-        said = ", ".join(f"{name}_impedance {format_quantity(start[f'{name}_impedance'], 'N*m/rad')}" for name in bad)
+        named = ", ".join(f"{name}_impedance {format_quantity(start[f'{name}_impedance'], 'N*m/rad')}" for name in bad)
         raise InputError(
-            f"{said} cannot be reached: this joint goes from {soft} hot to {stiff} cold; a target may be the band "
+            f"{named} cannot be reached: this joint goes from {soft} hot to {stiff} cold; a target may be the band "
             f"(softening_band, stiffening_band) beyond that, no more"
         )
 
 
 def impossible(values: Mapping[str, float], table: Table) -> list[str]:
     """Say where the numbers of a design are no geometry at all: `arc_width is -7 mm, it must be above 0`."""
-    found = []
+    reasons = []
     for row in table.outputs:
         for rule in row.rules:
             if rule.exists_above is not None and not values[row.name] > rule.exists_above:
                 value, least = (format_quantity(number, row.unit) for number in (values[row.name], rule.exists_above))
                 above = sorted(table.ancestors(row.name))
                 inputs = [name for name in above if isinstance(table.quantity(name), Input)][:_INPUTS_NAMED]
-                found.append(
+                reasons.append(
                     f"{row.name} is {value}, it must be above {least}: {row.description}; it follows from "
                     + ", ".join(inputs)
                 )
-    return found
+    return reasons
 
 
 def advice_of(table: Table) -> list[Constraint]:

@@ -60,14 +60,14 @@ class DecisionVector:
 
     def current_profiles(self, unknowns: Array) -> dict[str, CurrentProfile]:
         """Return the free currents over the time their phase takes."""
-        found: dict[str, CurrentProfile] = {}
+        profiles: dict[str, CurrentProfile] = {}
         for i, (current, place) in enumerate(self.places_of_currents()):
             sizes = np.clip(unknowns[place] * current.upper, current.lower, current.upper)
             phase = self.model.table.phase(current.phase)
             ramp = ramp_time(float(sizes[0]), current.slew)
             signed = [float(phase.sign * size) for size in sizes]
-            found[current.phase] = CurrentProfile.in_pieces(ramp, self.problem.pieces_time(unknowns, i), signed)
-        return found
+            profiles[current.phase] = CurrentProfile.in_pieces(ramp, self.problem.pieces_time(unknowns, i), signed)
+        return profiles
 
     def inputs(self, unknowns: Array) -> Array:
         """Return the inputs with the free numbers within their ranges, and the mean of each current."""

@@ -193,12 +193,12 @@ class _Part(ca.Callback):
 
     def eval(self, arguments: Any) -> list[Any]:
         try:
-            found = self._held.programme.at(np.asarray(arguments[0]).ravel())
+            point = self._held.programme.at(np.asarray(arguments[0]).ravel())
         except BaseException as error:  # CasADi would swallow it
             self._held.error = error
             raise
         of_objective = self._part == "objective"
-        values, slopes = (found.objective, found.gradient) if of_objective else (found.rows, found.jacobian)
+        values, slopes = (point.objective, point.gradient) if of_objective else (point.rows, point.jacobian)
         whole = [ca.DM(values)]
         return [*whole, ca.DM(np.atleast_2d(slopes))] if self._sloped else whole
 
@@ -230,14 +230,14 @@ class _Stop(ca.Callback):
         return [int(self.stopped)]
 
 
-def solver_of(unknowns: int, rows: int, asked: SolverOptions, beginning: Beginning = "cold") -> ProgrammeSolver:
+def solver_of(unknowns: int, rows: int, options: SolverOptions, beginning: Beginning = "cold") -> ProgrammeSolver:
     """IPOPT for programmes of so many unknowns and rows, set for where a run begins."""
-    most = asked.max_iterations
+    most = options.max_iterations
     ipopt: dict[str, Any] = {
         **_USUAL,
         **_SETTINGS.get(beginning, {}),
         "max_iter": min(most, _MOST_ITERATIONS.get(beginning, most)),
-        "tol": min(asked.tolerance, _SHARP) if beginning == "sharp" else asked.tolerance,
+        "tol": min(options.tolerance, _SHARP) if beginning == "sharp" else options.tolerance,
     }
     settings: dict[str, Any] = {"ipopt": ipopt, "print_time": False, "show_eval_warnings": False}
     return ProgrammeSolver(unknowns, rows, settings)

@@ -42,7 +42,7 @@ class Mixture:
     @cached_property
     def shares(self) -> tuple[str, ...]:
         """The names of the shares among the device's inputs."""
-        return tuple(f"share of {', '.join(one.values())}" for one in self.records)
+        return tuple(f"share of {', '.join(record.values())}" for record in self.records)
 
     def in_order(self, order: Sequence[int]) -> Mixture:
         """Return the records in another order."""
@@ -62,19 +62,19 @@ class MixedDevice(DeviceFunctions):
     ) -> None:
         """Add the shares to the inputs."""
         self.mixtures = tuple(mixtures)
-        shares = {name: float(place == 0) for one in mixtures for place, name in enumerate(one.shares)}
+        shares = {name: float(place == 0) for mixture in mixtures for place, name in enumerate(mixture.shares)}
         super().__init__(table, {**given, **shares}, points, cells)
         self.start = self.mixed(self.start)
 
     def mixed(self, inputs: Array) -> Array:
         """Inputs with shares that add up to one, and the numbers that follow from these."""
-        found = inputs.copy()
+        mixed_inputs = inputs.copy()
         for mixture in self.mixtures:
             places = [self.index[name] for name in mixture.shares]
-            found[places] = shared(found[places])
+            mixed_inputs[places] = shared(mixed_inputs[places])
             for name, values in mixture.numbers.items():
-                found[self.index[name]] = found[places] @ np.array(values)
-        return found
+                mixed_inputs[self.index[name]] = mixed_inputs[places] @ np.array(values)
+        return mixed_inputs
 
     @cached_property
     def _symbols(self) -> tuple[Any, Any, dict[str, Any]]:
@@ -82,7 +82,7 @@ class MixedDevice(DeviceFunctions):
         for mixture in self.mixtures:
             for name, values in mixture.numbers.items():
                 known[name] = _sum(mixture, known, values)
-        for reader, mixture in sorted(self._readers(), key=lambda one: len(self.table.ancestors(one[0]))):
+        for reader, mixture in sorted(self._readers(), key=lambda pair: len(self.table.ancestors(pair[0]))):
             read = [self.table.resolve({**known, **words}, [reader])[reader] for words in mixture.words]
             known[reader] = _sum(mixture, known, read)
         return inputs, cycle, known

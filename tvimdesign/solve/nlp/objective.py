@@ -34,10 +34,10 @@ class Objective:
 
     def factors(self, objectives: Sequence[str]) -> Array:
         """Factors of every bound (a row) on every traded output (a column); rows that bound nothing are zero."""
-        found = np.zeros((len(objectives), len(objectives)))
-        for row, bound in zip(found, self.bounds, strict=False):
+        matrix = np.zeros((len(objectives), len(objectives)))
+        for row, bound in zip(matrix, self.bounds, strict=False):
             row[:] = [bound.factors.get(name, 0.0) for name in objectives]
-        return found
+        return matrix
 
     def room(self, objectives: Sequence[str]) -> Array:
         """Largest sum of every bound; infinite where a row bounds nothing."""

@@ -81,9 +81,9 @@ class Problem:
         self.engine, self._fineness = CycleEngine(model, fineness), fineness
         self.grids: dict[str, Grid] = {}
         """The steps of each phase; see `place_grids`."""
-        self.unknown_count = len(self.free) + sum(one.nodes + 1 for one in self.free_currents) + len(self.peaks)
+        self.unknown_count = len(self.free) + sum(current.nodes + 1 for current in self.free_currents) + len(self.peaks)
         self.equation_count = len(self.free_currents) + len(self.mixtures)
-        self.slope_count = sum(2 * one.pieces for one in self.free_currents)
+        self.slope_count = sum(2 * current.pieces for current in self.free_currents)
         self.sample_count = sum(self.samples(peak) for peak in self.peaks)
         self.own_count = self.slope_count + len(self.unlimited) + self.sample_count
         self.row_count = self.equation_count + len(self.limits) + len(self.objectives) + self.own_count
@@ -134,8 +134,8 @@ class Problem:
         chosen = [place[name] for name in self.minimize]
         traded = [place[name] for name in self.objectives]
         rows, jacobian = [], []
-        for one in self.free_currents:
-            phase = driven.get(one.phase)
+        for current in self.free_currents:
+            phase = driven.get(current.phase)
             rows.append(phase.short if phase else np.nan)
             jacobian.append(phase.of_short if phase else np.full(len(x), np.nan))
         for mixture in self.mixtures:
@@ -173,18 +173,18 @@ class Problem:
 
     def inputs_at(self, x: Array, inputs: Array) -> tuple[Array, Array]:
         """Return inputs with the free numbers in their places, and their derivatives by the unknowns."""
-        found, along = inputs.copy(), np.zeros((len(inputs), len(x)))
+        values, along = inputs.copy(), np.zeros((len(inputs), len(x)))
         for i, free in enumerate(self.free):
             place = self.model.index[free.name]
-            found[place] = free.to_value(x[i])
-            along[place, i] = found[place] if free.logarithmic else free.reference
+            values[place] = free.to_value(x[i])
+            along[place, i] = values[place] if free.logarithmic else free.reference
         for i, current in enumerate(self.free_currents):
             row, nodes = self.model.index[current.row], self.nodes_place(i)
             weights = np.full(current.nodes, 1.0 / current.pieces)
             weights[[0, -1]] *= 0.5  # the mean over the pieces, which sets the unit of the steps alone
-            found[row] = current.upper * float(weights @ x[nodes])
+            values[row] = current.upper * float(weights @ x[nodes])
             along[row, nodes] = current.upper * weights
-        return found, along
+        return values, along
 
     def with_unknowns(self, inputs: Any, unknowns: Any) -> Any:
         """Return inputs (MX) with the free numbers in their places."""
@@ -196,11 +196,11 @@ class Problem:
     def shares_less_one(self, inputs: Any) -> Any:
         """Return what the shares of each mixture add up to beyond one (MX)."""
         places = ([self.model.index[name] for name in mixture.shares] for mixture in self.mixtures)
-        return ca.vertcat(*(ca.sum1(ca.vertcat(*(inputs[place] for place in one))) - 1.0 for one in places))
+        return ca.vertcat(*(ca.sum1(ca.vertcat(*(inputs[place] for place in group))) - 1.0 for group in places))
 
     def nodes_place(self, i: int) -> slice:
         """Return the places of a free current's nodes among the unknowns; the logarithm of its time follows them."""
-        first = len(self.free) + sum(one.nodes + 1 for one in self.free_currents[:i])
+        first = len(self.free) + sum(current.nodes + 1 for current in self.free_currents[:i])
         return slice(first, first + self.free_currents[i].nodes)
 
     def pieces_time(self, x: Array, i: int) -> float:
@@ -209,22 +209,22 @@ class Problem:
 
     def _drives(self, x: Array, lanes: int) -> dict[str, Drive]:
         """Return the free currents by phase, with or without their derivatives by the unknowns."""
-        found = {}
+        drives = {}
         for i, current in enumerate(self.free_currents):
             phase, nodes = self.model.phases[current.phase].phase, self.nodes_place(i)
-            one = np.eye(lanes) if lanes else np.zeros((len(x), 0))
-            values, of_values = current.upper * x[nodes], current.upper * one[nodes]
+            directions = np.eye(lanes) if lanes else np.zeros((len(x), 0))
+            values, of_values = current.upper * x[nodes], current.upper * directions[nodes]
             time = self.pieces_time(x, i)
             shares = np.linspace(0.0, 1.0, current.nodes)
             ramp = ramp_time(values[0], current.slew) if np.isfinite(current.slew) else 0.0
-            moments, of_moments = ramp + shares * time, shares[:, None] * time * one[nodes.stop]
+            moments, of_moments = ramp + shares * time, shares[:, None] * time * directions[nodes.stop]
             if ramp > 0.0:
                 of_moments = of_moments + of_values[0] / current.slew
                 moments, of_moments = np.append(0.0, moments), np.vstack([np.zeros((1, lanes)), of_moments])
                 values, of_values = np.append(0.0, values), np.vstack([np.zeros((1, lanes)), of_values])
             signed, of_signed = phase.sign * values, phase.sign * of_values
-            found[current.phase] = Drive(moments, of_moments, signed, of_signed, self._steps(current))
-        return found
+            drives[current.phase] = Drive(moments, of_moments, signed, of_signed, self._steps(current))
+        return drives
 
     def _slopes(self, x: Array) -> tuple[Array, Array]:
         """Return the slopes of the free currents beyond the allowed ones, either way, as a share of those."""
@@ -253,10 +253,10 @@ class Problem:
             cycle[place], of_cycle[place], of_cycle[place, column] = scale * x[column], 0.0, scale
             values, slopes = np.full(count, np.nan), np.full((count, len(x)), np.nan)
             if peak.current.phase in driven:
-                found, of_found = driven[peak.current.phase].samples[peak.row.name]
+                samples, of_samples = driven[peak.current.phase].samples[peak.row.name]
                 # Without a ramp there are fewer: the last stands for what is missing.
-                those = np.minimum(np.arange(count), len(found) - 1)
-                values, slopes = found[those] / scale - x[column], of_found[those] / scale
+                those = np.minimum(np.arange(count), len(samples) - 1)
+                values, slopes = samples[those] / scale - x[column], of_samples[those] / scale
                 slopes[:, column] -= 1.0
             rows.append(values)
             jacobian.append(slopes)
@@ -300,7 +300,7 @@ class Problem:
     def unlimited(self) -> list[str]:
         """The events the problem needs that no limit has come within the horizon."""
         latest = self._latest(self.model.start)
-        limited = {one.output for one in self.limits if one.sense == "<=" and one.limit <= latest}
+        limited = {limit.output for limit in self.limits if limit.sense == "<=" and limit.limit <= latest}
         return [name for name in self.events if name not in limited]
 
     @cached_property
@@ -328,8 +328,8 @@ class Problem:
         """
         if not self.events:
             return dict.fromkeys(self.model.switch_names, np.inf)
-        found = self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed)
-        return dict(zip(self.model.switch_names, found.values.tolist(), strict=True))
+        result = self.engine.run(inputs, np.zeros((len(inputs), 0)), self._needed)
+        return dict(zip(self.model.switch_names, result.values.tolist(), strict=True))
 
     @cached_property
     def known(self) -> list[str]:

@@ -262,8 +262,8 @@ class Solution:
 
     def distinct_optima(self) -> list[Start]:
         """Return one converged free start for each different optimum, the best first."""
-        found: list[Start] = []
+        optima: list[Start] = []
         for start in sorted((s for s in self.free_starts if s.converged), key=lambda s: s.objective):
-            if not any(same_optimum(start, o) for o in found):
-                found.append(start)
-        return found
+            if not any(same_optimum(start, o) for o in optima):
+                optima.append(start)
+        return optima

@@ -154,11 +154,11 @@ def drawn_values(
     points = _sobol(len(contributors), seed)
     if first:
         points.fast_forward(first)
-    found = []
+    columns = []
     for done in range(0, samples, CHUNK):
         drawn = points.random(min(CHUNK, samples - done)).T
-        found.append(function(inputs_at(contributors, drawn)))
-    return np.concatenate(found, axis=1)
+        columns.append(function(inputs_at(contributors, drawn)))
+    return np.concatenate(columns, axis=1)
 
 
 def _sobol(count: int, seed: int) -> Any:
@@ -175,13 +175,13 @@ def sobol_points(count: int, samples: int, seed: int) -> Array:
 def moments_of(values: Array) -> MonteCarlo:
     """Mean, deviation and ends of every output over the modules in which it happens."""
     happens = np.isfinite(values)
-    kept = np.where(happens, values, np.nan)
+    finite = np.where(happens, values, np.nan)
     count = np.sum(happens, axis=1)
     mean = np.full(len(values), np.nan)
     deviation, low, high = mean.copy(), mean.copy(), mean.copy()
     for i in np.flatnonzero(count > 1):
-        mean[i], deviation[i] = np.nanmean(kept[i]), np.nanstd(kept[i], ddof=1)
-        low[i], high[i] = np.nanquantile(kept[i], [RARE, 1.0 - RARE])
+        mean[i], deviation[i] = np.nanmean(finite[i]), np.nanstd(finite[i], ddof=1)
+        low[i], high[i] = np.nanquantile(finite[i], [RARE, 1.0 - RARE])
     return MonteCarlo(values, mean, deviation, low, high, 1.0 - count / values.shape[1])
 
 
@@ -215,15 +215,15 @@ def sobol_indices(
         return alone, alone
     dists: list[Any] = list(contributors)
     with np.errstate(invalid="ignore", divide="ignore"):
-        found = stats.sobol_indices(
+        indices = stats.sobol_indices(
             func=finite, n=samples, dists=dists, rng=np.random.default_rng(seed)
         )  # fmt: skip
-    return np.nan_to_num(np.atleast_2d(found.first_order)), np.nan_to_num(np.atleast_2d(found.total_order))
+    return np.nan_to_num(np.atleast_2d(indices.first_order)), np.nan_to_num(np.atleast_2d(indices.total_order))
 
 
-def share_kept(kept: NDArray[np.bool_]) -> Yield:
+def share_kept(satisfied: NDArray[np.bool_]) -> Yield:
     """Yield of modules of which it is known whether they keep a limit."""
-    count, share, z = len(kept), float(np.mean(kept)), _CONFIDENCE
+    count, share, z = len(satisfied), float(np.mean(satisfied)), _CONFIDENCE
     middle = (share + z**2 / (2.0 * count)) / (1.0 + z**2 / count)
     half = z / (1.0 + z**2 / count) * math.sqrt(share * (1.0 - share) / count + (z / (2.0 * count)) ** 2)
     return Yield(share, max(middle - half, 0.0), min(middle + half, 1.0))

@@ -22,20 +22,20 @@ def put_at_bounds(optimizer: Optimizer, run: Run) -> Run:
     pressed = _pressed(optimizer, run)
     if not run.start.converged or not pressed:
         return run
-    found = optimizer.solve({**run.within, **pressed}, warm=run)
-    before, after = run.start.objective, found.start.objective
-    if not found.start.converged or after > before + _WORSE * abs(before):
+    fixed = optimizer.solve({**run.within, **pressed}, warm=run)
+    before, after = run.start.objective, fixed.start.objective
+    if not fixed.start.converged or after > before + _WORSE * abs(before):
         return run
-    inputs = found.inputs.copy()
+    inputs = fixed.inputs.copy()
     for name, (end, _) in pressed.items():
         inputs[optimizer.model.index[name]] = end
-    start = replace(run.start, end={**found.start.end, **{name: end for name, (end, _) in pressed.items()}})
-    return replace(run, start=start, inputs=inputs, current_profiles=found.current_profiles, ends=found.ends)
+    start = replace(run.start, end={**fixed.start.end, **{name: end for name, (end, _) in pressed.items()}})
+    return replace(run, start=start, inputs=inputs, current_profiles=fixed.current_profiles, ends=fixed.ends)
 
 
 def _pressed(optimizer: Optimizer, run: Run) -> dict[str, Ends]:
     """Return the ends that free numbers press on, each twice to fix the number; none that is already fixed."""
-    found: dict[str, Ends] = {}
+    pressed: dict[str, Ends] = {}
     lower, upper = optimizer.vector.bounds(run.within)
     for i, free in enumerate(optimizer.problem.free):
         ends = run.within.get(free.name, (free.lower, free.upper))
@@ -43,5 +43,5 @@ def _pressed(optimizer: Optimizer, run: Run) -> dict[str, Ends]:
         presses = (-run.bound_multipliers[i], run.bound_multipliers[i])
         for end, room, press in zip(ends, rooms, presses, strict=True):
             if ends[0] < ends[1] and room < min(press, _NEAR):
-                found[free.name] = (end, end)
-    return found
+                pressed[free.name] = (end, end)
+    return pressed

@@ -57,9 +57,9 @@ class BoxSearch:
                 width *= _NARROWER
             if not held or width < _NARROWEST or self._optimizer.deadline.passed:
                 break
-        found = self._whole(best, held=held) if best else self.runs[-1]
-        found.start = replace(found.start, iterations=sum(one.start.iterations for one in self.runs))
-        return found
+        result = self._whole(best, held=held) if best else self.runs[-1]
+        result.start = replace(result.start, iterations=sum(run.start.iterations for run in self.runs))
+        return result
 
     def _solved(self, within: Mapping[str, Ends], inputs: Array, unknowns: Array) -> Run:
         run = self._optimizer.solve(within, begin=inputs, unknowns=unknowns, beginning="near")
@@ -90,11 +90,11 @@ class BoxSearch:
 
     def _whole(self, best: Run, *, held: bool) -> Run:
         """Return the optimum of the whole problem from that of the last box; else a design that is no optimum."""
-        found = self._optimizer.solve(self._within, warm=best)
-        self.runs.append(found)
-        if found.start.converged:
-            return found
+        result = self._optimizer.solve(self._within, warm=best)
+        self.runs.append(result)
+        if result.start.converged:
+            return result
         if held:
-            found = self._solved(self._within, best.inputs, best.unknowns)
+            result = self._solved(self._within, best.inputs, best.unknowns)
             best.start = replace(best.start, status=FEASIBLE, converged=False)
-        return found if found.start.converged else replace(best, within=self._within)
+        return result if result.start.converged else replace(best, within=self._within)

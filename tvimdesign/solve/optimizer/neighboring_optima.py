@@ -56,9 +56,9 @@ class NeighboringOptima:
             return runs
         improved = [self._beside(run) for run in runs]
         crossed = self._crossed([run for run in improved if run.start.converged])
-        found = [*improved, crossed] if crossed else improved
-        shaken = self._shaken([run for run in found if run.start.converged])
-        return [*found, shaken] if shaken else found
+        reached = [*improved, crossed] if crossed else improved
+        shaken = self._shaken([run for run in reached if run.start.converged])
+        return [*reached, shaken] if shaken else reached
 
     def _shaken(self, optima: list[Run]) -> Run | None:
         """Return the best of random searches a little beside the best optimum; None if none is better.
@@ -69,18 +69,18 @@ class NeighboringOptima:
         if best is None or optimizer.mixtures:
             return None
         lower, upper = (ends[: len(optimizer.free)] for ends in optimizer.vector.bounds(best.within))
-        random, found = np.random.default_rng(optimizer.study.solver.seed), best
+        random, better = np.random.default_rng(optimizer.study.solver.seed), best
         for _ in range(SHAKES):
             if optimizer.deadline.passed:
                 break
-            unknowns = found.unknowns.copy()
+            unknowns = better.unknowns.copy()
             moved = unknowns[: len(lower)] + SHAKE * (upper - lower) * random.uniform(-1.0, 1.0, len(lower))
             unknowns[: len(lower)] = np.clip(moved, lower, upper)
             begin = optimizer.vector.inputs(unknowns)
             run = optimizer.solve(best.within, begin=begin, unknowns=unknowns, beginning="near")
-            if _better(run, found):
-                found = _told(run, found, found.start, run.start)
-        return None if found is best else found
+            if _better(run, better):
+                better = _with_work(run, better, better.start, run.start)
+        return None if better is best else better
 
     def _beside(self, run: Run) -> Run:
         """Return the best run that steps of a period lead to; the run itself if none is better.
@@ -91,8 +91,8 @@ class NeighboringOptima:
         while (end := self._known_end(best)) is None and (better := self._step(best, left)):
             best = better
         if end and not same_optimum(end.start, best.start):
-            best = _told(end, best, best.start)
-        self._improved += [(one, best) for one in (run, best) if one.start.converged]
+            best = _with_work(end, best, best.start)
+        self._improved += [(origin, best) for origin in (run, best) if origin.start.converged]
         return best
 
     def _known_end(self, run: Run) -> Run | None:
@@ -110,7 +110,7 @@ class NeighboringOptima:
             unknowns[place] = self._optimizer.free[place].to_unknown(value)
             tried = self._optimizer.solve(begin=run.inputs, unknowns=unknowns, beginning="near")
             if _better(tried, run):
-                return _told(tried, run, run.start, tried.start)
+                return _with_work(tried, run, run.start, tried.start)
         return self._ramped_further(run)
 
     def _ramped_further(self, run: Run) -> Run | None:
@@ -118,18 +118,18 @@ class NeighboringOptima:
 
         That bound, which presses on no optimum worth having, is left out again.
         """
-        vector, kept = self._optimizer.vector, {}
+        vector, fixed = self._optimizer.vector, {}
         for current, place in vector.places_of_currents():
             first, second = current.upper * run.unknowns[place][:2]
             if first < _LEAST_RAMP * second:
-                kept[current.row] = (_LEAST_RAMP * second, current.upper)
-        if not kept:
+                fixed[current.row] = (_LEAST_RAMP * second, current.upper)
+        if not fixed:
             return None
-        bounded = self._optimizer.solve(kept, begin=run.inputs)
+        bounded = self._optimizer.solve(fixed, begin=run.inputs)
         if not _better(bounded, run):
             return None
         tried = self._optimizer.solve(warm=bounded, begin=run.inputs)
-        return _told(tried, run, run.start, bounded.start, tried.start) if _better(tried, run) else None
+        return _with_work(tried, run, run.start, bounded.start, tried.start) if _better(tried, run) else None
 
     def _values_beside(self, run: Run) -> Iterator[tuple[int, float]]:
         """Yield each periodic number a period below and above, or at the end of its range if half a period is left."""
@@ -154,14 +154,14 @@ class NeighboringOptima:
         for run in sorted(runs, key=lambda run: run.start.objective):
             if not any(same_optimum(run.start, other.start) for other in optima):
                 optima.append(run)
-        found: Run | None = None
+        better: Run | None = None
         for other in optima[1 : 1 + _MOST_CROSSED]:
             for whole, lender in ((optima[0], other), (other, optima[0])):
                 for places in self._parts.values():
                     run = self._with_part(whole, lender, places)
-                    if run.start.converged and _better(run := self._beside(run), found or optima[0]):
-                        found = run
-        return found
+                    if run.start.converged and _better(run := self._beside(run), better or optima[0]):
+                        better = run
+        return better
 
     def _with_part(self, whole: Run, lender: Run, places: list[int]) -> Run:
         """Return a run from the end of another, with one part taken from a third."""
@@ -180,7 +180,7 @@ def _better(run: Run, other: Run) -> bool:
     return run.start.objective < other.start.objective - SAME_OPTIMUM * abs(other.start.objective)
 
 
-def _told(run: Run, before: Run, *parts: Start) -> Run:
+def _with_work(run: Run, before: Run, *parts: Start) -> Run:
     """Return a run with the start of another and the work of the parts that led there."""
     start = replace(
         run.start, begin=before.start.begin, by_neighbor=True, crossed=before.start.crossed,

@@ -136,9 +136,9 @@ class Optimizer:
         other._begin()
         return other
 
-    def _problem(self, kept: list[Constraint], objectives: Sequence[str]) -> Problem:
+    def _problem(self, limits: list[Constraint], objectives: Sequence[str]) -> Problem:
         return Problem(
-            self.model, self.free, kept, tuple(self.study.minimize), self.currents, objectives, self.mixtures,
+            self.model, self.free, limits, tuple(self.study.minimize), self.currents, objectives, self.mixtures,
             self.study.solver.fineness,
         )  # fmt: skip
 
@@ -147,10 +147,10 @@ class Optimizer:
         constant = self._constant(limits)
         without_switch = dict.fromkeys(self.model.switch_names, np.inf)
         values = self.model.some_values([limit.output for limit in constant], self.model.start, without_switch)
-        broken = [one for one in constant if not one.residual(values[one.output]) <= ALGEBRAIC_TOLERANCE]
+        broken = [limit for limit in constant if not limit.residual(values[limit.output]) <= ALGEBRAIC_TOLERANCE]
         if broken:
-            told = [unchangeable(limit, self.table, values[limit.output], self.study) for limit in broken]
-            raise InfeasibleError("\n  ".join(told))
+            messages = [unchangeable(limit, self.table, values[limit.output], self.study) for limit in broken]
+            raise InfeasibleError("\n  ".join(messages))
         return [limit for limit in limits if limit not in constant]
 
     def _constant(self, limits: list[Constraint]) -> list[Constraint]:
@@ -164,8 +164,8 @@ class Optimizer:
 
     def _begin(self) -> None:
         """Build the parts that know the records' numbers: where to start, and how to read the vector of unknowns."""
-        asked = self.study.solver
-        self.multistart = Multistart(self.problem, self.model, asked, self.progress, self.deadline)
+        options = self.study.solver
+        self.multistart = Multistart(self.problem, self.model, options, self.progress, self.deadline)
         self.vector = DecisionVector(self.problem, self.model)
         cycle = self.multistart.cycle
         self.start_values = self.model.some_values(self.problem.minimize, self.model.start, cycle)
@@ -370,12 +370,12 @@ class Optimizer:
         hessian = np.zeros((len(x), len(x)))
         for i in np.flatnonzero(lower < upper).tolist():
             hessian[i] = (gradient(i, _APART) - gradient(i, -_APART)) / (2.0 * _APART)
-        found = here.rows.copy()
+        rows = here.rows.copy()
         # A limit that is to be kept by a margin is held where that is used up.
-        found[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
+        rows[self.problem.equation_count :][: len(self.problem.limits)] -= self._limits_less_margins()
         names = self.study.minimize
         values, gradients = {name: here.values[name] for name in names}, {name: here.gradients[name] for name in names}
-        return Derivatives(found, here.jacobian, 0.5 * (hessian + hessian.T), values, gradients)
+        return Derivatives(rows, here.jacobian, 0.5 * (hessian + hessian.T), values, gradients)
 
 
 class _WithParameters:

@@ -48,7 +48,7 @@ class ParametricOptimizer:
         """Build the problem. Raises InfeasibleError and InputError as `Optimizer` does."""
         self.study = study
         self.optimizer = Optimizer(study)
-        self._limits = {one.name: one for one in self.optimizer.problem.limits}
+        self._limits = {limit.name: limit for limit in self.optimizer.problem.limits}
         self._shape = _shape(study)
 
     def fits(self, study: Study) -> bool:
@@ -70,8 +70,8 @@ class ParametricOptimizer:
         optimizer = self._moved(study, reference)
         optimizer.deadline = Deadline(study.solver.time_limit)
         own = {current.row for current in optimizer.currents}
-        ranges = {name: one for name, one in study.vary.items() if isinstance(one, Range) and name not in own}
-        within = {name: (one.lower, one.upper) for name, one in ranges.items()}
+        ranges = {name: varied for name, varied in study.vary.items() if isinstance(varied, Range) and name not in own}
+        within = {name: (ends.lower, ends.upper) for name, ends in ranges.items()}
         goal = Objective(study.minimize)
         if last is None and near:
             begin = self._clipped(near, optimizer, ranges)
@@ -99,7 +99,7 @@ class ParametricOptimizer:
         numbers = given(study)
         moved, model, problem = copy(built), copy(built.model), copy(built.problem)
         model.start = np.array([float(numbers[name]) for name in model.names])
-        problem.free = tuple(_within(one, study) for one in built.problem.free)
+        problem.free = tuple(_within(free, study) for free in built.problem.free)
         moved.study, moved.model, moved.problem = study, model, problem
         moved.reference = {**built.reference, **(reference or {})}
         moved.margins = self._margins(constraints_of(study, study.table, model.words))
@@ -132,16 +132,16 @@ def _within(free: Free, study: Study) -> Free:
 
 def _ends(run: Run, optimizer: Optimizer) -> dict[str, str]:
     """Free numbers at an end of their range that presses."""
-    found = {}
+    ends = {}
     least = _PRESSES * abs(run.start.objective or 1.0)
     for free, price in zip(optimizer.problem.free, run.bound_multipliers, strict=False):
         value = run.inputs[optimizer.model.index[free.name]]
         room = AT_END * (free.upper - free.lower)
         if price > least and value >= free.upper - room:
-            found[free.name] = "upper"
+            ends[free.name] = "upper"
         elif price < -least and value <= free.lower + room:
-            found[free.name] = "lower"
-    return found
+            ends[free.name] = "lower"
+    return ends
 
 
 def _shape(study: Study) -> dict[str, Any]:

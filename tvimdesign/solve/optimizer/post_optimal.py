@@ -82,7 +82,7 @@ class Response:
     def _decisions(self) -> list[int]:
         """Places among the unknowns of what the optimiser decides: free numbers not held to a listed size, currents."""
         held = self._run.start.choices
-        free = [i for i, one in enumerate(self._optimizer.free) if one.name not in held]
+        free = [i for i, number in enumerate(self._optimizer.free) if number.name not in held]
         currents = [range(place.start, place.stop) for _, place in self._optimizer.vector.places_of_currents()]
         return free + [i for places in currents for i in places]
 
@@ -136,13 +136,13 @@ class Response:
         count, active = along.shape[1], len(rows)
         curvature = along.T @ derivatives.hessian @ along
         system = np.block([[curvature, rows.T], [rows, np.zeros((active, active))]])
-        found = {}
+        responses = {}
         for name, gradient in derivatives.gradients.items():
             right = np.concatenate([along.T @ gradient, np.zeros(active)])
             adjoint = np.linalg.lstsq(system, right, rcond=_DEPENDENT)[0]
             if np.linalg.norm(system @ adjoint - right) <= _UNDETERMINED * np.linalg.norm(right):
-                found[name] = adjoint[count:]
-        return found
+                responses[name] = adjoint[count:]
+        return responses
 
 
 def _tangled(rows: Array) -> list[bool]:

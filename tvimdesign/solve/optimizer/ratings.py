@@ -50,6 +50,6 @@ def exceeded_at_start(study: Study) -> dict[str, float]:
     """
     model = DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
     values = model.values(model.start, Simulator(model).run(model.start).values)
-    required = {one.output for one in study.require if one.sense == ">=" and one.limit >= 0.0}
+    required = {limit.output for limit in study.require if limit.sense == ">=" and limit.limit >= 0.0}
     names = (limit.output for limit in exceeded(values, study.table))
     return {name: values[name] for name in names if name not in required and name not in study.accept}

@@ -78,8 +78,8 @@ def _active(
 
 def _savings(response: Response | None, places: list[Place], per_scale: float = 1.0) -> dict[str, float]:
     """Return the saving of each minimised output, in percent, if places are eased by a hundredth of a scale."""
-    found = response.sensitivity(places) if response else {}
-    return {name: share * per_scale for name, share in found.items()}
+    savings = response.sensitivity(places) if response else {}
+    return {name: share * per_scale for name, share in savings.items()}
 
 
 def _active_constraints(
@@ -101,7 +101,7 @@ def _active_constraints(
 
 def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
     """Return the active ends of ranges; a listed size has no end to move."""
-    found = []
+    active = []
     senses: tuple[tuple[Literal["<=", ">="], float], ...] = (("<=", 1.0), (">=", -1.0))
     for i, free in enumerate(optimizer.free):
         if not isinstance(optimizer.study.vary[free.name], Range):
@@ -113,7 +113,7 @@ def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) ->
             )
             multiplier = max(sign * float(run.bound_multipliers[i]), 0.0)
             per_scale = float(limit.scale / abs(value if free.logarithmic else free.reference))
-            found.append(
+            active.append(
                 _active(
                     limit,
                     in_words(limit, optimizer.table),
@@ -122,12 +122,12 @@ def _active_bounds(optimizer: Optimizer, run: Run, response: Response | None) ->
                     _savings(response, [("upper" if sense == "<=" else "lower", i)], per_scale),
                 )
             )
-    return found
+    return active
 
 
 def _active_currents(optimizer: Optimizer, run: Run, response: Response | None) -> list[ActiveConstraint]:
     """Return the active ends of a free current's range, all its nodes together, and the supply's slew."""
-    found = []
+    active = []
     objective = run.start.objective or 1.0
     for current, place in optimizer.vector.places_of_currents():
         multipliers, shares = run.bound_multipliers[place], run.unknowns[place]
@@ -141,7 +141,7 @@ def _active_currents(optimizer: Optimizer, run: Run, response: Response | None) 
             nodes = range(place.start, place.stop)
             end: Literal["upper", "lower"] = "upper" if sense == "<=" else "lower"
             shadow_price = float(np.sum(np.maximum(sign * multipliers, 0.0))) * limit.scale / current.upper
-            found.append(
+            active.append(
                 _active(
                     limit,
                     f"{bound_text}, at {at_it} of {current.nodes} moments of {current.phase}",
@@ -151,7 +151,7 @@ def _active_currents(optimizer: Optimizer, run: Run, response: Response | None) 
                     f" in {current.phase}",
                 )
             )
-    return found + _active_slew(optimizer, run)
+    return active + _active_slew(optimizer, run)
 
 
 def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
@@ -168,12 +168,12 @@ def _active_slew(optimizer: Optimizer, run: Run) -> list[ActiveConstraint]:
 def _price_of_slew(optimizer: Optimizer, run: Run, slew: float) -> float:
     """Return the fall of the objective per share of slew: a difference of the Lagrangian, as ramps depend on it."""
     problem, parameters = optimizer.problem, optimizer.parameters(Objective(optimizer.study.minimize))
-    found = []
+    values = []
     for share in (1.0 - _SLEW_STEP, 1.0 + _SLEW_STEP):
         other = copy(problem)
-        other.free_currents = tuple(replace(one, slew=slew * share) for one in problem.free_currents)
+        other.free_currents = tuple(replace(current, slew=slew * share) for current in problem.free_currents)
         other.grids = run.grids
         other.forget()
         point = other.at(run.unknowns, parameters)
-        found.append(point.objective + run.multipliers @ point.rows)
-    return float(found[0] - found[1]) / (2.0 * _SLEW_STEP)
+        values.append(point.objective + run.multipliers @ point.rows)
+    return float(values[0] - values[1]) / (2.0 * _SLEW_STEP)

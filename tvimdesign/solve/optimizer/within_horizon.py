@@ -20,11 +20,11 @@ _AT_IT = 1e-6
 def ending_in_time(study: Study, optimizer: Optimizer, run: Run) -> Study | None:
     """Return the study with limits on the times that a run has at the horizon; None if no times or no design."""
     latest = LATEST * float(optimizer.model.start[optimizer.model.index["horizon"]])
-    limited = {one.output for one in study.require if one.sense == "<=" and one.limit <= latest}
+    limited = {limit.output for limit in study.require if limit.sense == "<=" and limit.limit <= latest}
     times = run.times
     late = [event for event, time in times.items() if time > latest * (1.0 - _AT_IT) and event not in limited]
     if not late or not run.start.converged:
         return None
     limits = [Requirement(output=event, sense="<=", limit=latest, text="within the horizon") for event in late]
-    kept = [one for one in study.require if one.sense != "<=" or one.output not in late]
+    kept = [limit for limit in study.require if limit.sense != "<=" or limit.output not in late]
     return study.model_copy(update={"require": (*kept, *limits)})

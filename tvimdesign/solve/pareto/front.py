@@ -83,10 +83,12 @@ def trace_front(trade: Tradeoff, outputs: Sequence[str], count: int) -> Front:
 
 def completed(front: Front, trade: Tradeoff) -> Front:
     """Return a front whose points have every output, also those that no objective or limit depends on."""
-    found = [trade.completed(point) for point in front.points]
-    failures = tuple(one for one in found if isinstance(one, Failure))
+    answers = [trade.completed(point) for point in front.points]
+    failures = tuple(answer for answer in answers if isinstance(answer, Failure))
     return replace(
-        front, points=tuple(one for one in found if isinstance(one, Point)), failures=(*front.failures, *failures)
+        front,
+        points=tuple(answer for answer in answers if isinstance(answer, Point)),
+        failures=(*front.failures, *failures),
     )
 
 
@@ -109,17 +111,17 @@ class _Tracer:
         if self.failures:
             return self._done("an end has no design")
         self.ends = self._distinct(self.ends)
-        kept = self._undominated(self.ends)
-        if len(kept) == 1:
-            self.ends = kept
+        points = self._undominated(self.ends)
+        if len(points) == 1:
+            self.ends = points
             return self._done(f"one point: {_and(self.outputs)} do not conflict")
-        flat = [name for name in self.outputs if _alike([end.values[name] for end in kept])]
+        flat = [name for name in self.outputs if _alike([end.values[name] for end in points])]
         objectives = tuple(name for name in self.outputs if name not in flat)
         self.notes += [f"{name} is the same all along" for name in flat]
         self.notes += self._barely_conflicting()
-        self.frame = Frame.of(objectives, [end.values for end in kept])
-        self.lost += len(self.ends) - len(kept)
-        self.ends = kept
+        self.frame = Frame.of(objectives, [end.values for end in points])
+        self.lost += len(self.ends) - len(points)
+        self.ends = points
         if len(objectives) < 2:  # with what is the same all along left out, nothing is traded between the ends
             return self._done()
         if len(objectives) == 2 or shape.thin(np.array([self.frame.place(end.values) for end in self.ends])):
@@ -218,13 +220,13 @@ class _Tracer:
         points = self._nearest(place)
         where = f"point {len(self._all) + 1} of {self.count}"
         objective = self._objective(self.frame.bounds(place, self.trade.reference))
-        found = self._sought(objective, where, points[0], self._guess(points, place))
-        if not isinstance(found, Point):
+        point = self._sought(objective, where, points[0], self._guess(points, place))
+        if not isinstance(point, Point):
             return False
-        if any(self._same(found, other) for other in self._all):
+        if any(self._same(point, other) for other in self._all):
             self.lost += 1
             return False
-        self.between.append(found)
+        self.between.append(point)
         return True
 
     def _objective(self, bounds: Sequence[Bound]) -> Objective:
@@ -254,13 +256,13 @@ class _Tracer:
         tried: set[tuple[int, int]] = set()
         while (pair := self._next_pair(tried)) is not None:
             place, other = pair
-            one = self.between[place]
+            middle = self.between[place]
             tried.add((place, other.root))
-            self.between[place] = self.trade.again(one, other) or one
-        kept = self._undominated(self._distinct(self._all))
-        self.lost += len(self._all) - len(kept)
-        self.ends = [point for point in self.ends if any(point is one for one in kept)]
-        self.between = [point for point in self.between if any(point is one for one in kept)]
+            self.between[place] = self.trade.again(middle, other) or middle
+        distinct = self._undominated(self._distinct(self._all))
+        self.lost += len(self._all) - len(distinct)
+        self.ends = [point for point in self.ends if any(point is chosen for chosen in distinct)]
+        self.between = [point for point in self.between if any(point is chosen for chosen in distinct)]
 
     def _next_pair(self, tried: set[tuple[int, int]]) -> tuple[int, Point] | None:
         """Return the place of a point and an untried neighbour that descends from another end."""
@@ -277,24 +279,24 @@ class _Tracer:
     def _sought(
         self, objective: Objective, where: str, near: Point | None, guess: Trace | None = None
     ) -> Point | Failure:
-        found = self.trade.best(objective, f"{self.title}: {where}", near, guess)
-        found = replace(found, where=where)
-        if isinstance(found, Failure):
-            self.failures.append(found)
-        return found
+        answer = self.trade.best(objective, f"{self.title}: {where}", near, guess)
+        answer = replace(answer, where=where)
+        if isinstance(answer, Failure):
+            self.failures.append(answer)
+        return answer
 
     def _distinct(self, points: Sequence[Point]) -> list[Point]:
-        found: list[Point] = []
+        distinct: list[Point] = []
         for point in points:
-            if not any(self._same(point, other) for other in found):
-                found.append(point)
-        return found
+            if not any(self._same(point, other) for other in distinct):
+                distinct.append(point)
+        return distinct
 
     def _undominated(self, points: Sequence[Point]) -> list[Point]:
         return undominated(points, self.outputs)
 
-    def _same(self, one: Point, other: Point) -> bool:
-        return all(_alike([one.values[name], other.values[name]]) for name in self.outputs)
+    def _same(self, point: Point, other: Point) -> bool:
+        return all(_alike([point.values[name], other.values[name]]) for name in self.outputs)
 
 
 def undominated(points: Sequence[Point], names: Sequence[str]) -> list[Point]:

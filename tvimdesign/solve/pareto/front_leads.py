@@ -36,7 +36,7 @@ class Lead:
 def leads(curves: Mapping[str, Curve]) -> list[Lead]:
     """Ranges of the limit by who does best, from the least limit that any one keeps on; straight between points."""
     curves = {label: sorted(curve) for label, curve in curves.items() if curve}
-    found: list[Lead] = []
+    leading: list[Lead] = []
     for lower, upper in _intervals(curves):
         ends = [lower, upper if math.isfinite(upper) else lower]
         inside = 0.5 * sum(ends)
@@ -48,11 +48,11 @@ def leads(curves: Mapping[str, Curve]) -> list[Lead]:
             ratios = [reached(curves[order[1]], end) / reached(curves[best], end) for end in ends]
         from_template = len(order) > 1 and at[order[1]] / at[best] - 1.0 <= ALIKE
         now = Lead(lower, upper, None if from_template else best, len(order) == 1, min(ratios), max(ratios))
-        if found and (found[-1].best, found[-1].alone) == (now.best, now.alone):
-            last = found.pop()
+        if leading and (leading[-1].best, leading[-1].alone) == (now.best, now.alone):
+            last = leading.pop()
             now = Lead(last.lower, upper, now.best, now.alone, min(last.least, now.least), max(last.most, now.most))
-        found.append(now)
-    return found
+        leading.append(now)
+    return leading
 
 
 def reached(curve: Curve, limit: float) -> float:

@@ -126,8 +126,8 @@ def knee(shares: Array) -> int | None:
 def affine(places: Array, target: Array) -> Array:
     """Weights, of sum one, with which places make up a target as nearly as they can, with the smallest numbers."""
     to_target = (places[1:] - places[0]).T
-    rest = np.linalg.lstsq(to_target, target - places[0], rcond=1e-3)[0]
-    return np.concatenate([[1.0 - rest.sum()], rest])
+    weights = np.linalg.lstsq(to_target, target - places[0], rcond=1e-3)[0]
+    return np.concatenate([[1.0 - weights.sum()], weights])
 
 
 def thin(places: Array) -> bool:
@@ -140,7 +140,7 @@ def candidates(ends: Array) -> Array:
     """Places all over the hull of those of the ends, in the plane: in three outputs."""
     axes = np.array([[1.0, -1.0, 0.0], [1.0, 1.0, -2.0]]) / np.sqrt([[2.0], [6.0]])
     corners = _hull(ends @ axes.T)
-    triangles = [(corners[0], one, other) for one, other in itertools.pairwise(corners[1:])]
+    triangles = [(corners[0], corner, other) for corner, other in itertools.pairwise(corners[1:])]
     if len(corners) == 2:
         triangles = [(corners[0], corners[1], corners[1])]
     steps = [(i, j) for i in range(_STEPS + 1) for j in range(_STEPS + 1 - i)]
@@ -160,12 +160,12 @@ def _hull(points: Array) -> list[Array]:
     ordered = [points[i] for i in np.lexsort((points[:, 1], points[:, 0]))]
 
     def half(chain: Sequence[Array]) -> list[Array]:
-        found: list[Array] = []
+        halves: list[Array] = []
         for point in chain:
-            while len(found) > 1 and _turn(found[-2], found[-1], point) <= 1e-9:
-                found.pop()
-            found.append(point)
-        return found
+            while len(halves) > 1 and _turn(halves[-2], halves[-1], point) <= 1e-9:
+                halves.pop()
+            halves.append(point)
+        return halves
 
     return half(ordered)[:-1] + half(ordered[::-1])[:-1]
 

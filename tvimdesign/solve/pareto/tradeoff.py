@@ -115,20 +115,20 @@ class Tradeoff:
         also from there.
         """
         number, self.asked = self.asked, self.asked + 1
-        found = self._memory.recall(number, objective) if self._memory else None
-        if found is None and self.optimizer.deadline.passed:
+        answer = self._memory.recall(number, objective) if self._memory else None
+        if answer is None and self.optimizer.deadline.passed:
             return Failure(where, OUT_OF_TIME)
-        if found is None:
+        if answer is None:
             self.progress(where)
-            found = self._search(objective, where, near, guess)
-            if isinstance(found, Failure) and self.optimizer.deadline.passed:
+            answer = self._search(objective, where, near, guess)
+            if isinstance(answer, Failure) and self.optimizer.deadline.passed:
                 return Failure(where, OUT_OF_TIME)
             if self._memory:
-                self._memory.keep(number, objective, found)
-        if isinstance(found, Point):
-            self.found.append(found)
+                self._memory.keep(number, objective, answer)
+        if isinstance(answer, Point):
+            self.found.append(answer)
             self._leave_time()
-        return found
+        return answer
 
     def _leave_time(self) -> None:
         """Leave time for the whole cycle of every point to be simulated, which takes about as long as setting up."""
@@ -138,20 +138,20 @@ class Tradeoff:
         """Return a point solved again from another one; None if no better one results."""
         assert point.objective is not None  # the study's own optimum is never asked for again
         number, self.asked = self.asked, self.asked + 1
-        found = self._memory.recall(number, point.objective) if self._memory else None
-        if found is None and self.optimizer.deadline.passed:
+        answer = self._memory.recall(number, point.objective) if self._memory else None
+        if answer is None and self.optimizer.deadline.passed:
             return None
-        if found is None:
+        if answer is None:
             self.progress(f"{point.where}, from another side")
-            found = self._from(other, point.objective, point.where, point.cost)
-            if isinstance(found, Failure) and self.optimizer.deadline.passed:
+            answer = self._from(other, point.objective, point.where, point.cost)
+            if isinstance(answer, Failure) and self.optimizer.deadline.passed:
                 return None
             if self._memory:
-                self._memory.keep(number, point.objective, found)
-        if isinstance(found, Failure):
+                self._memory.keep(number, point.objective, answer)
+        if isinstance(answer, Failure):
             return None
-        self.found.append(found)
-        return replace(found, where=point.where, root=other.root)
+        self.found.append(answer)
+        return replace(answer, where=point.where, root=other.root)
 
     def completed(self, point: Point) -> Point | Failure:
         """Return a point with every output of the whole working cycle, needed by the problem or not."""
@@ -166,28 +166,30 @@ class Tradeoff:
         return replace(point, values=point.values | self.optimizer.model.values(inputs, cycle.values))
 
     def _search(self, objective: Objective, where: str, near: Point | None, guess: Trace | None) -> Point | Failure:
-        found: Point | Failure = Failure(where, "nothing to begin from")
+        answer: Point | Failure = Failure(where, "nothing to begin from")
         if guess is not None:
-            found = self._checked([self._warm(guess, objective)], objective, where)
-        if near is not None and isinstance(found, Failure):
-            found = self._checked([self._cold(self._inputs(near), objective)], objective, where)
-        if isinstance(found, Failure):
-            found = self._checked([self._warm(run.trace, objective) for run in self._optima], objective, where)
-        if isinstance(found, Failure):
+            answer = self._checked([self._warm(guess, objective)], objective, where)
+        if near is not None and isinstance(answer, Failure):
+            answer = self._checked([self._cold(self._inputs(near), objective)], objective, where)
+        if isinstance(answer, Failure):
+            answer = self._checked([self._warm(run.trace, objective) for run in self._optima], objective, where)
+        if isinstance(answer, Failure):
             begins = [self.optimizer.model.start, self._inputs(self.optimum)]
-            found = self._checked([self._cold(begin, objective) for begin in begins], objective, where)
-        if near is not None and isinstance(found, Point):
-            found = replace(found, root=near.root)
-        keeping = [one for one in self.found if all(bound.residual(one.values) <= 0.0 for bound in objective.bounds)]
-        best = min(keeping, key=lambda one: self._value(one, objective), default=None)
-        if best and (isinstance(found, Failure) or self._better(best, found, objective)):
-            again = self._from(best, objective, where, math.inf if isinstance(found, Failure) else found.cost)
-            found = replace(again, root=best.root) if isinstance(again, Point) else found
-        return found
+            answer = self._checked([self._cold(begin, objective) for begin in begins], objective, where)
+        if near is not None and isinstance(answer, Point):
+            answer = replace(answer, root=near.root)
+        keeping = [
+            point for point in self.found if all(bound.residual(point.values) <= 0.0 for bound in objective.bounds)
+        ]
+        best = min(keeping, key=lambda point: self._value(point, objective), default=None)
+        if best and (isinstance(answer, Failure) or self._better(best, answer, objective)):
+            again = self._from(best, objective, where, math.inf if isinstance(answer, Failure) else answer.cost)
+            answer = replace(again, root=best.root) if isinstance(again, Point) else answer
+        return answer
 
-    def _better(self, one: Point, other: Point, objective: Objective) -> bool:
+    def _better(self, point: Point, other: Point, objective: Objective) -> bool:
         """Return whether a design is better than another by more than the simulation's tolerance."""
-        return self._value(one, objective) < self._value(other, objective) * (1.0 - ONE_POINT)
+        return self._value(point, objective) < self._value(other, objective) * (1.0 - ONE_POINT)
 
     def _value(self, point: Point, objective: Objective) -> float:
         """Return the value that an objective minimises."""

@@ -73,7 +73,7 @@ def level_set(
         np.asarray(values, float),
         np.asarray(thicknesses, float),
         {place: np.array(sampled) for place, sampled in times.items()},
-        {place: np.array(found) for place, found in line.items()},
+        {place: np.array(times) for place, times in line.items()},
     )
 
 

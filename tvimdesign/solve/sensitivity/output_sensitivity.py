@@ -67,11 +67,11 @@ def output_sensitivities(
     derivatives = OutputDerivatives(model, names, REPORTED)
     values, slopes, never = derivatives.at(model.start, variables)
     lost = never | behind_profiles(model.table, set(resolved.current_profiles))
-    kept = [i for i, name in enumerate(names) if not derivatives.supplied[name] & lost]
-    left_out = tuple(name for i, name in enumerate(names) if i not in kept)
+    places = [i for i, name in enumerate(names) if not derivatives.supplied[name] & lost]
+    left_out = tuple(name for i, name in enumerate(names) if i not in places)
     at = model.start[[model.index[name] for name in variables]]
     return OutputSensitivities(
-        tuple(names[i] for i in kept), tuple(variables), values[kept], at, slopes[kept], left_out
+        tuple(names[i] for i in places), tuple(variables), values[places], at, slopes[places], left_out
     )  # fmt: skip
 
 
@@ -109,18 +109,21 @@ class OutputDerivatives:
         return values, slopes, never
 
 
-def entries(found: OutputSensitivities, resolved: ResolvedModule) -> list[OutputSensitivity]:
+def entries(sensitivities: OutputSensitivities, resolved: ResolvedModule) -> list[OutputSensitivity]:
     """Return one record for each output and variable, in the order of the table."""
     records = []
     table = resolved.table
-    sizes = [_has_size(table.unit(name), value) for name, value in zip(found.variables, found.at, strict=True)]
-    for i, output in enumerate(found.outputs):
-        has_size = _has_size(table.unit(output), found.values[i])
-        for j, variable in enumerate(found.variables):
-            derivative = float(found.derivatives[i, j])
-            share = derivative * float(found.at[j] / found.values[i]) if has_size and sizes[j] else None
+    sizes = [
+        _has_size(table.unit(name), value)
+        for name, value in zip(sensitivities.variables, sensitivities.at, strict=True)
+    ]
+    for i, output in enumerate(sensitivities.outputs):
+        has_size = _has_size(table.unit(output), sensitivities.values[i])
+        for j, variable in enumerate(sensitivities.variables):
+            derivative = float(sensitivities.derivatives[i, j])
+            share = derivative * float(sensitivities.at[j] / sensitivities.values[i]) if has_size and sizes[j] else None
             records.append(
-                OutputSensitivity(output, variable, derivative, share, 0.01 * float(found.at[j]) * derivative)
+                OutputSensitivity(output, variable, derivative, share, 0.01 * float(sensitivities.at[j]) * derivative)
             )
     return records
 

@@ -67,11 +67,11 @@ class Pair:
 
     def value(self, name: str) -> float:
         """Value of an input [SI]. Raises InputError where the two differ in it or neither has it."""
-        found = {float(model.start[model.index[name]]) for model in self.models if name in model.index}
-        if len(found) != 1:
-            said = " and ".join(f"{value:g}" for value in sorted(found)) or "no value at all"
-            raise InputError(f"{name} has {said} in the two modules; it can move only where both start from the same")
-        return found.pop()
+        values = {float(model.start[model.index[name]]) for model in self.models if name in model.index}
+        if len(values) != 1:
+            listed = " and ".join(f"{value:g}" for value in sorted(values)) or "no value at all"
+            raise InputError(f"{name} has {listed} in the two modules; it can move only where both start from the same")
+        return values.pop()
 
     def switches(self, changes: Mapping[str, float] | None = None) -> tuple[dict[str, float], dict[str, float]]:
         """Return every value of the heating of both modules, with some inputs changed."""
@@ -90,8 +90,8 @@ class Pair:
             inputs = model.start.copy()
             for name, value in own:
                 inputs[model.index[name]] = value
-            found = CycleEngine(model).run(inputs, np.zeros((len(inputs), 0)), [event]).values
-            self._times[which, event, own] = float(found[model.switch_names.index(event)])
+            times = CycleEngine(model).run(inputs, np.zeros((len(inputs), 0)), [event]).values
+            self._times[which, event, own] = float(times[model.switch_names.index(event)])
         return self._times[which, event, own]
 
     def influence(self, event: str, span: Span) -> Influence:

@@ -16,7 +16,7 @@ def contributors_of(resolved: ResolvedModule, adjusted: bool | None = None) -> l
 
     A constant current in whose place one follows a profile spreads nothing.
     """
-    found = []
+    contributors = []
     for name, tolerance in resolved.study.tolerances.items():
         if name in resolved.replaced:
             continue
@@ -29,8 +29,8 @@ def contributors_of(resolved: ResolvedModule, adjusted: bool | None = None) -> l
             size = min(size, tolerance.adjusted_to or 0.0)
         if size > 0.0:
             kind, sigma = tolerance.distribution, tolerance.sigma
-            found.append(spread.Contributor(name, value, size, kind, sigma, row.lower, row.upper))
-    return found
+            contributors.append(spread.Contributor(name, value, size, kind, sigma, row.lower, row.upper))
+    return contributors
 
 
 def plus_minus(resolved: ResolvedModule, value: float, tolerance: Tolerance) -> float:

@@ -59,7 +59,7 @@ class UncertaintyModel:
         self._resolved, study, table = resolved, resolved.study, resolved.table
         lost = behind_profiles(table, {*study.profile.pieces(), *resolved.current_profiles})
         self.asked = tuple(name for name in dict.fromkeys(asked) if not _behind(table, name, lost))
-        unmeasured = [one.name for one in unmeasured_inputs(resolved)]
+        unmeasured = [quantity.name for quantity in unmeasured_inputs(resolved)]
         self._spreading = {name.partition("@")[0] for name in study.tolerances}
         moved = self._spreading | set(unmeasured)
         every = constraints_of(study, table, resolved.values)
@@ -91,9 +91,9 @@ class UncertaintyModel:
         spreading = [limit for limit in counted if _behind(resolved.table, limit.output, self._spreading)]
         names = {limit.name for limit in counted}
         left_out = tuple(limit.name for limit in self.limits if limit.name not in names)
-        found = self._of_ranges(resolved, counted, draws, workers)
+        result = self._of_ranges(resolved, counted, draws, workers)
         parts = self._yield(resolved, spreading, modules, workers)
-        return DesignUncertainty(parts, len(spreading), left_out, *found, self._before(resolved, draws, workers))
+        return DesignUncertainty(parts, len(spreading), left_out, *result, self._before(resolved, draws, workers))
 
     def _rows(
         self, resolved: ResolvedModule, columns: Array, places: Sequence[str], workers: int,
@@ -119,46 +119,46 @@ class UncertaintyModel:
         places = [contributor.name for contributor in contributors]
         points = sobol_points(len(contributors), modules, resolved.study.solver.seed)
         drawn = self._rows(resolved, spread.inputs_at(contributors, points.T), places, workers, self._early)
-        return spread.share_kept(np.all(_kept(limits, self.outputs, drawn), axis=0))
+        return spread.share_kept(np.all(_satisfied(limits, self.outputs, drawn), axis=0))
 
     def _before(self, resolved: ResolvedModule, draws: int, workers: int) -> dict[str, tuple[float, float]]:
         """Intervals of the asked outputs by the ranges that measured inputs had before."""
-        moved = [one for one in unmeasured_inputs(resolved) if one.name in self.names]
-        if all(one.before is None for one in moved):
+        moved = [quantity for quantity in unmeasured_inputs(resolved) if quantity.name in self.names]
+        if all(quantity.before is None for quantity in moved):
             return {}
         drawn = draw(before_measuring(moved), draws, resolved.study.solver.seed)
-        values = self._rows(resolved, drawn, [one.name for one in moved], workers)
+        values = self._rows(resolved, drawn, [quantity.name for quantity in moved], workers)
         return {name: covered(values[self.outputs.index(name)]) for name in self.asked}
 
     def _of_ranges(
         self, resolved: ResolvedModule, limits: Sequence[Constraint], draws: int, workers: int
     ) -> tuple[dict[str, Interval], spread.Yield | None, dict[str, float], tuple[UnmeasuredInput, ...]]:
         """Intervals of the asked outputs, and where in the ranges the limits are kept."""
-        moved = tuple(one for one in unmeasured_inputs(resolved) if one.name in self.names)
+        moved = tuple(quantity for quantity in unmeasured_inputs(resolved) if quantity.name in self.names)
         if not moved:
             return {}, None, {}, ()
-        places = [one.name for one in moved]
+        places = [quantity.name for quantity in moved]
 
         def every(columns: Array) -> Array:
             return self._rows(resolved, columns, places, workers)
 
         drawn = draw(moved, draws, resolved.study.solver.seed)
         values = every(drawn)
-        found = intervals(every, moved, drawn, values, float(resolved.values["horizon"]))
-        by_name = dict(zip(self.outputs, found, strict=True))
-        asked = {name: by_name[name] for name in self.asked}
+        ranges = intervals(every, moved, drawn, values, float(resolved.values["horizon"]))
+        by_name = dict(zip(self.outputs, ranges, strict=True))
+        requested = {name: by_name[name] for name in self.asked}
         hanging = [limit for limit in limits if _behind(resolved.table, limit.output, set(places))]
         if not hanging:
-            return asked, None, {}, moved
-        kept = _kept(hanging, self.outputs, values)
-        shares = {limit.name: float(np.mean(row)) for limit, row in zip(hanging, kept, strict=True)}
+            return requested, None, {}, moved
+        satisfied = _satisfied(hanging, self.outputs, values)
+        shares = {limit.name: float(np.mean(row)) for limit, row in zip(hanging, satisfied, strict=True)}
         broken = sorted((item for item in shares.items() if item[1] < 1.0), key=lambda item: item[1])
         in_doubt = {limit.output for limit in hanging for name, _ in broken[:1] if limit.name == name}
-        asked.update({name: by_name[name] for name in in_doubt})
-        return asked, spread.share_kept(np.all(kept, axis=0)), dict(broken), moved
+        requested.update({name: by_name[name] for name in in_doubt})
+        return requested, spread.share_kept(np.all(satisfied, axis=0)), dict(broken), moved
 
 
-def _kept(limits: Sequence[Constraint], outputs: Sequence[str], values: Array) -> NDArray[np.bool_]:
+def _satisfied(limits: Sequence[Constraint], outputs: Sequence[str], values: Array) -> NDArray[np.bool_]:
     """Return whether each module (column) satisfies each limit (row)."""
     with np.errstate(invalid="ignore"):
         return np.array([limit.keeps(values[outputs.index(limit.output)]) for limit in limits])

@@ -70,21 +70,21 @@ class Interval:
     @property
     def to_halve(self) -> tuple[str, ...]:
         """The fewest inputs that must be known to halve the interval; empty where their shares do not add up to it."""
-        found, left = [], 1.0
+        measured, left = [], 1.0
         for name, share in self.shares.items():
-            found.append(name)
+            measured.append(name)
             left -= share
             if left <= _QUARTER:
-                return tuple(found)
+                return tuple(measured)
         return ()
 
 
 def one_at_a_time(function: Columns, inputs: Sequence[UnmeasuredInput]) -> tuple[Array, Array]:
     """Outputs as drawn, one each; and with each input at its low and its high end: (outputs, inputs, 2)."""
-    drawn = np.array([one.value for one in inputs])
+    drawn = np.array([quantity.value for quantity in inputs])
     columns = np.repeat(drawn[:, None], 2 * len(inputs) + 1, axis=1)
-    for i, one in enumerate(inputs):
-        columns[i, 1 + 2 * i], columns[i, 2 + 2 * i] = one.low, one.high
+    for i, quantity in enumerate(inputs):
+        columns[i, 1 + 2 * i], columns[i, 2 + 2 * i] = quantity.low, quantity.high
     values = function(columns)
     return values[:, 0], values[:, 1:].reshape(len(values), len(inputs), 2)
 
@@ -101,7 +101,7 @@ def draw(inputs: Sequence[UnmeasuredInput], count: int, seed: int) -> Array:
     for row in parts:
         rng.shuffle(row)
     points = (parts - within) / count
-    return np.array([one.ppf(row) for one, row in zip(inputs, points, strict=True)])
+    return np.array([quantity.ppf(row) for quantity, row in zip(inputs, points, strict=True)])
 
 
 def intervals(
@@ -120,19 +120,19 @@ def _interval(
 ) -> Interval:
     happens = np.where(np.isnan(row), np.inf, row)
     low, high = covered(row)
-    moved = [Swing(one, _or_never(a), _or_never(b)) for one, (a, b) in zip(inputs, ends, strict=True)]
+    moved = [Swing(quantity, _or_never(a), _or_never(b)) for quantity, (a, b) in zip(inputs, ends, strict=True)]
     swings = sorted((swing for swing in moved if swing.at_low != swing.at_high), key=lambda swing: -swing.size)
     most = high if np.isfinite(high) else max(instead, low)
     within = np.clip(np.where(np.isfinite(happens), happens, instead), low, most)
     moving = {swing.moved.name for swing in swings}
     shares = {
-        one.name: share_of_variance(column, within)
-        for one, column in zip(inputs, drawn, strict=True)
-        if one.name in moving
+        quantity.name: share_of_variance(column, within)
+        for quantity, column in zip(inputs, drawn, strict=True)
+        if quantity.name in moving
     }
-    told = {name: share for name, share in shares.items() if share >= _LEAST}
+    large = {name: share for name, share in shares.items() if share >= _LEAST}
     low, high = min(low, nominal), max(high, nominal)  # a value at an end of its range is none the less possible
-    return Interval(nominal, low, high, tuple(swings), dict(sorted(told.items(), key=lambda item: -item[1])))
+    return Interval(nominal, low, high, tuple(swings), dict(sorted(large.items(), key=lambda item: -item[1])))
 
 
 def covered(row: Array) -> tuple[float, float]:

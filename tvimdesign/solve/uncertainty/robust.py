@@ -57,7 +57,7 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
                 break
         if found[-1][1].reached:
             break
-    best, robust = max(found, key=lambda one: (one[1].reached, one[1].kept))
+    best, robust = max(found, key=lambda pair: (pair[1].reached, pair[1].kept))
     candidates[best][0].margins = robust.margins
     return best, robust.run
 
@@ -84,13 +84,13 @@ def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective
 def _robust(
     optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, halvings: int = HALVINGS
 ) -> Robust:
-    asked = optimizer.study.robust
-    assert asked is not None
-    if asked.share is None:
+    options = optimizer.study.robust
+    assert options is not None
+    if options.share is None:
         run = _settled(optimizer, run, within, objective)
     elif run.start.converged:
-        return reach_yield(optimizer, run, within, asked.share, objective, halvings)
-    return Robust(run, optimizer.margins, 0.0, reached=asked.share is None)
+        return reach_yield(optimizer, run, within, options.share, objective, halvings)
+    return Robust(run, optimizer.margins, 0.0, reached=options.share is None)
 
 
 def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
@@ -105,26 +105,26 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
             return run
         before = optimizer.margins
         optimizer.margins = margins
-        _tell_what_is_not(optimizer, margins)
+        _report_unmargined(optimizer, margins)
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
         optimizer.progress("staying within the limits on times by what they spread")
-        found = _again(optimizer, run, within, objective)
-        if not found.start.converged and optimizer.deadline.passed:
+        optimum = _again(optimizer, run, within, objective)
+        if not optimum.start.converged and optimizer.deadline.passed:
             optimizer.deadline.leave_out(MARGINS)
             optimizer.margins = before
             return run
-        run = found
+        run = optimum
     return run
 
 
 def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Run:
     """Return the optimum with other margins, warm from the last optimum or else from its inputs."""
-    found = optimizer.solve(within, warm=run, objective=objective)
-    return found if found.start.converged else optimizer.solve(within, begin=run.inputs, objective=objective)
+    optimum = optimizer.solve(within, warm=run, objective=objective)
+    return optimum if optimum.start.converged else optimizer.solve(within, begin=run.inputs, objective=objective)
 
 
-def _tell_what_is_not(optimizer: Optimizer, margins: dict[str, float]) -> None:
+def _report_unmargined(optimizer: Optimizer, margins: dict[str, float]) -> None:
     """Name the limits whose spread is not known: they are kept as drawn, no more."""
     timed = (limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output))
     names = [limit.name for limit in timed if limit.name not in margins]
@@ -142,14 +142,16 @@ def _margins(optimizer: Optimizer, run: Run) -> dict[str, float]:
         (timed if on_cycle(optimizer.table, limit.output) else algebraic).append(limit)
     margins = {}
     if algebraic:
-        names, scales = [one.output for one in algebraic], [one.scale for one in algebraic]
+        names, scales = [limit.output for limit in algebraic], [limit.scale for limit in algebraic]
         shift, deviation = moments_at(optimizer.model, optimizer.study.tolerances, names, scales, run.inputs)
         for i, limit in enumerate(algebraic):
             moved = shift[i] if limit.sense == "<=" else -shift[i]
             margins[limit.name] = float(moved + sigma * deviation[i]) / limit.scale
     if timed:
         deviations = _deviations(optimizer, run, list(dict.fromkeys(limit.output for limit in timed)))
-        margins |= {one.name: sigma * deviations[one.output] / one.scale for one in timed if one.output in deviations}
+        margins |= {
+            limit.name: sigma * deviations[limit.output] / limit.scale for limit in timed if limit.output in deviations
+        }
     return margins
 
 

@@ -12,12 +12,12 @@ from tvimdesign.base.compile_cache import find_code, keep_code
 
 def sobol_points(dimensions: int, count: int, seed: int) -> NDArray[np.float64]:
     """Return the first points of a sequence in the unit cube, one a row; `count` is a power of two."""
-    told = (f"scipy {version('scipy')}, numpy {version('numpy')}", f"Sobol {dimensions} {count} {seed}")
-    kept = find_code(*told)
-    if kept is not None:
-        return np.frombuffer(kept).reshape(count, dimensions)
+    key = (f"scipy {version('scipy')}, numpy {version('numpy')}", f"Sobol {dimensions} {count} {seed}")
+    cached = find_code(*key)
+    if cached is not None:
+        return np.frombuffer(cached).reshape(count, dimensions)
     from scipy.stats import qmc
 
     points: NDArray[np.float64] = qmc.Sobol(dimensions, rng=np.random.default_rng(seed)).random(count)
-    keep_code(points.tobytes(), *told)
+    keep_code(points.tobytes(), *key)
     return points

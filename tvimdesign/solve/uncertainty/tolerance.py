@@ -143,9 +143,9 @@ class Tolerancing:
         What comes after the switch costs ten times as much, and is looked at where it is asked for.
         """
         study, table = self.resolved.study, self.resolved.table
-        asked = [*study.minimize, *(limit.output for limit in self.limits if limit.origin == "require")]
+        requested = [*study.minimize, *(limit.output for limit in self.limits if limit.origin == "require")]
         if study.minimize or study.require:
-            return asked
+            return requested
         names = (name for name in table.names(self.resolved.points) if table.output(name).headline)
         later = {row.name for row in table.supplied if table.phase(row.phase).after}
         return [
@@ -208,18 +208,18 @@ class Tolerancing:
         self.progress("looking at the corners of the tolerances")
         worst = spread.worst_case(function, contributors, derivatives)
         self.progress(f"drawing {samples} modules")
-        found = spread.moments_of(self._draws(samples, seed)(self.whole))
+        results = spread.moments_of(self._draws(samples, seed)(self.whole))
         self.progress("sharing the variance out")
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
-        kept, together = self._kept(found)
+        satisfied, together = self._kept(results)
         return Spread(
-            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, found,
-            first, total, kept, together, self.left_out,
+            tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, results,
+            first, total, satisfied, together, self.left_out,
         )  # fmt: skip
 
     def _kept(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
         """Return each limit, and all together."""
-        found = []
+        shares = []
         every = np.ones(drawn.values.shape[1], dtype=bool)
         for limit in self.limits:
             i = self.outputs.index(limit.output)
@@ -227,8 +227,8 @@ class Tolerancing:
                 keeps = np.asarray(limit.keeps(drawn.values[i]))
             every &= keeps
             able = spread.capability(float(drawn.mean[i]), float(drawn.deviation[i]), limit.limit, limit.sense)
-            found.append(Kept(limit, spread.share_kept(keeps), able))
-        return tuple(found), spread.share_kept(every)
+            shares.append(Kept(limit, spread.share_kept(keeps), able))
+        return tuple(shares), spread.share_kept(every)
 
     def preload(self, samples: int, seed: int) -> Preload | None:
         """Return the free angle as bought and adjusted; None if it has no tolerance, or nothing depends on it."""
@@ -240,9 +240,13 @@ class Tolerancing:
         sizes, yields = [], []
         for draw in draws:
             values = values_of(draw)
-            kept = [limit.keeps(values[outputs.index(limit.output)]) for limit in limits]
-            yields.append(spread.share_kept(np.all(kept, axis=0)))
-            sizes.append(next((one.plus_minus for one in draw.contributors if one.name == FREE_ANGLE), 0.0))
+            satisfied = [limit.keeps(values[outputs.index(limit.output)]) for limit in limits]
+            yields.append(spread.share_kept(np.all(satisfied, axis=0)))
+            sizes.append(
+                next(
+                    (contributor.plus_minus for contributor in draw.contributors if contributor.name == FREE_ANGLE), 0.0
+                )
+            )
         stroke = abs(float(self.resolved.values["stroke"]))
         tolerance = self.resolved.study.tolerances[FREE_ANGLE]
         return Preload(sizes[0], sizes[1], sizes[0] / stroke, yields[0], yields[1], tolerance.row or "")

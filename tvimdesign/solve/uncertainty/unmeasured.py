@@ -55,14 +55,14 @@ def unmeasured_inputs(resolved: ResolvedModule) -> list[UnmeasuredInput]:
     A value that the study sets is the study's own. One that was `measured` counts with the interval its record has, and
     is known where it has none.
     """
-    found = []
+    unmeasured = []
     for row in resolved.table.inputs:
         if row.per_point or row.integer:
             continue
         known = _of_record(row, resolved) if row.record else _of_table(row, resolved)
         if known is not None and known.low < known.high:
-            found.append(known)
-    return found
+            unmeasured.append(known)
+    return unmeasured
 
 
 def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
@@ -82,10 +82,12 @@ def _of_record(row: Input, resolved: ResolvedModule) -> UnmeasuredInput | None:
 def before_measuring(inputs: Sequence[UnmeasuredInput]) -> list[UnmeasuredInput]:
     """Return the inputs with their ranges before measurements; values outside move to the nearer end."""
     return [
-        one
-        if one.before is None
-        else replace(one, low=min(one.before[0], one.value), high=max(one.before[1], one.value))
-        for one in inputs
+        quantity
+        if quantity.before is None
+        else replace(
+            quantity, low=min(quantity.before[0], quantity.value), high=max(quantity.before[1], quantity.value)
+        )
+        for quantity in inputs
     ]
 
 

@@ -23,11 +23,11 @@ def account_of_yield(optimizer: Optimizer, run: Run, nominal: Run, share: float)
     table, points = optimizer.table, tuple(optimizer.study.operating_points)
     cycle = optimizer.simulator.run_to_show(nominal.inputs, nominal.current_profiles)
     values = optimizer.model.values(nominal.inputs, cycle.values)
-    told = [name for name in table.names(points) if table.output(name).headline]
+    names = [name for name in table.names(points) if table.output(name).headline]
     return YieldReached(
         asked=share, modules=drawn.residuals.shape[1], shares=drawn.shares, together=drawn.together.share,
         lost_to=tuple(_lost(drawn, optimizer)), nominal_together=without,
-        nominal={name: float(values[name]) for name in dict.fromkeys([*optimizer.study.minimize, *told])},
+        nominal={name: float(values[name]) for name in dict.fromkeys([*optimizer.study.minimize, *names])},
     )  # fmt: skip
 
 

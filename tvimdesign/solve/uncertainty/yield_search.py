@@ -61,20 +61,20 @@ def reach_yield(
     Returns the best design that reaches it, else the one that most modules keep; its margins stay with the optimizer.
     Raises TimeOverError where the time is over before modules are drawn of the first.
     """
-    found: list[Robust] = []
+    candidates: list[Robust] = []
     yields, aim = yields_of(optimizer), share + _AIM * (1.0 - share)
     for _ in range(ROUNDS):
         try:
             drawn = yields.at(run.inputs, deadline=optimizer.deadline)
         except TimeOverError:
-            if not found:
+            if not candidates:
                 raise
             optimizer.deadline.leave_out(MARGINS)
             break
         margins = dict(optimizer.margins)
-        found.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
+        candidates.append(Robust(run, margins, drawn.together.share, drawn.together.low >= share))
         moves = _moves(drawn, aim, margins, _pressing(optimizer, run))
-        if not moves or _no_better(found):
+        if not moves or _no_better(candidates):
             break
         optimizer.progress(f"yield {drawn.together.share:.1%} (target {share:.0%}): adding tolerance margins")
         following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves, halvings)
@@ -83,7 +83,13 @@ def reach_yield(
                 optimizer.deadline.leave_out(MARGINS)
             break
         run = following
-    best = min(found, key=lambda one: (not one.reached, one.run.start.objective if one.reached else -one.kept))
+    best = min(
+        candidates,
+        key=lambda candidate: (
+            not candidate.reached,
+            candidate.run.start.objective if candidate.reached else -candidate.kept,
+        ),
+    )
     optimizer.margins = best.margins
     return best
 
@@ -93,7 +99,7 @@ def _settled(
     objective: Objective | None, moves: Mapping[str, float], halvings: int,
 ) -> Run:  # fmt: skip
     """Return the optimum whose margins fit its predicted modules; the run itself if there is none."""
-    begun = run
+    first = run
     for _ in range(PREDICTIONS):
         margins = dict(optimizer.margins)
         following = _tightened(optimizer, run, within, objective, margins, moves, halvings)
@@ -102,7 +108,7 @@ def _settled(
             break
         run = following
         try:
-            predicted = yields.beside(run.inputs, begun.inputs, drawn)
+            predicted = yields.beside(run.inputs, first.inputs, drawn)
         except SimulationError:
             break
         moves = _moves(predicted, aim, optimizer.margins, _pressing(optimizer, run))
@@ -111,10 +117,14 @@ def _settled(
     return run
 
 
-def _no_better(found: Sequence[Robust]) -> bool:
+def _no_better(candidates: Sequence[Robust]) -> bool:
     """Return whether the last two rounds reached the yield at the same objective."""
-    last = found[-2:]
-    return len(last) > 1 and all(one.reached for one in last) and same_optimum(last[0].run.start, last[1].run.start)
+    last = candidates[-2:]
+    return (
+        len(last) > 1
+        and all(candidate.reached for candidate in last)
+        and same_optimum(last[0].run.start, last[1].run.start)
+    )
 
 
 def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: Collection[str]) -> dict[str, float]:
@@ -156,12 +166,12 @@ def _tightened(
         optimizer.margins = {
             name: margins.get(name, 0.0) + step * moves.get(name, 0.0) for name in {**margins, **moves}
         }
-        found = optimizer.solve(within, warm=run, objective=objective)
-        if not found.start.converged and found.start.status != NO_DESIGN:
-            found = optimizer.solve(within, begin=run.inputs, objective=objective)
-        if found.start.converged or optimizer.deadline.passed:
+        optimum = optimizer.solve(within, warm=run, objective=objective)
+        if not optimum.start.converged and optimum.start.status != NO_DESIGN:
+            optimum = optimizer.solve(within, begin=run.inputs, objective=objective)
+        if optimum.start.converged or optimizer.deadline.passed:
             break
-    return found if found.start.converged else None
+    return optimum if optimum.start.converged else None
 
 
 def _pressing(optimizer: Optimizer, run: Run) -> set[str]:

@@ -55,7 +55,7 @@ class Drawn:
         """Inputs by their share of the variance of a limit's residual (squared rank correlation), the largest first."""
         from scipy.stats import rankdata
 
-        row = self.residuals[[one.name for one in self.limits].index(limit)]
+        row = self.residuals[[known_limit.name for known_limit in self.limits].index(limit)]
         ranks = rankdata(np.nan_to_num(row, nan=np.inf))
         if np.ptp(ranks) == 0.0:
             return {}
