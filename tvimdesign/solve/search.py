@@ -46,7 +46,7 @@ _TO_VERIFY, _OVER_SET_UP, _LEAST_OVER_SET_UP = 0.05, 3.0, 4.0
 """What a search leaves of its time to what follows: a twentieth of the limit, or three times what setting up its
 first problem took, if that is longer. Verifying and reporting a design takes twice that. A search with less than four
 times that is not started, as its solver takes as long to build as its problem."""
-_Found = dict[tuple[int, Box], Run]
+_Runs = dict[tuple[int, Box], Run]
 """Designs of single combinations: the place of their tree, their sizes, the run that found them."""
 
 
@@ -110,36 +110,38 @@ def _optimize(
         if listed and in_time is None:
             search.run()
     choosing: Choosing | None = None
-    found, shown, exact = free, list[tuple[Relaxation, Run]](), building.exact()
+    designs, shown, exact = free, list[tuple[Relaxation, Run]](), building.exact()
     if listed and in_time is None:
         begin = Begin(study, reference, objectives, trees)
-        choosing, found, shown = _choose(search, exact, combinations, begin)
-        in_time = _in_time(study, found, deadline)
+        choosing, designs, shown = _choose(search, exact, combinations, begin)
+        in_time = _in_time(study, designs, deadline)
     elif combinations > 1:
         choosing, shown = _chosen(free, combinations, study.solver)
     if in_time is not None:
         progress("the switch of the best design ends beyond `horizon`: searching for one that ends in time")
         trees.clear()
         return _optimize(in_time, progress, reference, keep, objectives, trees, whole, checked)
-    relaxation, run = min(found, key=lambda one: order(one[1]))
-    recorded = [*free, *(found if listed else [])]
+    relaxation, run = min(designs, key=lambda pair: order(pair[1]))
+    recorded = [*free, *(designs if listed else [])]
     nominal = run
     if study.robust and run.start.converged:
-        robust = deadline.attempt(MARGINS, partial(_robust, found))
+        robust = deadline.attempt(MARGINS, partial(_robust, designs))
         relaxation, nominal, run = robust or (relaxation, nominal, run)
         if study.robust.share is None:
-            recorded = [(one[0], run) if one[1] is nominal else one for one in recorded]
+            recorded = [(entry[0], run) if entry[1] is nominal else entry for entry in recorded]
     margined = study.robust is not None and study.robust.share is not None and run is not nominal
-    run, conflict_set = _reconciled(relaxation, run, [one for other, one in recorded if other is relaxation], progress)
+    run, conflict_set = _reconciled(
+        relaxation, run, [candidate for other, candidate in recorded if other is relaxation], progress
+    )
     if start_infeasible and conflict_set is None and not (checked or run.start.converged or deadline.passed):
         refuse_infeasible(study, deadline)
     settled = put_at_bounds(relaxation.optimizer, run)
-    recorded, run = [(one[0], settled) if one[1] is run else one for one in recorded], settled
-    if run.start.converged and all(run is not one for _, one in recorded):
+    recorded, run = [(entry[0], settled) if entry[1] is run else entry for entry in recorded], settled
+    if run.start.converged and all(run is not other for _, other in recorded):
         recorded.append((relaxation, run))
-    _number(one for _, one in recorded)
-    keep(relaxation.optimizer, [one for other, one in recorded if other is relaxation])
-    starts = tuple(one.start for _, one in recorded if not (margined and one is run))  # those without margins
+    _number(entry for _, entry in recorded)
+    keep(relaxation.optimizer, [candidate for other, candidate in recorded if other is relaxation])
+    starts = tuple(other.start for _, other in recorded if not (margined and other is run))  # those without margins
     solution = replace(
         _account(trees, relaxation, run, nominal, starts),
         choosing=choosing and _with_alternatives(choosing, trees, exact, shown),
@@ -198,21 +200,21 @@ def _status(study: Study, solution: Solution, *, no_combination: bool) -> str:
     return NO_COMBINATION if no_combination else solution.status
 
 
-def _in_time(study: Study, found: Sequence[tuple[Relaxation, Run]], deadline: Deadline) -> Study | None:
+def _in_time(study: Study, designs: Sequence[tuple[Relaxation, Run]], deadline: Deadline) -> Study | None:
     """Return the study with limits on times, if the best design ends beyond the horizon and time is left."""
-    relaxation, run = min(found, key=lambda one: order(one[1]))
+    relaxation, run = min(designs, key=lambda pair: order(pair[1]))
     return None if deadline.passed else ending_in_time(study, relaxation.optimizer, run)
 
 
-def _robust(found: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
+def _robust(designs: Sequence[tuple[Relaxation, Run]]) -> tuple[Relaxation, Run, Run]:
     """Return the best design that can be made robust: before, after, and as its start is reported."""
     from tvimdesign.solve.uncertainty.robust import most_robust  # it loads the compiler
 
-    ranked = sorted(found, key=lambda one: order(one[1]))
+    ranked = sorted(designs, key=lambda pair: order(pair[1]))
     place, run = most_robust([(relaxation.optimizer, run, _sizes(relaxation, run)) for relaxation, run in ranked])
-    relaxation, begun = ranked[place]
-    run.start = replace(run.start, choices=begun.start.choices, begin=begun.start.begin)
-    return relaxation, begun, run
+    relaxation, nominal = ranked[place]
+    run.start = replace(run.start, choices=nominal.start.choices, begin=nominal.start.begin)
+    return relaxation, nominal, run
 
 
 def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:
@@ -254,7 +256,7 @@ def _free_runs(trees: Sequence[Relaxation], most: int | None, deadline: Deadline
         if not (free and deadline.passed):
             free += [(relaxation, run) for run in relaxation.starts(most)]
     for relaxation in trees:
-        if not any(one.optima for one in trees) and not deadline.passed:
+        if not any(tree.optima for tree in trees) and not deadline.passed:
             free += [(relaxation, run) for run in relaxation.from_all_over()]
     for relaxation in trees:
         free += [(relaxation, run) for run in relaxation.from_other_records(trees)]
@@ -267,28 +269,28 @@ def _choose(
     """Return the best combinations, by branch and bound and on request by solving all.
     The answer holds the account, the designs, and those to report, which are not simulated yet.
     """
-    trees, asked = begin.trees, begin.study.solver
+    trees, options = begin.trees, begin.study.solver
     stopped = trees[0].optimizer.deadline.met
-    found, proof = dict(search.found), SolverEffort()
+    solved, proof = dict(search.found), SolverEffort()
     pruned, improved = search.pruned, 0.0
-    if asked.prove and not stopped:
-        found, proof = _each(search.found, enumerated_here(begin))
+    if options.prove and not stopped:
+        solved, proof = _each(search.found, enumerated_here(begin))
         pruned = 0
-        improved = _improvement(search.found, found)
-    ranked = sorted(found, key=lambda key: (order(found[key]), key))
-    told = [(trees[place], found[place, box]) for place, box in ranked]
-    best = exact.solved(trees[ranked[0][0]], ranked[0][1], found[ranked[0]]) if ranked else None
-    shown = [*([best] if best else []), *told[1 : asked.alternatives]]
+        improved = _improvement(search.found, solved)
+    ranked = sorted(solved, key=lambda key: (order(solved[key]), key))
+    reported = [(trees[place], solved[place, box]) for place, box in ranked]
+    best = exact.solved(trees[ranked[0][0]], ranked[0][1], solved[ranked[0]]) if ranked else None
+    shown = [*([best] if best else []), *reported[1 : options.alternatives]]
     choosing = Choosing(
-        combinations=combinations, solved=len(found), pruned=pruned,
-        without_design=0 if stopped else combinations - len(found) - pruned,
-        not_searched=combinations - len(found) - pruned if stopped else 0,
+        combinations=combinations, solved=len(solved), pruned=pruned,
+        without_design=0 if stopped else combinations - len(solved) - pruned,
+        not_searched=combinations - len(solved) - pruned if stopped else 0,
         best=(), between=None, bound=_least(trees),
-        proven=asked.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
+        proven=options.prove and not trees[0].optimizer.deadline.met, improved=improved, inside=search.inside,
         work=SolverEffort.total(relaxation.work for relaxation in trees), proof=proof,
     )  # fmt: skip
-    others = [one for key, one in zip(ranked, told, strict=True) if key in search.found or one in shown]
-    plain = [one for one in others[1:] if not one[0].sizes.mixtures]
+    others = [design for key, design in zip(ranked, reported, strict=True) if key in search.found or design in shown]
+    plain = [design for design in others[1:] if not design[0].sizes.mixtures]
     return choosing, [best, *plain] if best else [_closest(trees[0], exact)], shown
 
 
@@ -300,7 +302,7 @@ def _between(
         run = exact.between(*best[0]) if best else None
         return _standard(best[0][0], run) if run else None
     optima = [(relaxation, relaxation.optima[0]) for relaxation in trees if relaxation.optima]
-    between = min(optima, key=lambda one: order(one[1]), default=None)
+    between = min(optima, key=lambda pair: order(pair[1]), default=None)
     return _standard(*between) if between else None
 
 
@@ -312,7 +314,7 @@ def _least(trees: Sequence[Relaxation]) -> float | None:
 
 
 def _chosen(
-    runs: Sequence[tuple[Relaxation, Run]], records: int, asked: SolverOptions
+    runs: Sequence[tuple[Relaxation, Run]], records: int, options: SolverOptions
 ) -> tuple[Choosing, list[tuple[Relaxation, Run]]]:
     """Return the account if only records of different structure are listed: each was searched from every start.
 
@@ -321,7 +323,7 @@ def _chosen(
     best: dict[int, tuple[Relaxation, Run]] = {}
     stopped = any(relaxation.optimizer.deadline.met for relaxation, _ in runs)
     searched = len({relaxation.place for relaxation, _ in runs}) if stopped else records
-    for relaxation, run in sorted(runs, key=lambda one: order(one[1])):
+    for relaxation, run in sorted(runs, key=lambda pair: order(pair[1])):
         if run.start.converged:
             best.setdefault(relaxation.place, (relaxation, run))
     choosing = Choosing(
@@ -329,10 +331,10 @@ def _chosen(
         not_searched=records - searched,
         best=(), between=None, proven=True, improved=0.0, work=SolverEffort(), proof=SolverEffort(), inside=0.0,
     )  # fmt: skip
-    return choosing, list(best.values())[: asked.alternatives]
+    return choosing, list(best.values())[: options.alternatives]
 
 
-def _each(known: _Found, blocks: Iterable[tuple[Block, SolvedBlock]]) -> tuple[_Found, SolverEffort]:
+def _each(known: _Runs, blocks: Iterable[tuple[Block, SolvedBlock]]) -> tuple[_Runs, SolverEffort]:
     """Designs of all combinations that have one, the better of two where one is known; and what the blocks took."""
     every, work = dict(known), SolverEffort()
     for block, (runs, took) in blocks:
@@ -344,9 +346,9 @@ def _each(known: _Found, blocks: Iterable[tuple[Block, SolvedBlock]]) -> tuple[_
     return every, work
 
 
-def _improvement(found: _Found, every: _Found) -> float:
+def _improvement(branched: _Runs, every: _Runs) -> float:
     """Share by which the best of all combinations is better than what branch and bound found."""
-    best, least = (min((run.start.objective for run in runs.values()), default=None) for runs in (found, every))
+    best, least = (min((run.start.objective for run in runs.values()), default=None) for runs in (branched, every))
     if best is None or least is None:
         return 0.0 if least is None else 1.0
     return max(best - least, 0.0) / abs(best)
@@ -367,16 +369,16 @@ def _with_alternatives(
     best: Sequence[tuple[Relaxation, Run]],
 ) -> Choosing:
     """Return the account with the best combination simulated, and its alternatives as far as time allows."""
-    found = [_standard(*one) for one in best[:1]]
-    for one in best[1:]:
-        optimizer = one[0].optimizer
+    standards = [_standard(*pair) for pair in best[:1]]
+    for pair in best[1:]:
+        optimizer = pair[0].optimizer
         optimizer.progress("simulating the alternatives")
-        if other := optimizer.deadline.late.attempt(ALTERNATIVES, partial(_standard, *one)):
-            found.append(other)
+        if other := optimizer.deadline.late.attempt(ALTERNATIVES, partial(_standard, *pair)):
+            standards.append(other)
     between, late = None, trees[0].optimizer.deadline.late
-    if any(one.sizes.names for one in trees) and (best or not late.passed):
+    if any(tree.sizes.names for tree in trees) and (best or not late.passed):
         between = late.attempt(BETWEEN, partial(_between, trees, exact, best))
-    return replace(choosing, best=tuple(found), between=between)
+    return replace(choosing, best=tuple(standards), between=between)
 
 
 def _standard(relaxation: Relaxation, run: Run) -> Standard:
