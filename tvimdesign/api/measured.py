@@ -60,8 +60,8 @@ class Fitted:
     @property
     def notes(self) -> list[str]:
         """Return sentences on what was assumed, what the data cannot tell apart, and what else a reader has to know."""
-        found = self._measured.measurement
-        return [*found.notes, *found.fit.words]
+        measurement = self._measured.measurement
+        return [*measurement.notes, *measurement.fit.words]
 
     @property
     def data(self) -> dict[str, Any]:
@@ -72,21 +72,21 @@ class Fitted:
 
     def __getitem__(self, name: str) -> Quantity:
         """Return a parameter, or what follows. Raises KeyError."""
-        found = next((one for one in self._estimates() if one.name == name), None)
-        if found is None:
-            raise KeyError(f"{name!r}; there are {', '.join(one.name for one in self._estimates())}")
-        return Quantity(from_si(found.value, found.unit), found.unit)
+        estimate = next((candidate for candidate in self._estimates() if candidate.name == name), None)
+        if estimate is None:
+            raise KeyError(f"{name!r}; there are {', '.join(candidate.name for candidate in self._estimates())}")
+        return Quantity(from_si(estimate.value, estimate.unit), estimate.unit)
 
     def table(self) -> pd.DataFrame:
         """Parameters and what follows: value, low and high of 95 %, unit, meaning. An open end is not a number."""
         import pandas as pd
 
         rows = [
-            {"value": from_si(one.value, one.unit), "low": _end(one.low, one.unit), "high": _end(one.high, one.unit),
-             "unit": pretty(one.unit), "meaning": one.meaning}
-            for one in self._estimates()
+            {"value": from_si(estimate.value, estimate.unit), "low": _end(estimate.low, estimate.unit),
+             "high": _end(estimate.high, estimate.unit), "unit": pretty(estimate.unit), "meaning": estimate.meaning}
+            for estimate in self._estimates()
         ]  # fmt: skip
-        return pd.DataFrame(rows, index=pd.Index([one.name for one in self._estimates()], name="parameter"))
+        return pd.DataFrame(rows, index=pd.Index([estimate.name for estimate in self._estimates()], name="parameter"))
 
     def plot(self) -> Figure:
         """Values, fitted curves and residuals."""
@@ -104,12 +104,12 @@ class Fitted:
 
     def __repr__(self) -> str:
         """Kind, files and parameters in a line."""
-        names = ", ".join(one.name for one in self._estimates())
+        names = ", ".join(estimate.name for estimate in self._estimates())
         return f"<Fitted {self.kind}, {len(self._measured.blocks)} tables: {names}>"
 
     def _estimates(self) -> list[Any]:
-        found = self._measured.measurement.fit
-        return [*found.parameters, *found.derived]
+        fit_result = self._measured.measurement.fit
+        return [*fit_result.parameters, *fit_result.derived]
 
 
 def _end(value: float | None, unit: str) -> float:

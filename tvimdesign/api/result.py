@@ -182,8 +182,8 @@ class Result:
 
     def why(self) -> Reasons:
         """Return what holds the design back, and what easing it would buy."""
-        found, table = self._answered.result, self._answered.study.table
-        return Reasons(tuple(sentences(found)), tuple(why_rows(found, table)))
+        result, table = self._answered.result, self._answered.study.table
+        return Reasons(tuple(sentences(result)), tuple(why_rows(result, table)))
 
     # --- figures ---
 
@@ -196,10 +196,10 @@ class Result:
         """Draw a figure by name; in a notebook it shows. Raises InputError for a name there is not."""
         from tvimdesign.api.notebook import drawn
 
-        found = {drawing.file: drawing for drawing in drawings(self._answered)}
-        if name not in found:
-            raise InputError(f"the result has no figure {name!r}; there are: {', '.join(found) or 'none'}")
-        return drawn(found[name], self.name)
+        by_file = {drawing.file: drawing for drawing in drawings(self._answered)}
+        if name not in by_file:
+            raise InputError(f"the result has no figure {name!r}; there are: {', '.join(by_file) or 'none'}")
+        return drawn(by_file[name], self.name)
 
     def show(self) -> None:
         """Print the first screen of `tvimdesign run`, without what it says of spread."""
@@ -225,10 +225,10 @@ class Result:
         with ResultsFolder(Path(folder), overwrite) as written:
             write_answer(written, self._answered)
             write_summary(self._answered, written)
-            asked = drawings(self._answered) if plots else []
-            if asked:
+            figures = drawings(self._answered) if plots else []
+            if figures:
                 with PlotProcess() as drawing, noting(failures):
-                    drawing.begin(written.path / "plots", asked, self.name)
+                    drawing.begin(written.path / "plots", figures, self.name)
                     drawing.finish("save again with overwrite=True")
             write_run_page(written, self._answered)
             finish(written, self._answered)
@@ -280,14 +280,14 @@ class Result:
         return f"<Result {self.name!r}: {self.design.mode} mode, {self.status}>"
 
     def _repr_html_(self) -> str:
-        found, table = self._answered.result, self._answered.study.table
+        result, table = self._answered.result, self._answered.study.table
         rows = [
-            (check.text, value_text(found, check.output, table), "kept" if check.kept else "broken", margin)
-            for check in found.checks if check.origin == "require" for margin in (margin_text(check, table),)
+            (check.text, value_text(result, check.output, table), "kept" if check.kept else "broken", margin)
+            for check in result.checks if check.origin == "require" for margin in (margin_text(check, table),)
         ]  # fmt: skip
         names = [*self.design.study["vary"], *self.design.study["minimize"]]
         values = [
             (name, str(self[name])) for name in names if name in self.design.values or name in self.design.choices
         ]
-        asked = notebook.grid(("asked", "got", "", "margin"), rows) + notebook.grid(("", "value"), values)
-        return notebook.heading(self.name, f"{self.design.mode} mode, {self.status}") + asked
+        tables = notebook.grid(("asked", "got", "", "margin"), rows) + notebook.grid(("", "value"), values)
+        return notebook.heading(self.name, f"{self.design.mode} mode, {self.status}") + tables

@@ -72,7 +72,7 @@ class Sweep(Generic[StudyT]):
     @property
     def warm_solves(self) -> int:
         """Return how many cells were optimised from the study's own optimum alone."""
-        return sum(one.answer.warm for one in self.kept)
+        return sum(cell.answer.warm for cell in self.kept)
 
     def table(self, *names: str) -> pd.DataFrame:
         """Return a row a cell: where it stands, how it ended, and the named outputs; else those the study asks about.
@@ -87,9 +87,9 @@ class Sweep(Generic[StudyT]):
             raise InputError(f"{', '.join(lacking)}: not kept by this sweep; name it in `outputs=`")
         wanted = list(names) or [name for name in self.plan.asked if name in places]
         listed = columns(self.plan)
-        heads = [one.name for one in listed if one.kind in {"axis", "told"}]
+        heads = [column.name for column in listed if column.kind in {"axis", "told"}]
         frame = pd.DataFrame([self._row(number, heads, wanted, places) for number in range(len(self))])
-        frame.attrs["units"] = {one.name: one.unit for one in listed if one.kind == "axis"} | {
+        frame.attrs["units"] = {column.name: column.unit for column in listed if column.kind == "axis"} | {
             name: self.plan.unit(name) for name in wanted
         }
         return frame
@@ -97,9 +97,9 @@ class Sweep(Generic[StudyT]):
     def _row(self, number: int, heads: Sequence[str], wanted: Sequence[str], places: Mapping[str, int]) -> Any:
         answer = self.kept[number].answer
         values = tuple(answer.values[places[name]] for name in wanted)
-        found = told(Kept(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted])
+        values_shown = told(Kept(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted])
         axes = self.plan.axis_values(number)
-        return dict(zip([*heads, *wanted], map(_or_nan, [*axes, *found]), strict=True))
+        return dict(zip([*heads, *wanted], map(_or_nan, [*axes, *values_shown]), strict=True))
 
     def plot(self, name: str) -> Figure:
         """Draw an output over the first axis, a line for each value of the others; in a notebook it shows."""
@@ -184,12 +184,12 @@ def swept(
 
 
 def _here(plan: SweepPlan, say: Any) -> list[Kept]:
-    answers, found = CellAnswers(SweptStudy.of(plan)), list[Kept]()
+    answers, cells = CellAnswers(SweptStudy.of(plan)), list[Kept]()
     known: dict[tuple[str, ...], CellAnswer] = {}
     for number in range(plan.count):
         say(f"cell {number + 1} of {plan.count}")
         texts = plan.points.texts(number)
         if texts not in known:
             known[texts] = answers.answer(AskedCell("", texts))
-        found.append(Kept(known[texts], 0.0))
-    return found
+        cells.append(Kept(known[texts], 0.0))
+    return cells

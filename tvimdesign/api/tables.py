@@ -57,12 +57,13 @@ def interval_table(intervals: Mapping[str, IntervalEntry]) -> pd.DataFrame:
 
     rows = {
         name: {
-            "value": _never(one["value"]), **ends(one), **ends(one["one_at_a_time"], "alone_"), "unit": one["unit"],
-            "measure_first": next(iter(one["shares"]), ""), "share": next(iter(one["shares"].values()), 0.0),
-            "to_halve": ", ".join(one["to_halve"]),
-            **(ends(one["before"], "before_") if one["before"] else {}),
+            "value": _never(interval["value"]), **ends(interval), **ends(interval["one_at_a_time"], "alone_"),
+            "unit": interval["unit"], "measure_first": next(iter(interval["shares"]), ""),
+            "share": next(iter(interval["shares"].values()), 0.0),
+            "to_halve": ", ".join(interval["to_halve"]),
+            **(ends(interval["before"], "before_") if interval["before"] else {}),
         }
-        for name, one in intervals.items()
+        for name, interval in intervals.items()
     }  # fmt: skip
     return pd.DataFrame.from_dict(rows, orient="index").rename_axis("name")
 
@@ -75,16 +76,16 @@ def _never(number: float | None) -> float:
 def _stands(answered: AnsweredStudy) -> dict[str, str]:
     """Return how each output stands that the study limits: `broken`, `binds` or `kept`, the worst of its limits."""
     order = ("kept", "binds", "broken")
-    found: dict[str, str] = {}
+    states: dict[str, str] = {}
     for check in answered.result.checks:
         if check.origin != "require":
             continue
         stand = "broken" if not check.kept else "binds" if check.margin <= NOTHING else "kept"
-        found[check.output] = max(stand, found.get(check.output, "kept"), key=order.index)
+        states[check.output] = max(stand, states.get(check.output, "kept"), key=order.index)
     for limit in answered.study.require:  # a limit on what is the least of several is put on each of them
-        several = [found[name] for name in _all_of(limit.output, answered.study) if name in found]
-        found |= {limit.output: max(several, key=order.index)} if several else {}
-    return found
+        several = [states[name] for name in _all_of(limit.output, answered.study) if name in states]
+        states |= {limit.output: max(several, key=order.index)} if several else {}
+    return states
 
 
 def _all_of(name: str, study: Study) -> list[str]:

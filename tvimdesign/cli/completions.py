@@ -69,9 +69,9 @@ def _files(incomplete: str, endings: tuple[str, ...]) -> list[str]:
     folder, begin = (start, "") if not incomplete or incomplete.endswith("/") else (start.parent, start.name)
     prefix = incomplete[: len(incomplete) - len(begin)] if begin else incomplete
     try:
-        found = sorted(folder.iterdir())
+        paths = sorted(folder.iterdir())
     except OSError:
         return []
-    shown = [path for path in found if path.name.startswith(begin) and not path.name.startswith(".")]
+    shown = [path for path in paths if path.name.startswith(begin) and not path.name.startswith(".")]
     folders = [f"{prefix}{path.name}/" for path in shown if path.is_dir()]
     return [f"{prefix}{path.name}" for path in shown if path.suffix in endings] + folders

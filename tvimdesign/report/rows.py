@@ -31,15 +31,15 @@ _SHOWN = 8
 def print_rows(mode: str, word: str, as_json: bool) -> None:
     """Print the groups, or the rows of a group, or those a word is about. Raises InputError where there is none."""
     rows = named_rows(mode)
-    found = matching(rows, word)
-    if not found:
+    matches = matching(rows, word)
+    if not matches:
         names = [row.name for row in rows]
         hint = did_you_mean(word, [*names, *_words()]) or "`tvimdesign rows` lists the groups"
         raise InputError(f"no row of {mode} mode has {word!r} in its name or description; {hint}")
     if as_json:
-        print(json.dumps([_plain(row) for row in found], indent=2))
+        print(json.dumps([_plain(row) for row in matches], indent=2))
     elif word:
-        _print_found(found, word, wide_console())
+        _print_found(matches, word, wide_console())
     else:
         _print_groups(rows, mode, wide_console())
 

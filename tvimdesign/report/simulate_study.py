@@ -105,24 +105,25 @@ def findings(trial: Trial) -> dict[str, Any]:
         "title": trial.title,
         "findings": [
             {
-                "name": found.name,
-                **{part: _plain(value, found.unit) for part, value in _parts(found)},
-                "unit": pretty(found.unit),
-                "si": {part: finite(value) for part, value in _parts(found)} | {"unit": pretty(si_unit(found.unit))},
-                "meaning": found.meaning,
+                "name": finding.name,
+                **{part: _plain(value, finding.unit) for part, value in _parts(finding)},
+                "unit": pretty(finding.unit),
+                "si": {part: finite(value) for part, value in _parts(finding)}
+                | {"unit": pretty(si_unit(finding.unit))},
+                "meaning": finding.meaning,
             }
-            for found in trial.findings
+            for finding in trial.findings
         ],
         "notes": list(trial.notes),
     }
 
 
-def _parts(found: Finding) -> Iterator[tuple[str, float | None]]:
+def _parts(finding: Finding) -> Iterator[tuple[str, float | None]]:
     """Yield the numbers of a finding; if history decides there is no one value, only the nominal one of an interval."""
-    if found.low is None and found.high is None:
-        yield "value", found.value
+    if finding.low is None and finding.high is None:
+        yield "value", finding.value
         return
-    yield from (("nominal", found.value), ("low", found.low), ("high", found.high))
+    yield from (("nominal", finding.value), ("low", finding.low), ("high", finding.high))
 
 
 def _plain(value: float | None, unit: str) -> float | None:
@@ -179,10 +180,10 @@ def _print_trial(trial: Trial, console: Console) -> None:
 
 def findings_table(trial: Trial) -> Grid:
     """Return what was read off, a row for each finding."""
-    rows = [(found.name, _value(found), pretty(found.unit), found.meaning) for found in trial.findings]
+    rows = [(finding.name, _value(finding), pretty(finding.unit), finding.meaning) for finding in trial.findings]
     return grid("", ("finding", "value", "unit", "meaning"), rows, right=(1,))
 
 
-def _value(found: Finding) -> str:
-    shown = [found.value] if found.low is None or found.high is None else [found.low, found.high]
-    return " to ".join(number(from_si(value, found.unit)) for value in shown)
+def _value(finding: Finding) -> str:
+    shown = [finding.value] if finding.low is None or finding.high is None else [finding.low, finding.high]
+    return " to ".join(number(from_si(value, finding.unit)) for value in shown)

@@ -72,5 +72,5 @@ def find_test(name: str) -> Callable[[ResolvedModule], Trial]:
         hint = f"did you mean {close[0]}? " if close else ""
         raise InputError(f"no test is named {name[:60]!r}; {hint}there are: {', '.join(TESTS)}")
     module, _, function = TESTS[name].function.partition(":")
-    found: Callable[[ResolvedModule], Trial] = getattr(import_module(module), function)
-    return found
+    trial: Callable[[ResolvedModule], Trial] = getattr(import_module(module), function)
+    return trial

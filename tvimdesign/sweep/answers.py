@@ -93,11 +93,11 @@ class CellAnswers:
         above, _ = sorted_by_acceptance([limit.output for limit in exceeded(values, study.table)], study.accept)
         status = ABOVE_RATING if above and solution.status in {OPTIMAL, BELOW_YIELD} else solution.status
         word = status.partition(":")[0].partition(",")[0].replace(" ", "_")
-        told = self._told(word, study, values, {**given(study), **stated, **model.words})
+        answer = self._told(word, study, values, {**given(study), **stated, **model.words})
         reasons = [f"beyond a rating: {', '.join(above)}"] if above else []
         reasons += [] if word == status else [status]
         reasons += [f"the search ended at its time limit of {solution.out_of_time:g} s"] if solution.out_of_time else []
-        return told._replace(reason=_short("; ".join([*reasons, *filter(None, [told.reason])])), warm=warm)
+        return answer._replace(reason=_short("; ".join([*reasons, *filter(None, [answer.reason])])), warm=warm)
 
     def _told(self, status: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> CellAnswer:
         limits = constraints_of(study, study.table, chosen)

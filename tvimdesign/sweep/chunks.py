@@ -25,12 +25,12 @@ class ChunkAnswers:
 
     def answer(self, chunk: Sequence[tuple[str, Sequence[str]]]) -> list[tuple[str, CellAnswer, float]]:
         """Return each cell's key, answer, and seconds of the processor; a cell comes as a pair, as JSON has it."""
-        told = []
+        answers = []
         for key, texts in chunk:
             began = time.process_time()
             cell = Cell(key, tuple(texts))
-            told.append((cell.key, self._answers.answer(cell), time.process_time() - began))
-        return told
+            answers.append((cell.key, self._answers.answer(cell), time.process_time() - began))
+        return answers
 
 
 class CellQueue:

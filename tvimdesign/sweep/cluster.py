@@ -52,10 +52,10 @@ def answer_chunk(job: bytes, cells: Sequence[Cell], version: str) -> dict[str, A
             _known.clear()
             _known[name] = ChunkAnswers(pickle.loads(job))
         began, spent = time.perf_counter(), time.process_time()
-        told = _known[name].answer(cells)
+        answers = _known[name].answer(cells)
         return {
-            "told": told, "done": len(told), "warm": sum(answer.warm for _, answer, _ in told),
-            "cells_s": sum(seconds for _, _, seconds in told), "chunk_s": time.perf_counter() - began,
+            "told": answers, "done": len(answers), "warm": sum(answer.warm for _, answer, _ in answers),
+            "cells_s": sum(seconds for _, _, seconds in answers), "chunk_s": time.perf_counter() - began,
             "cpu_s": time.process_time() - spent,
         }  # fmt: skip
 
@@ -114,29 +114,29 @@ class Cluster:
 
     def _work(self, client: Client, left: CellQueue, spent: Usage, shard: ShardWriter, heard: Heard) -> None:
         """Ask for chunks until all are answered, or the scheduler is gone: what it had is left again then."""
-        asked: dict[Any, list[Cell]] = {}
+        submitted: dict[Any, list[Cell]] = {}
         try:
-            self._ask_and_take(client, asked, left, (spent, shard, heard))
+            self._ask_and_take(client, submitted, left, (spent, shard, heard))
         except (OSError, TimeoutError, self._distributed.CancelledError):
             pass  # the scheduler has gone while it was asked
         finally:
-            for chunk in asked.values():
+            for chunk in submitted.values():
                 left.put_back(chunk)
 
     def _ask_and_take(
-        self, client: Client, asked: dict[Any, list[Cell]], left: CellQueue, into: tuple[Usage, ShardWriter, Heard]
+        self, client: Client, submitted: dict[Any, list[Cell]], left: CellQueue, into: tuple[Usage, ShardWriter, Heard]
     ) -> None:
         spent, shard, heard = into
         job, threads, looked = pickle.dumps(self._job), 1, 0.0
-        while (len(left) or asked) and client.status == "running":
+        while (len(left) or submitted) and client.status == "running":
             if time.monotonic() > looked + AGAIN:  # machines come and go
                 threads, looked = max(sum(client.nthreads().values()), 1), time.monotonic()
-            while len(left) and len(asked) < AT_ONCE * threads:
-                chunk = left.next(len(asked) % threads)
-                asked[client.submit(answer_chunk, job, chunk, __version__, pure=False)] = chunk
-            for future in self._ended(list(asked)):
-                self._take(future, asked[future], left, (spent, shard))
-                del asked[future]  # only now: where taking it fails, its cells are left again
+            while len(left) and len(submitted) < AT_ONCE * threads:
+                chunk = left.next(len(submitted) % threads)
+                submitted[client.submit(answer_chunk, job, chunk, __version__, pure=False)] = chunk
+            for future in self._ended(list(submitted)):
+                self._take(future, submitted[future], left, (spent, shard))
+                del submitted[future]  # only now: where taking it fails, its cells are left again
                 heard(spent)
 
     @staticmethod
@@ -150,13 +150,13 @@ class Cluster:
         spent, shard = into
         if future.status == "finished":
             try:
-                said = future.result(timeout=CONNECT)
+                reply = future.result(timeout=CONNECT)
             except (OSError, TimeoutError, self._distributed.CancelledError):
                 left.put_back(chunk)
                 return
-            shard.append(said.pop("told"))
-            spent.add(said)
-            left.done(said["done"], said["chunk_s"])
+            shard.append(reply.pop("told"))
+            spent.add(reply)
+            left.done(reply["done"], reply["chunk_s"])
             return
         error = future.exception(timeout=CONNECT) if future.status == "error" else None
         if error is None or (isinstance(error, self._distributed.KilledWorker) and len(chunk) > 1):

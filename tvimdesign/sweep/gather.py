@@ -35,16 +35,16 @@ class Column(NamedTuple):
 
 def columns(plan: SweepPlan) -> list[Column]:
     """Return every column of a sweep's table."""
-    axes = [Column(one.name, "" if is_words(one) else one.unit, "axis", _meaning(plan, one)) for one in plan.axes]
+    axes = [Column(axis.name, "" if is_words(axis) else axis.unit, "axis", _meaning(plan, axis)) for axis in plan.axes]
     about = {
         "status": "evaluated, optimal, above_rating, infeasible, refused, ...",
         "broken": "limits that are not kept",
         "margin": "the least margin over all limits, as a share of the limit",
         "reason": "why there is no design, or what it breaks",
     }
-    told = [Column(name, "1" if name in {"broken", "margin"} else "", "told", about[name]) for name in _TOLD]
+    status_columns = [Column(name, "1" if name in {"broken", "margin"} else "", "told", about[name]) for name in _TOLD]
     outputs = [Column(_apart(name, plan), plan.unit(name), "output", _about(plan, name)) for name in plan.columns]
-    return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *told, *outputs]
+    return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *status_columns, *outputs]
 
 
 def _apart(name: str, plan: SweepPlan) -> str:
@@ -65,13 +65,13 @@ def _about(plan: SweepPlan, name: str) -> str:
 def rows(plan: SweepPlan, keys: Iterable[str], shards: Shards) -> Iterator[list[Value]]:
     """Yield every cell as a row of the table, in order, numbers in the units of the columns."""
     units = [plan.unit(name) for name in plan.columns]
-    for number, kept in enumerate(shards.kept(iter(keys))):
-        yield [number + 1, *plan.axis_values(number), *told(kept, units)]
+    for number, cell in enumerate(shards.kept(iter(keys))):
+        yield [number + 1, *plan.axis_values(number), *told(cell, units)]
 
 
-def told(kept: Kept, units: Sequence[str]) -> list[Value]:
+def told(cell: Kept, units: Sequence[str]) -> list[Value]:
     """Return what a cell came to, in the units of the columns."""
-    answer = kept.answer
+    answer = cell.answer
     values = [_in_unit(value, unit) for value, unit in zip(answer.values, units, strict=True)]
     margin = None if answer.margin is None else rounded(answer.margin)
     return [answer.status, answer.broken, margin, answer.reason, *values]

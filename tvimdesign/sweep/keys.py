@@ -93,9 +93,9 @@ class CellKeys:
 _NOTHING = object()
 
 
-def key_of(said: Any) -> str:
+def key_of(content: Any) -> str:
     """Return the key of plain data."""
-    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:_LENGTH]
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:_LENGTH]
 
 
 def leaves_of(study: Study) -> Leaves:
@@ -120,10 +120,10 @@ def _plain(leaves: Leaves) -> dict[str, Any]:
 
 def records_hash(study: Study) -> str:
     """Hash of what the records say that a study chooses, or may choose."""
-    found: dict[tuple[str, str], Record] = {}
-    for one in _one_by_one(study):
-        found |= {(r.category, r.name): r for r in given(one).values() if isinstance(r, Record)}
-    return key_of([_said(found[key]) for key in sorted(found)])
+    records: dict[tuple[str, str], Record] = {}
+    for single in _one_by_one(study):
+        records |= {(r.category, r.name): r for r in given(single).values() if isinstance(r, Record)}
+    return key_of([_said(records[key]) for key in sorted(records)])
 
 
 def _one_by_one(study: Study) -> Iterator[Study]:

@@ -142,7 +142,7 @@ def _refuse_wrong_values(plan: SweepPlan) -> None:
             try:
                 read_tree(_with(tree, axis.name, node))
             except StudyError as error:
-                problems += [one for one in error.problems if one not in problems]
+                problems += [problem for problem in error.problems if problem not in problems]
     if problems:
         raise StudyError(problems)
 

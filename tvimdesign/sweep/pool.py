@@ -40,12 +40,12 @@ class Usage:
     died: int = 0
     """Workers that ended before their time."""
 
-    def add(self, said: dict[str, Any]) -> None:
+    def add(self, reply: dict[str, Any]) -> None:
         """Count a chunk."""
-        self.cells += said["done"]
-        self.warm += said["warm"]
+        self.cells += reply["done"]
+        self.warm += reply["warm"]
         for name in ("cells_s", "cpu_s", "chunk_s"):
-            setattr(self, name, getattr(self, name) + said[name])
+            setattr(self, name, getattr(self, name) + reply[name])
 
 
 @dataclass
@@ -85,12 +85,12 @@ class Pool:
                 if line is None:
                     self._handle_dead_worker(worker, left, spent)
                     continue
-                said = json.loads(line)
-                if "error" in said:
-                    worker.error = said["error"]
+                reply = json.loads(line)
+                if "error" in reply:
+                    worker.error = reply["error"]
                     continue
-                spent.add(said)
-                left.done(said["done"], said["chunk_s"])
+                spent.add(reply)
+                left.done(reply["done"], reply["chunk_s"])
                 heard(spent)
                 self._feed(worker, left)
         finally:
@@ -141,8 +141,8 @@ class Pool:
             return
         spent.died += 1
         self._refuse_if_none_works(spent, code, complaint)
-        kept = Shards(self._folder, self._job.columns)
-        again = [cell for cell in worker.chunk if cell.key not in kept]
+        shards = Shards(self._folder, self._job.columns)
+        again = [cell for cell in worker.chunk if cell.key not in shards]
         spent.cells += len(worker.chunk) - len(again)
         if len(again) == 1:
             self._deaths[again[0].key] += 1

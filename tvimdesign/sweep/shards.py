@@ -150,10 +150,10 @@ def _line(key: str, answer: CellAnswer, seconds: float) -> str:
 def _columns_of(head: bytes) -> list[str] | None:
     """Return the columns that a shard's first line names; None where it is none."""
     try:
-        said = json.loads(head) if head.endswith(b"\n") else {}
+        header = json.loads(head) if head.endswith(b"\n") else {}
     except ValueError:
         return None
-    return said.get("columns") if isinstance(said, dict) else None
+    return header.get("columns") if isinstance(header, dict) else None
 
 
 def _kept(line: list[Any], places: Sequence[int]) -> Kept:

@@ -40,15 +40,15 @@ def main() -> int:
         for line in sys.stdin:
             began, spent = time.perf_counter(), time.process_time()
             try:
-                told = answers.answer(json.loads(line))
-                shard.append(told)
+                reply = answers.answer(json.loads(line))
+                shard.append(reply)
             except TvimError as error:
                 _say({"error": str(error)})
                 return error.exit_code
-            cells = sum(seconds for _, _, seconds in told)
+            cells = sum(seconds for _, _, seconds in reply)
             _say({
-                "done": len(told), "cells_s": cells, "chunk_s": time.perf_counter() - began,
-                "cpu_s": time.process_time() - spent, "warm": sum(answer.warm for _, answer, _ in told),
+                "done": len(reply), "cells_s": cells, "chunk_s": time.perf_counter() - began,
+                "cpu_s": time.process_time() - spent, "warm": sum(answer.warm for _, answer, _ in reply),
             })  # fmt: skip
     return 0
 

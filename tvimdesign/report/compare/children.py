@@ -39,7 +39,7 @@ class _Child(NamedTuple):
 
 
 def answers(
-    asked: Sequence[Asked],
+    requests: Sequence[Asked],
     out: Path,
     points: int,
     progress: Progress,
@@ -60,16 +60,16 @@ def answers(
     keep
         Called with a label and what is found so far, after each step of a job.
     """
-    waiting, running = list(asked), list[_Child]()
-    found: dict[str, dict[str, Any]] = {}
+    waiting, running = list(requests), list[_Child]()
+    answers_by_label: dict[str, dict[str, Any]] = {}
     lines: queue.Queue[tuple[str, str | None]] = queue.Queue()
     with tempfile.TemporaryDirectory(dir=out, prefix=HALF_DONE) as folder:
         try:
             while waiting or running:
                 while waiting and len(running) < AT_ONCE:
-                    number = len(asked) - len(waiting)
+                    number = len(requests) - len(waiting)
                     study = waiting.pop(0)
-                    others = [other.path for other in asked if other is not study]
+                    others = [other.path for other in requests if other is not study]
                     running.append(_start(study, others, (points, settings), Path(folder) / str(number), lines))
                 label, line = lines.get()
                 child = next(child for child in running if child.label == label)
@@ -81,14 +81,14 @@ def answers(
                         keep(label, json.loads(child.out.read_text()))
                     continue
                 running.remove(child)
-                found[label] = _finish(child)
+                answers_by_label[label] = _finish(child)
                 if not waiting and len(running) == AT_ONCE - 1:
                     when_idle()
         finally:
             for child in running:
                 child.process.kill()
                 child.process.wait()
-    return {study.label: found[study.label] for study in asked}
+    return {study.label: answers_by_label[study.label] for study in requests}
 
 
 def _start(
@@ -109,10 +109,10 @@ def _start(
 
 def _finish(child: _Child) -> dict[str, Any]:
     code = child.process.wait()
-    found: dict[str, Any] = json.loads(child.out.read_text()) if child.out.exists() else nothing_found()
+    answer: dict[str, Any] = json.loads(child.out.read_text()) if child.out.exists() else nothing_found()
     if code:
         last = " ".join(child.errors.read_text(errors="replace").strip().splitlines()[-1:])
         error = f"its process ended with code {code}: {last or 'without a message'}"
-        found["troubles"].append({"step": "all", "error": error, "exit_code": _CRASHED})
-    found["seconds"]["whole process"] = time.perf_counter() - child.began
-    return found
+        answer["troubles"].append({"step": "all", "error": error, "exit_code": _CRASHED})
+    answer["seconds"]["whole process"] = time.perf_counter() - child.began
+    return answer

@@ -42,20 +42,22 @@ def compare_studies(
     cases = labelled(_results(paths) if all(finished) else _studies(paths, settings), paths)
     texts = {label: _study_text(case, settings) for label, case in cases.items()}
     with Command(out, overwrite=overwrite, as_json=as_json) as command:
-        found = {label: nothing_found() for label in cases}
+        answers_by_label = {label: nothing_found() for label in cases}
 
         def keep(label: str, answer: dict[str, Any]) -> None:
-            found[label] = answer
-            _write(command.folder, Outcome(cases, found), texts)
+            answers_by_label[label] = answer
+            _write(command.folder, Outcome(cases, answers_by_label), texts)
 
         if all(finished):
             for (label, case), path in zip(cases.items(), paths, strict=True):
-                found[label] = finished_run(design_file(path), case.study.table)
+                answers_by_label[label] = finished_run(design_file(path), case.study.table)
         else:
-            asked = [Asked(label, case.path) for label, case in cases.items()]
+            requests = [Asked(label, case.path) for label, case in cases.items()]
             start_plotter = command.start_plotter if plots else lambda: None
-            found |= answers(asked, command.folder.path, points, command.progress, start_plotter, settings, keep)
-        outcome = Outcome(cases, found)
+            answers_by_label |= answers(
+                requests, command.folder.path, points, command.progress, start_plotter, settings, keep
+            )
+        outcome = Outcome(cases, answers_by_label)
         outcome.seconds["all answers"] = time.perf_counter() - began
         command.begin_plots(drawings(outcome), " against ".join(case.study.name for case in cases.values()))
         outcome.seconds["whole"] = time.perf_counter() - began
@@ -135,11 +137,11 @@ def _study_text(case: Case, settings: Sequence[str]) -> str:
 
 def _write(folder: ResultsFolder, outcome: Outcome, texts: dict[str, str]) -> None:
     """Write what is there: each study with its designs, and the tables once two studies have a design."""
-    for label, found in outcome.found.items():
+    for label, answer in outcome.found.items():
         name = "-".join(part for part in Path(label).with_suffix("").parts if part not in {"/", ".."})
         for which in COMPARISONS:
-            if which in found:
-                folder.write(f"{name}/{which}.json", design_json(Design.model_validate(found[which]["design"])))
+            if which in answer:
+                folder.write(f"{name}/{which}.json", design_json(Design.model_validate(answer[which]["design"])))
         folder.write(f"{name}/study.yaml", texts[label])
     folder.write("compare.csv", compare_csv(outcome.rows, outcome.alone))
     folder.write("summary.txt", summary_text(outcome))

@@ -21,7 +21,7 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
     """Return a design with its violated limits, warnings, active constraints and search; `results` as results.json."""
     search = results.get("starts") or {"count": 0, "converged": 0, "optima": []}
     solution = results.get("solution") or {"active_constraints": []}
-    active = [one for one in solution["active_constraints"] if (one["shadow_price"] or 0.0) > PRICE_SHOWN]
+    active = [entry for entry in solution["active_constraints"] if (entry["shadow_price"] or 0.0) > PRICE_SHOWN]
     return {
         "design": design.model_dump(mode="json"),
         "broken": [check["limit"] for check in results.get("checks", ()) if not check["kept"]],
@@ -33,12 +33,12 @@ def compared_design(design: Design, results: Mapping[str, Any], table: Table) ->
         "accepting": list(design.accepting),
         "soft": soft_in_words(design, table),
         "active_constraints": [
-            {"limit": one["text"], "because": one["origin"], "shadow_price": one["shadow_price"]}
-            for one in sorted(active, key=lambda one: -one["shadow_price"])[:MOST_ACTIVE]
+            {"limit": entry["text"], "because": entry["origin"], "shadow_price": entry["shadow_price"]}
+            for entry in sorted(active, key=lambda entry: -entry["shadow_price"])[:MOST_ACTIVE]
         ],
         "starts": search["count"],
         "converged": search["converged"],
-        "optima": [{"objective": one["objective"], "variables": one["at"]} for one in search["optima"]],
+        "optima": [{"objective": entry["objective"], "variables": entry["at"]} for entry in search["optima"]],
     }  # fmt: skip
 
 

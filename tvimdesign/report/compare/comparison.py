@@ -33,7 +33,7 @@ class Outcome:
     @property
     def troubles(self) -> list[tuple[str, dict[str, Any]]]:
         """(study, what failed) of everything that was not done."""
-        return [(label, trouble) for label, found in self.found.items() for trouble in found["troubles"]]
+        return [(label, trouble) for label, answer in self.found.items() for trouble in answer["troubles"]]
 
     @property
     def failures(self) -> list[str]:
@@ -45,8 +45,8 @@ class Outcome:
         """Designs by comparison and study; only those there are."""
         return {
             which: {
-                label: Design.model_validate(found[which]["design"])
-                for label, found in self.found.items() if which in found
+                label: Design.model_validate(answer[which]["design"])
+                for label, answer in self.found.items() if which in answer
             }
             for which in COMPARISONS
         }  # fmt: skip
@@ -54,8 +54,8 @@ class Outcome:
     @property
     def which(self) -> str:
         """Say what is compared: the optima where every study that has a design has one, else the designs as drawn."""
-        found = [answer for answer in self.found.values() if any(which in answer for which in COMPARISONS)]
-        return "optimised" if found and all("optimised" in answer for answer in found) else "drawn"
+        with_design = [answer for answer in self.found.values() if any(which in answer for which in COMPARISONS)]
+        return "optimised" if with_design and all("optimised" in answer for answer in with_design) else "drawn"
 
     @cached_property
     def rows(self) -> dict[str, list[Row]]:
@@ -72,11 +72,11 @@ class Outcome:
     @property
     def fronts(self) -> dict[tuple[str, str], dict[str, dict[str, Any]]]:
         """Fronts by their two outputs, then by study."""
-        found: dict[tuple[str, str], dict[str, dict[str, Any]]] = {}
+        fronts_by_pair: dict[tuple[str, str], dict[str, dict[str, Any]]] = {}
         for label, answer in self.found.items():
             for front in answer["fronts"]:
-                found.setdefault((front["first"], front["second"]), {})[label] = front
-        return found
+                fronts_by_pair.setdefault((front["first"], front["second"]), {})[label] = front
+        return fronts_by_pair
 
     def unit(self, name: str) -> str:
         """Unit of a row that any of the studies has."""
@@ -85,7 +85,7 @@ class Outcome:
     @cached_property
     def contests(self) -> list[ParetoComparison]:
         """Compare the fronts over each pair of outputs with a limit on either of them."""
-        found = []
+        comparisons = []
         for (first, second), fronts in self.fronts.items():
             points = {label: _curve(front, second, first) for label, front in fronts.items()}
             for gained, limited, curves in (
@@ -94,8 +94,8 @@ class Outcome:
             ):
                 led = tuple(leads(curves))
                 if led and len(fronts) > 1:
-                    found.append(ParetoComparison(gained, limited, self.unit(gained), self.unit(limited), led))
-        return found
+                    comparisons.append(ParetoComparison(gained, limited, self.unit(gained), self.unit(limited), led))
+        return comparisons
 
     def fronts_plain(self) -> dict[str, Any]:
         """Return every front, its points in their units; null is never."""
@@ -146,7 +146,7 @@ class Outcome:
     @cached_property
     def conclusions(self) -> list[str]:
         """The sentences that follow, the conditions first."""
-        said = [self.sentence]
+        sentences = [self.sentence]
         for which, rows in self.rows.items():
             labels = list(self.designs[which])
             texts = self._against(which) if which != self.which else []
@@ -158,8 +158,8 @@ class Outcome:
             texts += [
                 text for label in labels if (text := held_back(label, self.found[label][which]["active_constraints"]))
             ]
-            said += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
-        return [*said, *(standing(contest) for contest in self.contests)]
+            sentences += [f"{COMPARISONS[which].capitalize()}: {text}." for text in texts]
+        return [*sentences, *(standing(contest) for contest in self.contests)]
 
     @property
     def sentence(self) -> str:
@@ -183,8 +183,8 @@ class Outcome:
         return [against(label, labels[0], rows, self._names_said()) for label in labels[1:]]
 
     def _names_said(self) -> list[str]:
-        asked = next(iter(self.entrants.values())).study.minimize
-        return list(asked) or list(_SAID_FIRST)
+        minimized = next(iter(self.entrants.values())).study.minimize
+        return list(minimized) or list(_SAID_FIRST)
 
     def plain(self) -> dict[str, Any]:
         """Return everything a script wants to know."""
@@ -201,8 +201,8 @@ class Outcome:
             "fronts": self.fronts_plain() if self.fronts else {},
             "release": {
                 which: {
-                    label: {key: found["release"][which][key] for key in ("findings", "notes")}
-                    for label, found in self.found.items() if which in found["release"]
+                    label: {key: answer["release"][which][key] for key in ("findings", "notes")}
+                    for label, answer in self.found.items() if which in answer["release"]
                 }
                 for which in COMPARISONS
             },
@@ -210,12 +210,12 @@ class Outcome:
         }  # fmt: skip
 
     def _study(self, label: str) -> dict[str, Any]:
-        entrant, found = self.entrants[label], self.found[label]
+        entrant, answer = self.entrants[label], self.found[label]
         return {
             "file": str(entrant.path), "name": entrant.study.name, "mode": entrant.study.mode,
-            **{which: {key: value for key, value in found[which].items() if key != "design"}
-               for which in COMPARISONS if which in found},
-            "troubles": found["troubles"], "seconds": found["seconds"],
+            **{which: {key: value for key, value in answer[which].items() if key != "design"}
+               for which in COMPARISONS if which in answer},
+            "troubles": answer["troubles"], "seconds": answer["seconds"],
         }  # fmt: skip
 
 

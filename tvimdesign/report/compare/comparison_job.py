@@ -145,7 +145,8 @@ class ComparisonJob:
             "dominated": front.dominated,
             "failures": [asdict(failure) for failure in front.failures],
             "points": [
-                {"where": one.where, "values": one.values, "current_profiles": one.current_profiles} for one in points
+                {"where": point.where, "values": point.values, "current_profiles": point.current_profiles}
+                for point in points
             ],
         }
         plain: dict[str, Any] = json.loads(json.dumps(reported), parse_constant=lambda _: None)
@@ -175,9 +176,9 @@ def main(arguments: list[str]) -> int:
         sys.stdout.write(json.dumps(message) + "\n")
         sys.stdout.flush()
 
-    def keep(found: dict[str, Any]) -> None:
-        atomic_write(Path(out), json.dumps(found).encode())
-        write_line({"kept": list(found["seconds"])})
+    def keep(design_answer: dict[str, Any]) -> None:
+        atomic_write(Path(out), json.dumps(design_answer).encode())
+        write_line({"kept": list(design_answer["seconds"])})
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     path, out, points, listed, *others = arguments

@@ -20,14 +20,14 @@ _STILL = 1e-3
 
 def drawings(outcome: Outcome) -> list[Drawing]:
     """Return every picture there is something for."""
-    found = []
+    figures = []
     if outcome.fronts:
-        found.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
+        figures.append(Drawing("fronts", "comparison_figures.fronts", _fronts(outcome)))
     if any(outcome.which in answer["release"] for answer in outcome.found.values()):
-        found.append(Drawing("release", "virtual_test_figures.trial", _release(outcome)))
+        figures.append(Drawing("release", "virtual_test_figures.trial", _release(outcome)))
     if any(outcome.which in answer["heat"] for answer in outcome.found.values()):
-        found.append(Drawing("heat", "comparison_figures.heat", _heat(outcome)))
-    return found
+        figures.append(Drawing("heat", "comparison_figures.heat", _heat(outcome)))
+    return figures
 
 
 def _title(outcome: Outcome, of: str) -> str:
@@ -58,11 +58,11 @@ def _fronts(outcome: Outcome) -> dict[str, Any]:
 def _release(outcome: Outcome) -> dict[str, Any]:
     """Return a panel for each operating point, a colour for each study."""
     panels: dict[str, dict[str, Any]] = {}
-    for label, found in outcome.found.items():
-        release = found["release"].get(outcome.which, {})
+    for label, answer in outcome.found.items():
+        release = answer["release"].get(outcome.which, {})
         for line in release.get("lines", ()):
-            point, _, rest = line["label"].partition(", ")
-            temperature, _, history = rest.partition(", ")
+            point, _, remainder = line["label"].partition(", ")
+            temperature, _, history = remainder.partition(", ")
             panel = panels.setdefault(point, {
                 "title": f"{point}, {temperature}", "x_label": release["x_label"],
                 "y_label": release["y_label"], "log_x": True, "log_y": False, "lines": [],
@@ -76,11 +76,11 @@ def _release(outcome: Outcome) -> dict[str, Any]:
 def _from_where_it_moves(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """Lines of a panel from the time on at which the first of them has left where it began by a thousandth."""
     start = min(_begins_to_move(line["x"], line["y"]) for line in lines)
-    found = []
+    moved = []
     for line in lines:
-        kept = [pair for pair in zip(line["x"], line["y"], strict=True) if pair[0] >= start]
-        found.append({**line, "x": [x for x, _ in kept], "y": [y for _, y in kept]})
-    return found
+        later = [pair for pair in zip(line["x"], line["y"], strict=True) if pair[0] >= start]
+        moved.append({**line, "x": [x for x, _ in later], "y": [y for _, y in later]})
+    return moved
 
 
 def _begins_to_move(times: list[float], angles: list[float]) -> float:
@@ -91,9 +91,9 @@ def _begins_to_move(times: list[float], angles: list[float]) -> float:
 def _heat(outcome: Outcome) -> dict[str, Any]:
     which = outcome.which
     studies = [
-        {"label": label, **found["heat"][which]} for label, found in outcome.found.items() if which in found["heat"]
+        {"label": label, **answer["heat"][which]} for label, answer in outcome.found.items() if which in answer["heat"]
     ]
-    every = [value for one in studies for row in one["temperature"] for value in row]
+    every = [value for study_data in studies for row in study_data["temperature"] for value in row]
     design = outcome.designs[which][studies[0]["label"]]
     melting = [from_si(design.value(name), "degC") for name in ("pcl_melting_start", "pcl_melting_end")]
     title = _title(outcome, "Heat through the PCL until the switch ends (lines: melting range)")
@@ -111,34 +111,42 @@ _LINES = {
 def comparison_page(folder: ResultsFolder, outcome: Outcome, texts: Mapping[str, str]) -> Page:
     """Return the page of compared studies; `texts` are the studies' files."""
     troubles = outcome.failures
-    said = "PARTLY DONE" if troubles else f"COMPARED {COMPARISONS[outcome.which].upper()}"
+    verdict = "PARTLY DONE" if troubles else f"COMPARED {COMPARISONS[outcome.which].upper()}"
     warnings = [(text, "") for text in warnings_of(outcome)]
-    lead, *rest = outcome.conclusions
+    lead, *others = outcome.conclusions
     first: list[Block] = [Words([lead]), *([Warned(warnings)] if warnings else [])]
-    follows = [Section("follows", "What follows", [Points(rest)])] if rest else []
+    follows = [Section("follows", "What follows", [Points(others)])] if others else []
     sections = [*follows, _side_by_side(outcome), *_figures(outcome)]
     sections += [Section("not-done", "Not done", [Points(troubles)])] if troubles else []
     sections += [_studies(texts), versions_section(folder)]
-    title = " against ".join(one.study.name for one in outcome.entrants.values())
+    title = " against ".join(entrant.study.name for entrant in outcome.entrants.values())
     return Page(
-        title, "comparison", said, tone_of(said), first, None, sections, made_by_words(folder), there(folder, _FILES)
+        title,
+        "comparison",
+        verdict,
+        tone_of(verdict),
+        first,
+        None,
+        sections,
+        made_by_words(folder),
+        there(folder, _FILES),
     )
 
 
 def _side_by_side(outcome: Outcome) -> Section:
     """Headlines and what is asked; then everything that all studies have."""
-    told = told_rows(outcome)
+    lines = told_rows(outcome)
     every = [side_by_side(COMPARISONS[which], rows) for which, rows in outcome.rows.items()]
-    blocks: list[Block] = [*told, *([Folded("Every output that all studies have", every)] if every else [])]
+    blocks: list[Block] = [*lines, *([Folded("Every output that all studies have", every)] if every else [])]
     return Section("side-by-side", "Side by side", blocks)
 
 
 def _figures(outcome: Outcome) -> list[Section]:
     """Fronts and curves, where there are any."""
     drawn: list[Block] = [
-        Drawn(one.file, "lines.js", _LINES[one.file], _panels(one.data), libraries=["echarts"])
-        for one in drawings(outcome)
-        if one.file in _LINES
+        Drawn(drawing.file, "lines.js", _LINES[drawing.file], _panels(drawing.data), libraries=["echarts"])
+        for drawing in drawings(outcome)
+        if drawing.file in _LINES
     ]
     return [Section("curves", "Fronts and curves", drawn)] if drawn else []
 

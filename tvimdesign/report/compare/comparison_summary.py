@@ -51,9 +51,9 @@ def summary_text(outcome: Outcome) -> str:
 
 def told_rows(outcome: Outcome) -> list[Grid]:
     """Headlines and what is asked, side by side, a table for each comparison."""
-    asked = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
+    required = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
     return [
-        side_by_side(COMPARISONS[which].capitalize(), [row for row in rows if row.headline or row.name in asked])
+        side_by_side(COMPARISONS[which].capitalize(), [row for row in rows if row.headline or row.name in required])
         for which, rows in outcome.rows.items()
     ]
 
@@ -88,19 +88,19 @@ def _value(row: Row, label: str, *, with_unit: bool = False) -> str:
 def _print_soft(outcome: Outcome, console: Console) -> None:
     """Print at which impedance the joint counts as soft: it differs between studies."""
     which = outcome.which
-    said = [f"{label}: {found[which]['soft']}" for label, found in outcome.found.items() if which in found]
-    if said:
-        console.print(f"[dim]Soft is, {COMPARISONS[which]}, {escape('; '.join(said))}.[/dim]")
+    texts = [f"{label}: {answer[which]['soft']}" for label, answer in outcome.found.items() if which in answer]
+    if texts:
+        console.print(f"[dim]Soft is, {COMPARISONS[which]}, {escape('; '.join(texts))}.[/dim]")
 
 
 def _print_searches(outcome: Outcome, console: Console) -> None:
-    for label, found in outcome.found.items():
-        reported: dict[str, Any] | None = found.get("optimised")
+    for label, answer in outcome.found.items():
+        reported: dict[str, Any] | None = answer.get("optimised")
         if reported is None:
             continue
         if not reported["optima"]:
             continue
-        seconds = found["seconds"].get("optimised")
+        seconds = answer["seconds"].get("optimised")
         optima = [f"{optimum['objective']:.5g}" for optimum in reported["optima"]]
         agree = "all at one optimum" if len(optima) == 1 else f"at {len(optima)} optima"
         console.print(
@@ -113,21 +113,21 @@ def _print_searches(outcome: Outcome, console: Console) -> None:
 def _print_warnings(outcome: Outcome, console: Console) -> None:
     for label, names in accepted(outcome):
         console.print(f"{escape(label)} is beyond its rating, as its study accepts: {', '.join(names)}.")
-    for said in warnings_of(outcome):
-        console.print(f"[yellow]Warning[/yellow] {escape(said)}.")
+    for warning in warnings_of(outcome):
+        console.print(f"[yellow]Warning[/yellow] {escape(warning)}.")
 
 
 def accepted(outcome: Outcome) -> Iterator[tuple[str, list[str]]]:
     """(study, ratings) of what is beyond its rating, as its study accepts."""
-    for label, found in outcome.found.items():
-        if names := found.get(outcome.which, {}).get("accepting"):
+    for label, answer in outcome.found.items():
+        if names := answer.get(outcome.which, {}).get("accepting"):
             yield label, names
 
 
 def warnings_of(outcome: Outcome) -> Iterator[str]:
     """Yield the advice that the compared designs do not follow."""
-    for label, found in outcome.found.items():
-        for warning in found.get(outcome.which, {"warnings": []})["warnings"]:
+    for label, answer in outcome.found.items():
+        for warning in answer.get(outcome.which, {"warnings": []})["warnings"]:
             value = math.inf if warning["value"] is None else warning["value"]
             value = format_quantity(value, outcome.unit(warning["output"]))
             yield f"{label}: {warning['output']} is {value}: {warning['because']}"

@@ -60,17 +60,17 @@ def conditions(entrants: Mapping[str, Case]) -> list[str]:
     current = study.vary.get("current")
     lower, upper = getattr(current, "lower", None), getattr(current, "upper", None)
     ends = [values["current"]] if lower is None else [lower, upper]
-    said = [f"at {' to '.join(format_quantity(end, 'A') for end in ends)}"]
-    said += [f"{values['peltier_module'].name} pads", values["structure_material"].name, values["pcl_grade"].name]
-    said.append(f"ambient {format_quantity(values['ambient_temperature'], 'degC')}, cold side {values['cold_side']}")
-    said.append(f"response_time by {values['response_criterion']}")
-    return [*required, *points, *said]
+    clauses = [f"at {' to '.join(format_quantity(end, 'A') for end in ends)}"]
+    clauses += [f"{values['peltier_module'].name} pads", values["structure_material"].name, values["pcl_grade"].name]
+    clauses.append(f"ambient {format_quantity(values['ambient_temperature'], 'degC')}, cold side {values['cold_side']}")
+    clauses.append(f"response_time by {values['response_criterion']}")
+    return [*required, *points, *clauses]
 
 
 def against(label: str, first: str, rows: Sequence[Row], names: Sequence[str]) -> str:
     """Return how a study stands against the first: `compression is 2.1 times slower (...) than shear`."""
-    found = [text for row in rows if row.name in names for text in [_difference(row, label)] if text]
-    return f"{label} is {_listed(found)} than {first}" if found else f"{label} and {first} do not differ"
+    differences = [text for row in rows if row.name in names for text in [_difference(row, label)] if text]
+    return f"{label} is {_listed(differences)} than {first}" if differences else f"{label} and {first} do not differ"
 
 
 def _difference(row: Row, label: str) -> str:
@@ -130,31 +130,33 @@ def wins(label: str, contests: Sequence[ParetoComparison]) -> str:
         return f"{label} wins everywhere on the fronts computed"
     if not mine:
         return f"{label} wins nowhere on the fronts computed"
-    found = [
+    won = [
         f"{'has the only designs' if lead.alone else f'does best in {contest.gained}'} "
         f"with {contest.limited} limited {_range(lead, contest.limited_unit)}"
         for contest, lead in mine
     ]
-    return f"{label} wins where it {', '.join(dict.fromkeys(found))}"
+    return f"{label} wins where it {', '.join(dict.fromkeys(won))}"
 
 
 def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
     """In which of the outputs that stand in a summary either does better, with the ratio."""
-    said = []
+    clauses = []
     for verdict, who in (("better", label), ("worse", first)):
-        found = [
+        leads = [
             f"{row.name} ({number(ratio, 3)})" if (ratio := row.ratio(label)) is not None else row.name
             for row in rows if row.headline and row.verdict(label) == verdict
         ]  # fmt: skip
-        if found:
-            said.append(f"{who} does better in {', '.join(found)}")
-    return f"{'; '.join(said)}; in brackets {label} over {first}" if said else ""
+        if leads:
+            clauses.append(f"{who} does better in {', '.join(leads)}")
+    return f"{'; '.join(clauses)}; in brackets {label} over {first}" if clauses else ""
 
 
 def held_back(label: str, held: Sequence[Mapping[str, Any]]) -> str:
     """Return a design's main active constraints, the machine's own with their reasons; nothing where there are none."""
     reported = [
-        one["limit"] if one["because"] in {"require", "vary", "module"} else f"{one['limit']} ({one['because']})"
-        for one in held
+        limit["limit"]
+        if limit["because"] in {"require", "vary", "module"}
+        else f"{limit['limit']} ({limit['because']})"
+        for limit in held
     ]
     return f"{label} is held back most by {'; '.join(reported)}" if reported else ""

@@ -156,7 +156,9 @@ def _lines(axes: Any, panel: dict[str, Any], *, joined: bool) -> None:
         if not joined:
             style = {**style, "linestyle": ""}
         axes.plot(series["x"], series["y"], marker="o", markersize=3.5, label=series["label"] or None, **style)
-        broken = [(x, y) for x, y, kept in zip(series["x"], series["y"], series["kept"], strict=True) if not kept]
+        broken = [
+            (x, y) for x, y, satisfied in zip(series["x"], series["y"], series["kept"], strict=True) if not satisfied
+        ]
         if broken:
             axes.plot(*zip(*broken, strict=True), linestyle="", marker="o", markersize=3.5, color=BROKEN,
                       markerfacecolor="white")  # fmt: skip
@@ -167,11 +169,11 @@ def _cloud(figure: Figure, axes: Any, panel: dict[str, Any], scale: Any) -> None
     points = list(zip(series["x"], series["y"], series["colour"], series["kept"], strict=True))
     if not points:
         return
-    kept, broken = ([point for point in points if point[3] == which] for which in (True, False))
+    satisfied, broken = ([point for point in points if point[3] == which] for which in (True, False))
     ends = {"vmin": min(series["colour"]), "vmax": max(series["colour"])}
-    for some, size in ((broken, 5), (kept, 14)):
+    for some, size in ((broken, 5), (satisfied, 14)):
         if some:
             x, y, colour, _ = zip(*some, strict=True)
-            hollow = {"marker": "o", "linewidths": 0.0} if some is kept else {"marker": "."}
+            hollow = {"marker": "o", "linewidths": 0.0} if some is satisfied else {"marker": "."}
             axes.scatter(x, y, c=colour, cmap=SEQUENCE, s=size, **hollow, **ends)
     figure.colorbar(ScalarMappable(Normalize(**ends), SEQUENCE), cax=scale, label=panel["label"])

@@ -42,18 +42,18 @@ def heat(data: dict[str, Any]) -> Figure:
     caption(figure, data["title"])
     wide = _width(len(studies), gap, 0.85)
     scale = Normalize(data["coldest"], data["hottest"])
-    for i, one in enumerate(studies):
+    for i, panel in enumerate(studies):
         axes = place(figure, _LEFT + i * (wide + gap), 0.45, wide, 1.85)
         # A gradient of colours is a picture even in a vector file: as triangles it would be a thousand shapes.
-        axes.pcolormesh(one["time"], one["depth"], one["temperature"], shading="gouraud", cmap="inferno", norm=scale,
-                        rasterized=True)  # fmt: skip
-        axes.contour(one["time"], one["depth"], one["temperature"], levels=data["melting"], colors="white",
+        axes.pcolormesh(panel["time"], panel["depth"], panel["temperature"], shading="gouraud", cmap="inferno",
+                        norm=scale, rasterized=True)  # fmt: skip
+        axes.contour(panel["time"], panel["depth"], panel["temperature"], levels=data["melting"], colors="white",
                      linewidths=0.8)  # fmt: skip
         axes.set_xlabel("Time (s)")
         axes.set_ylabel("Depth from the Peltier pads (mm)")
         axes.grid(visible=False)
         axes.locator_params(nbins=TICKS)
-        heading(axes, one["label"])
+        heading(axes, panel["label"])
     colours = place(figure, WIDTH - 0.7, 0.45, 0.1, 1.85)
     figure.colorbar(ScalarMappable(scale, "inferno"), cax=colours, label="Temperature (°C)")
     return figure

@@ -36,15 +36,15 @@ def level_sets(data: dict[str, Any]) -> Figure:
     low, high = data["range"]
     caption(figure, f"What gives {data['wanted']:g} s: thickness from {low:g} to {high:g} mm")
     wide = (7.1 - 0.55 - 0.15) / len(data["panels"]) - 0.18
-    for i, one in enumerate(data["panels"]):
+    for i, panel in enumerate(data["panels"]):
         axes = place(figure, 0.55 + i * (wide + 0.27), 0.76, wide, 1.9)
         for j, (name, label) in enumerate(_PLACES.items()):
-            line = [math.nan if y is None else y for y in one["lines"][name]]
-            axes.plot(one["x"], line, marker=MARKERS[j], markersize=3.0, label=label, **style_of(j))
-        axes.plot(*one["published"], "k+", markersize=9, label="as assumed here")
+            line = [math.nan if y is None else y for y in panel["lines"][name]]
+            axes.plot(panel["x"], line, marker=MARKERS[j], markersize=3.0, label=label, **style_of(j))
+        axes.plot(*panel["published"], "k+", markersize=9, label="as assumed here")
         axes.set(ylim=(0.0, high))
-        axes.set_xlabel(textwrap.fill(one["label"], _LETTERS))
-        if one["logarithmic"]:
+        axes.set_xlabel(textwrap.fill(panel["label"], _LETTERS))
+        if panel["logarithmic"]:
             axes.set_xscale("log")
             log_ticks(axes.xaxis)
         else:

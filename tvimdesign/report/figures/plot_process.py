@@ -63,9 +63,9 @@ class PlotProcess:
 
     def begin(self, folder: Path, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
         """Ask for every plot, signed with the study's name, and come back at once; `vector` for PDF and SVG as well."""
-        asked = [drawing._asdict() for drawing in drawings]
+        drawings_asked = [drawing._asdict() for drawing in drawings]
         endings = ["png", "pdf", "svg"] if vector else ["png"]
-        request = {"folder": str(folder.resolve()), "study": study, "endings": endings, "drawings": asked}
+        request = {"folder": str(folder.resolve()), "study": study, "endings": endings, "drawings": drawings_asked}
         message = json.dumps(request).encode()
         stream, self._child.stdin = self._child.stdin, None
 
@@ -103,7 +103,7 @@ def main() -> None:
     request = json.load(sys.stdin)
     folder = Path(request["folder"])
     folder.mkdir(parents=True, exist_ok=True)
-    drawings = [Drawing(**asked) for asked in request["drawings"]]
+    drawings = [Drawing(**drawing) for drawing in request["drawings"]]
     if sys.platform != "linux":  # a fork is not safe elsewhere
         _draw(folder, drawings, request)
         return

@@ -201,8 +201,8 @@ def _letters_alone() -> Iterator[None]:
 
     usual = subset.load_font
 
-    def letters(*asked: Any, **options: Any) -> Any:
-        font = usual(*asked, **options)
+    def letters(*arguments: Any, **options: Any) -> Any:
+        font = usual(*arguments, **options)
         font.setGlyphOrder([f"glyph{number}" for number in range(font["maxp"].numGlyphs)])
         for table in _NOT_NEEDED:
             if table in font:

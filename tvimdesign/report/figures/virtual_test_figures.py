@@ -60,14 +60,14 @@ def _turns(y: Array) -> NDArray[np.int64]:
     least = _ROUNDING * (float(np.max(y)) - float(np.min(y)))
     steps = np.diff(y)
     candidates = np.flatnonzero(steps[:-1] * steps[1:] < 0.0) + 1
-    kept = [0]
+    indices = [0]
     for at in candidates:
-        step = y[at] - y[kept[-1]]
-        if len(kept) > 1 and step * (y[kept[-1]] - y[kept[-2]]) > 0.0:
-            kept[-1] = int(at)  # higher still, or lower still, after a ripple
+        step = y[at] - y[indices[-1]]
+        if len(indices) > 1 and step * (y[indices[-1]] - y[indices[-2]]) > 0.0:
+            indices[-1] = int(at)  # higher still, or lower still, after a ripple
         elif abs(step) > least:
-            kept.append(int(at))
-    return np.array(kept[1:], dtype=np.int64)
+            indices.append(int(at))
+    return np.array(indices[1:], dtype=np.int64)
 
 
 _ACROSS = 3

@@ -19,33 +19,37 @@ _DECADES = 30.0
 
 def fit_data(measured: Measured) -> dict[str, Any]:
     """Return the content of `fit.json`."""
-    found = measured.measurement
-    names = [one.name for one in found.fit.problem.parameters]
-    shown = [names.index(one.name) for one in found.fit.parameters]
+    measurement = measured.measurement
+    names = [parameter.name for parameter in measurement.fit.problem.parameters]
+    shown = [names.index(parameter.name) for parameter in measurement.fit.parameters]
     return {
         **head(),
         "kind": measured.kind.name,
         "files": [{"path": str(file.path), "sha256": file.sha256} for file in measured.files],
-        "parameters": [_entry(one) for one in found.fit.parameters],
-        "derived": [_entry(one) for one in found.fit.derived],
+        "parameters": [_entry(parameter) for parameter in measurement.fit.parameters],
+        "derived": [_entry(quantity) for quantity in measurement.fit.derived],
         "correlation": {
             "names": [names[i] for i in shown],
-            "rows": [[finite(float(found.fit.correlation[i, j])) for j in shown] for i in shown],
+            "rows": [[finite(float(measurement.fit.correlation[i, j])) for j in shown] for i in shown],
         },
         "noise": [
             {"channel": channel.name, "deviation": _deviation(channel.relative, noise, channel.unit), "unit":
              "1" if channel.relative else channel.unit, "values": len(channel.measured)}
-            for channel, noise in zip(found.fit.problem.channels, found.fit.noise, strict=True)
+            for channel, noise in zip(measurement.fit.problem.channels, measurement.fit.noise, strict=True)
         ],
-        "notes": list(found.notes),
-        "words": list(found.fit.words),
-        "misfit": found.fit.misfit,
+        "notes": list(measurement.notes),
+        "words": list(measurement.fit.words),
+        "misfit": measurement.fit.misfit,
         "read": measured.read(),
     }  # fmt: skip
 
 
-def _entry(one: Estimate) -> dict[str, Any]:
-    return {"name": one.name, **number_entry(one.value, one.unit, (one.low, one.high)), "meaning": one.meaning}
+def _entry(estimate: Estimate) -> dict[str, Any]:
+    return {
+        "name": estimate.name,
+        **number_entry(estimate.value, estimate.unit, (estimate.low, estimate.high)),
+        "meaning": estimate.meaning,
+    }
 
 
 def _deviation(relative: bool, noise: float, unit: str) -> float:
@@ -57,7 +61,7 @@ def residuals_csv(fit: Fit) -> str:
     lines = ["channel,over,over unit,at,unit,measured,fitted,residual over noise"]
     for channel, predicted, noise in zip(fit.problem.channels, fit.predicted, fit.noise, strict=True):
         over = from_si_array(channel.at, channel.at_unit)
-        measured, fitted = (from_si_array(one, channel.unit) for one in (channel.measured, predicted))
+        measured, fitted = (from_si_array(values_si, channel.unit) for values_si in (channel.measured, predicted))
         left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
         name = channel.name.replace(",", ";")
         lines += [

@@ -59,39 +59,47 @@ def list_kinds(as_json: bool) -> None:
     """Print the kinds of measurement with what each needs and what can be set."""
     sheets = kind_sheets().values()
     if as_json:
-        print(json.dumps({one.name: {"about": one.about, "needs": one.needs, "settings": dict(one.settings)}
-                          for one in sheets}, indent=2))  # fmt: skip
+        print(json.dumps({sheet.name: {"about": sheet.about, "needs": sheet.needs, "settings": dict(sheet.settings)}
+                          for sheet in sheets}, indent=2))  # fmt: skip
         return
     console = wide_console()
-    for one in sheets:
-        console.print(f"[bold]{one.name}[/bold]: {escape(one.about)}")
-        console.print(f"  columns: {', '.join(' or '.join(need) for need in one.needs)}")
-        for name, entry in one.settings.items():
+    for sheet in sheets:
+        console.print(f"[bold]{sheet.name}[/bold]: {escape(sheet.about)}")
+        console.print(f"  columns: {', '.join(' or '.join(need) for need in sheet.needs)}")
+        for name, entry in sheet.settings.items():
             default = f", {entry['default']:g} unless set" if "default" in entry else ""
             console.print(f"  --set {name}=... {escape('[' + entry['unit'] + ']')}: {escape(entry['about'])}{default}")
 
 
 def _given(settings: Sequence[str]) -> Mapping[str, str]:
-    found = {}
-    for one in settings:
-        name, sign, value = one.partition("=")
+    given = {}
+    for setting in settings:
+        name, sign, value = setting.partition("=")
         if not sign or not value.strip():
-            raise InputError(f"--set {one}: expected a name, `=` and a value, such as arm='100 mm'")
-        found[name.strip()] = value.strip()
-    return found
+            raise InputError(f"--set {setting}: expected a name, `=` and a value, such as arm='100 mm'")
+        given[name.strip()] = value.strip()
+    return given
 
 
 def _print(measured: Measured, written: Mapping[str, Path], console: Console) -> None:
-    found = measured.measurement
+    measurement = measured.measurement
     for line in measured.read_for_the_fit(_MOST_TABLES):
         console.print(escape(line), style="dim", soft_wrap=True)
     rows = []
-    for one in (*found.fit.parameters, *found.fit.derived):
-        ends = ["open" if end is None else number(from_si(end, one.unit)) for end in (one.low, one.high)]
-        rows.append((one.name, number(from_si(one.value, one.unit)), *ends, pretty(one.unit), one.meaning))
+    for estimate in (*measurement.fit.parameters, *measurement.fit.derived):
+        ends = ["open" if end is None else number(from_si(end, estimate.unit)) for end in (estimate.low, estimate.high)]
+        rows.append(
+            (
+                estimate.name,
+                number(from_si(estimate.value, estimate.unit)),
+                *ends,
+                pretty(estimate.unit),
+                estimate.meaning,
+            )
+        )
     heads = ("parameter", "value", "95 % from", "to", "unit", "meaning")
     print_grid(grid("", heads, rows, right=(1, 2, 3)), console)
-    for line in (*found.notes, *found.fit.words):
+    for line in (*measurement.notes, *measurement.fit.words):
         console.print(escape(line), soft_wrap=True)
     for i, path in enumerate(written.values()):
         console.print(f"{'' if i else chr(10)}Record: [bold]{escape(str(path))}[/bold]", soft_wrap=True)

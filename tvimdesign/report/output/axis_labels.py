@@ -37,7 +37,7 @@ def label(name: str) -> str:
 
 def in_labels(text: str) -> str:
     """Return a text with each name of a quantity replaced by its label."""
-    return _NAME.sub(lambda found: label(found[0]), text)
+    return _NAME.sub(lambda match: label(match[0]), text)
 
 
 def axis_label(name: str, unit: str) -> str:

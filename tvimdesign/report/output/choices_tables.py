@@ -21,9 +21,9 @@ def best_rows(choosing: Choosing, table: Table) -> tuple[tuple[str, ...], list[t
     """Return columns, and a row for each of the best combinations: choices, objective and outputs against the best."""
     best = choosing.best[0]
     rows = []
-    for one in choosing.best:
-        choices = (_shown(name, value, table) for name, value in one.choices.items())
-        shares = (one.objective / best.objective - 1.0, *_shares(one, best).values())
+    for combination in choosing.best:
+        choices = (_shown(name, value, table) for name, value in combination.choices.items())
+        shares = (combination.objective / best.objective - 1.0, *_shares(combination, best).values())
         rows.append((*choices, *(f"{share:+.1%}" for share in shares)))
     return (*best.choices, "objective", *best.values), rows
 
@@ -59,7 +59,7 @@ def price_in_words(choosing: Choosing, table: Table, own: Mapping[str, str | flo
 
 def _own(choosing: Choosing, own: Mapping[str, str | float] | None) -> Standard | None:
     """Return the combination that the design has: the best, or the one of the best that margins led to."""
-    return next((one for one in choosing.best if own is None or _same(one.choices, own)), None)
+    return next((combination for combination in choosing.best if own is None or _same(combination.choices, own)), None)
 
 
 def _same(choices: Mapping[str, str | float], own: Mapping[str, str | float]) -> bool:
@@ -88,36 +88,36 @@ def tally_in_words(choosing: Choosing) -> str:
     """Return how many combinations there are, what became of them, and how far that can be trusted."""
     work = choosing.work
     runs = work.warm + work.cold
-    said = [f"{_count(choosing.combinations, 'combination')}: {_fates(choosing)}."]
+    sentences = [f"{_count(choosing.combinations, 'combination')}: {_fates(choosing)}."]
     if runs:
         each = f"{(work.warm_iterations + work.cold_iterations) / runs:.0f} iterations each"
         without = f"; {_count(work.screened, 'set')} of sizes needed none, by arithmetic alone" if work.screened else ""
-        said.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}{without}.")
+        sentences.append(f"Branch and bound took {_count(runs, 'run')} of the solver, {each}{without}.")
     if choosing.bound is not None and choosing.best:
         above = max(choosing.best[0].objective / choosing.bound - 1.0, 0.0)
-        said.append(
+        sentences.append(
             f"Records were divided as sizes are: the best combination is {above:.2%} worse than the best mixture of "
             "all, with sizes in between."
         )
     if runs and choosing.proven and choosing.improved > _BETTER:
-        said.append(
+        sentences.append(
             f"Every combination was then solved, and one is {choosing.improved:.2%} better than branch and bound "
             "found: it is the answer. More `solver.starts` make branch and bound better."
         )
     elif runs and choosing.proven:
         proof = choosing.proof
-        said.append(
+        sentences.append(
             f"Every combination was then solved ({_count(proof.warm + proof.cold, 'run')}; {proof.screened} needed "
             "none, by arithmetic alone): the same best."
         )
     elif runs:
         if choosing.inside > _BETTER:
-            said.append(f"A design in a box of sizes was {choosing.inside:.1%} better than the bound of the box.")
-        said.append(
+            sentences.append(f"A design in a box of sizes was {choosing.inside:.1%} better than the bound of the box.")
+        sentences.append(
             "Each design told was solved exactly. That none left out is better is as sure as the bounds: local optima, "
             "good as far as the starts go. `--prove` solves every combination."
         )
-    return " ".join(said)
+    return " ".join(sentences)
 
 
 def _fates(choosing: Choosing) -> str:
@@ -151,26 +151,26 @@ def choosing_data(
         "ruled_out_by_arithmetic": choosing.work.screened,
         "runs": choosing.work.warm + choosing.work.cold,
         "iterations": choosing.work.warm_iterations + choosing.work.cold_iterations,
-        "best": [_plain(one, table) for one in choosing.best],
+        "best": [_plain(combination, table) for combination in choosing.best],
         "between_sizes": _plain(between, table) if between else None,
         "cost_of_standard_sizes": shares
         | ({"objective": best.objective / between.objective - 1.0} if best and between else {}),
     }
 
 
-def _plain(one: Standard, table: Table) -> Listed:
+def _plain(standard: Standard, table: Table) -> Listed:
     def numbers(values: Mapping[str, str | float]) -> dict[str, str | NumberEntry]:
         return {
             name: value if isinstance(value, str) else number_entry(value, table.unit(name))
             for name, value in values.items()
         }
 
-    return {"choices": numbers(one.choices), "objective": one.objective, "outputs": numbers(one.values)}
+    return {"choices": numbers(standard.choices), "objective": standard.objective, "outputs": numbers(standard.values)}
 
 
-def _shares(one: Standard, other: Standard) -> dict[str, float]:
+def _shares(standard: Standard, other: Standard) -> dict[str, float]:
     """Return how much more of each minimised output a design has than another, as a share."""
-    return {name: value / other.values[name] - 1.0 for name, value in one.values.items()}
+    return {name: value / other.values[name] - 1.0 for name, value in standard.values.items()}
 
 
 def _shown(name: str, value: str | float, table: Table) -> str:

@@ -37,31 +37,31 @@ class Claim:
         end = time.monotonic() + (_WAIT if shared else 0.0)
         while True:
             self._handle, is_new, is_locked = _opened(self._path, shared=shared)
-            said = _content(self._handle)
-            if self._is_free(said, is_new=is_new, is_locked=is_locked):
+            content = _content(self._handle)
+            if self._is_free(content, is_new=is_new, is_locked=is_locked):
                 return
             os.close(self._handle)
             if time.monotonic() >= end:
-                raise FolderInUseError(f"{out}: {_who(said)} is writing it; {_next_step(said, self._path)}")
+                raise FolderInUseError(f"{out}: {_who(content)} is writing it; {_next_step(content, self._path)}")
             time.sleep(0.05)
 
     @staticmethod
-    def _is_free(said: dict[str, Any], *, is_new: bool, is_locked: bool | None) -> bool:
+    def _is_free(content: dict[str, Any], *, is_new: bool, is_locked: bool | None) -> bool:
         """Return whether nobody else is at work; a running process of another host is not taken for dead."""
-        if is_locked is False or said.get("status") == IN_PARTS:
+        if is_locked is False or content.get("status") == IN_PARTS:
             return is_locked is not False
-        if said.get("status") == RUNNING and said.get("host") != platform.node():
+        if content.get("status") == RUNNING and content.get("host") != platform.node():
             return False
-        return is_locked is True or is_new or (bool(said) and not _is_alive(said))
+        return is_locked is True or is_new or (bool(content) and not _is_alive(content))
 
     def write(self, status: str, run: str) -> None:
         """Record who writes the folder, and what became of the run."""
         process = psutil.Process()
-        said = {
+        content = {
             "format": FORMAT, "run": run, "status": status, "host": platform.node(), "process": process.pid,
             "started": process.create_time(),
         }  # fmt: skip
-        data = (json.dumps(said, indent=2) + "\n").encode()
+        data = (json.dumps(content, indent=2) + "\n").encode()
         os.ftruncate(self._handle, 0)
         os.lseek(self._handle, 0, os.SEEK_SET)
         os.write(self._handle, data)
@@ -86,12 +86,12 @@ def is_run(folder: Path) -> bool:
     if folder.is_symlink() or not folder.is_dir():
         return False
     try:
-        said = json.loads((folder / RUN).read_bytes() or b"{}")
+        content = json.loads((folder / RUN).read_bytes() or b"{}")
     except FileNotFoundError:
         return not any(folder.iterdir())
     except (OSError, ValueError):
         return False
-    return isinstance(said, dict) and (not said or said.get("format") == FORMAT)
+    return isinstance(content, dict) and (not content or content.get("format") == FORMAT)
 
 
 def _opened(path: Path, *, shared: bool) -> tuple[int, bool, bool | None]:
@@ -135,29 +135,29 @@ def _content(handle: int) -> dict[str, Any]:
     """Return what a claim's file says; empty where its owner has not written it yet."""
     try:
         os.lseek(handle, 0, os.SEEK_SET)
-        said = json.loads(os.read(handle, 1 << 16))
+        content = json.loads(os.read(handle, 1 << 16))
     except ValueError:
         return {}
-    return said if isinstance(said, dict) else {}
+    return content if isinstance(content, dict) else {}
 
 
-def _is_alive(said: dict[str, Any]) -> bool:
+def _is_alive(content: dict[str, Any]) -> bool:
     """Return whether the process that a claim names is at work on this host: number and start time are the same."""
-    if said.get("status") != RUNNING:
+    if content.get("status") != RUNNING:
         return False
     try:
-        return abs(psutil.Process(int(said["process"])).create_time() - float(said["started"])) < 1.0
+        return abs(psutil.Process(int(content["process"])).create_time() - float(content["started"])) < 1.0
     except (psutil.NoSuchProcess, KeyError, TypeError, ValueError):
         return False
 
 
-def _who(said: dict[str, Any]) -> str:
-    if not said:
+def _who(content: dict[str, Any]) -> str:
+    if not content:
         return "another run"
-    elsewhere = f" on {said.get('host')}" if said.get("host") != platform.node() else ""
-    return f"another run (process {said.get('process')}{elsewhere})"
+    elsewhere = f" on {content.get('host')}" if content.get("host") != platform.node() else ""
+    return f"another run (process {content.get('process')}{elsewhere})"
 
 
-def _next_step(said: dict[str, Any], path: Path) -> str:
-    elsewhere = bool(said) and said.get("host") != platform.node()
+def _next_step(content: dict[str, Any], path: Path) -> str:
+    elsewhere = bool(content) and content.get("host") != platform.node()
     return "name another --out" + (f", or remove {path} if that process has ended" if elsewhere else "")

@@ -61,5 +61,5 @@ def manifest_text(content: Mapping[str, Any]) -> str:
 
 
 def _seal(content: Mapping[str, Any]) -> str:
-    rest = {name: value for name, value in content.items() if name != _SEAL}
-    return "sha256:" + hashlib.sha256(json.dumps(rest, sort_keys=True).encode()).hexdigest()
+    unsealed = {name: value for name, value in content.items() if name != _SEAL}
+    return "sha256:" + hashlib.sha256(json.dumps(unsealed, sort_keys=True).encode()).hexdigest()

@@ -47,8 +47,8 @@ def sort_key(text: str) -> float | None:
     """Return the number a text begins with; of `never` one beyond all others."""
     if text == "never":
         return 1e300
-    found = _NUMBER.match(text.replace("−", "-"))
-    return float(found[0]) if found else None
+    match = _NUMBER.match(text.replace("−", "-"))
+    return float(match[0]) if match else None
 
 
 def study_section(text: str) -> Section:

@@ -112,14 +112,14 @@ class RemainingTime:
 
     def heard(self, text: str, now: float) -> None:
         """Take a message at a time [s]: a step that starts says its number."""
-        found = _COUNTED.match(text)
-        if found is None:
+        match = _COUNTED.match(text)
+        if match is None:
             self._end = None if self._last else self._end
             return
-        number, last = int(found["done"]), int(found["all"])
+        number, last = int(match["done"]), int(match["all"])
         self._last = number >= last
-        if self._series != (found["of"], found["all"]) or number < self._first:
-            self._series = (found["of"], found["all"])
+        if self._series != (match["of"], match["all"]) or number < self._first:
+            self._series = (match["of"], match["all"])
             self._first, self._began, self._end = number, now, None
         elif self._first < number <= last:
             each = (now - self._began) / (number - self._first)

@@ -33,7 +33,7 @@ def replace_results(out: Path, new: Path, results: Manifest, earlier: Manifest, 
     refuse_links(out, [*results.files, *earlier.files])
     for name in results.files:
         if (new / name).exists() and not link_on_the_way(new, name):
-            digests = {digest for one in (earlier, results) if (digest := one.files.get(name))}
+            digests = {digest for results_set in (earlier, results) if (digest := results_set.files.get(name))}
             _move(new / name, out, name, digests, say)
     remove_own(out, {name: {digest} for name, digest in earlier.files.items() if name not in results.files}, say)
     if (new / MANIFEST).exists():
@@ -59,7 +59,7 @@ def remove_own(folder: Path, names: Mapping[str, Collection[str]], say: Say) -> 
         elif os.path.lexists(folder / name) and not link_on_the_way(folder, name):
             say(f"{folder / name}: was changed since it was written, so it is kept")
     parents = {parent for name in names for parent in PurePosixPath(name).parents if parent.parts}
-    for parent in sorted(parents, key=lambda one: -len(one.parts)):
+    for parent in sorted(parents, key=lambda folder_path: -len(folder_path.parts)):
         if not link_on_the_way(folder, f"{parent}/x"):
             with suppress(OSError):  # it is not empty, or gone
                 (folder / parent).rmdir()
@@ -68,12 +68,12 @@ def remove_own(folder: Path, names: Mapping[str, Collection[str]], say: Say) -> 
 def discard_unfinished(folder: Path, say: Say, keep: Callable[[str], bool] = lambda _: False) -> None:
     """Remove what an unfinished run wrote but what is to be kept; anything else in its folder is moved beside it."""
     names = recorded(folder)
-    kept = {name for name in names if keep(name)}
-    remove_own(folder, {name: names[name] for name in names if name not in kept}, lambda _: None)
-    if not kept:
+    kept_names = {name for name in names if keep(name)}
+    remove_own(folder, {name: names[name] for name in names if name not in kept_names}, lambda _: None)
+    if not kept_names:
         for journal in folder.glob(JOURNALS):
             journal.unlink()
-    move_aside(folder, kept, say)
+    move_aside(folder, kept_names, say)
 
 
 def move_aside(folder: Path, own: Collection[str], say: Say) -> None:
@@ -90,7 +90,10 @@ def move_aside(folder: Path, own: Collection[str], say: Say) -> None:
             aside = free_name(folder)
         make_folder((aside / name).parent)
         path.rename(aside / name)
-    for path in sorted((one for one in folder.rglob("*") if one.is_dir() and not one.is_symlink()), reverse=True):
+    for path in sorted(
+        (subfolder for subfolder in folder.rglob("*") if subfolder.is_dir() and not subfolder.is_symlink()),
+        reverse=True,
+    ):
         with suppress(OSError):
             path.rmdir()
     if aside:

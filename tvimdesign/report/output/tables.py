@@ -78,7 +78,7 @@ def range_text(interval: Mapping[str, Any] | None) -> str:
 
 def mark(name: str, answer: StudyResult) -> str:
     """Return what marks a value that an idealization gave."""
-    return " ~" if any(name in one.as_drawn for one in answer.idealizations) else ""
+    return " ~" if any(name in idealization.as_drawn for idealization in answer.idealizations) else ""
 
 
 def margin_of(check: ConstraintCheck | ActiveConstraint, table: Table) -> tuple[float, str]:
@@ -151,13 +151,15 @@ def results(answer: StudyResult, table: Table) -> Answered:
         "accepted_in_vain": list(answer.accepted_in_vain),
         "idealizations": [
             {
-                "choice": one.choice,
-                "word": one.word,
-                "instead": one.instead,
-                "leaves_out": one.leaves_out,
-                "as_drawn": {name: number_entry(value, table.unit(name)) for name, value in one.as_drawn.items()},
+                "choice": idealization.choice,
+                "word": idealization.word,
+                "instead": idealization.instead,
+                "leaves_out": idealization.leaves_out,
+                "as_drawn": {
+                    name: number_entry(value, table.unit(name)) for name, value in idealization.as_drawn.items()
+                },
             }
-            for one in answer.idealizations
+            for idealization in answer.idealizations
         ],
         "current_profiles": cast("Any", design.current_profiles),
         "at_default_currents": entries(answer.constant_current),
@@ -192,7 +194,9 @@ def _entry(name: str, value: float, answer: StudyResult, table: Table, find_reco
         "group": row.group,
         "description": row.description,
         "note": notes(design, table).get(name, ""),
-        "idealized": ", ".join(one.text for one in answer.idealizations if name in one.as_drawn),
+        "idealized": ", ".join(
+            idealization.text for idealization in answer.idealizations if name in idealization.as_drawn
+        ),
     }
 
 
@@ -216,9 +220,10 @@ def results_csv(entries: Mapping[str, ValueEntry], intervals: Mapping[str, Inter
     writer = csv.DictWriter(stream, columns, lineterminator="\n", extrasaction="ignore")
     writer.writeheader()
     for name, entry in entries.items():
-        one = (intervals or {}).get(name)
-        may_be = one and {"may_be_low": one["low"], "may_be_high": "never" if one["high"] is None else one["high"],
-                          "measure_first": next(iter(one["shares"]), "")}  # fmt: skip
+        interval = (intervals or {}).get(name)
+        may_be = interval and {"may_be_low": interval["low"],
+                               "may_be_high": "never" if interval["high"] is None else interval["high"],
+                               "measure_first": next(iter(interval["shares"]), "")}  # fmt: skip
         writer.writerow({"name": name, **entry, **(may_be or {})})
     return stream.getvalue()
 

@@ -60,25 +60,25 @@ def columns(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> list[st
 def print_section(section: Section, console: Console) -> None:
     """Print the text and the tables of a section under its title; figures and pictures are left to the page."""
     console.print(f"\n[bold]{section.title.upper()}[/bold]")
-    for one in section.blocks:
-        print_block(one, console)
+    for item in section.blocks:
+        print_block(item, console)
 
 
-def print_block(one: Block, console: Console) -> None:
+def print_block(item: Block, console: Console) -> None:
     """Print one block, if it is of text."""
-    if isinstance(one, Grid):
-        print_grid(one, console)
-    elif isinstance(one, Facts):
-        for label, text in one.rows:
+    if isinstance(item, Grid):
+        print_grid(item, console)
+    elif isinstance(item, Facts):
+        for label, text in item.rows:
             print_lines(block(label, text, console.width), console)
-    elif isinstance(one, Words | Points):
-        for line in one.lines:
+    elif isinstance(item, Words | Points):
+        for line in item.lines:
             console.print(escape(line))
-    elif isinstance(one, Warned):
-        for text, cure in one.rows:
+    elif isinstance(item, Warned):
+        for text, cure in item.rows:
             console.print(f"[yellow]Warning[/yellow] {escape(text)}" + (f"; write {escape(cure)}" if cure else ""))
-    elif isinstance(one, Folded):
-        for within in one.blocks:
+    elif isinstance(item, Folded):
+        for within in item.blocks:
             print_block(within, console)
 
 

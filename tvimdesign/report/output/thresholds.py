@@ -35,12 +35,12 @@ def stiff_in_words(design: Design, table: Table) -> str:
 def notes(design: Design, table: Table) -> dict[str, str]:
     """Return what must be known to read an output right, by its name: of times, what the joint is then."""
     soft, stiff = f"soft: {soft_in_words(design, table)}", f"stiff: {stiff_in_words(design, table)}"
-    found = {"softening_time": soft, "stiffening_time": stiff, "equilibrium_stiffening_time": stiff}
+    points = {"softening_time": soft, "stiffening_time": stiff, "equilibrium_stiffening_time": stiff}
     if design.choices["response_criterion"] == "softening":
-        found["response_time"] = soft
+        points["response_time"] = soft
     if design.choices["stiffening_criterion"] == "impedance":
-        found["return_time"] = stiff
-    return found
+        points["return_time"] = stiff
+    return points
 
 
 def meaning(name: str, design: Design, table: Table) -> str:

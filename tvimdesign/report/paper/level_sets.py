@@ -52,7 +52,7 @@ def write_level_sets(out: Path, overwrite: bool) -> Path:
             [Drawing("level_sets", "paper_figures.level_sets", _figure_data(sets, model, wanted)), case],
             "The paper's module, reconstructed",
         )
-        units = {one.parameter: model.table.unit(one.parameter) for one in sets}
+        units = {each.parameter: model.table.unit(each.parameter) for each in sets}
         folder.write("level_sets.csv", _table(_line_rows(sets, units)))
         folder.write("response_times.csv", _table(_time_rows(sets, units)))
         folder.write("paper_case.csv", _table(_in_cells(paper_case.table_rows())))
@@ -77,37 +77,39 @@ def print_level_sets(out: Path, overwrite: bool, as_json: bool) -> None:
 def _figure_data(sets: list[LevelSet], model: DeviceFunctions, wanted: float) -> dict[str, Any]:
     """Plain data for the process that draws, in the units people read."""
     ends = [1e3 * float(end) for end in (THICKNESSES[0], THICKNESSES[-1])]
-    return {"wanted": wanted, "range": ends, "panels": [_panel(one, model) for one in sets]}
+    return {"wanted": wanted, "range": ends, "panels": [_panel(each, model) for each in sets]}
 
 
-def _panel(one: LevelSet, model: DeviceFunctions) -> dict[str, Any]:
+def _panel(level_line: LevelSet, model: DeviceFunctions) -> dict[str, Any]:
     """Return one parameter's lines, a gap being None, and the module as assumed here."""
-    row, unit = model.table.quantity(one.parameter), model.table.unit(one.parameter)
-    start = {name: float(model.start[model.index[name]]) for name in (one.parameter, "pcl_thickness")}
+    row, unit = model.table.quantity(level_line.parameter), model.table.unit(level_line.parameter)
+    start = {name: float(model.start[model.index[name]]) for name in (level_line.parameter, "pcl_thickness")}
     return {
         "label": f"{row.description.partition(',')[0]} ({pretty(unit)})",
-        "logarithmic": bool(one.values[-1] / one.values[0] > 10.0),
-        "x": [from_si(float(value), unit) for value in one.values],
-        "lines": {place: [None if math.isnan(t) else 1e3 * t for t in one.line[place].tolist()] for place in PLACES},
-        "published": [from_si(start[one.parameter], unit), 1e3 * start["pcl_thickness"]],
+        "logarithmic": bool(level_line.values[-1] / level_line.values[0] > 10.0),
+        "x": [from_si(float(value), unit) for value in level_line.values],
+        "lines": {
+            place: [None if math.isnan(t) else 1e3 * t for t in level_line.line[place].tolist()] for place in PLACES
+        },
+        "published": [from_si(start[level_line.parameter], unit), 1e3 * start["pcl_thickness"]],
     }
 
 
 def _line_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str]]:
-    for one in sets:
-        unit = units[one.parameter]
-        for i, value in enumerate(one.values):
-            lines = {f"pcl_thickness for {place} [mm]": _cell(1e3 * one.line[place][i]) for place in PLACES}
-            yield {"parameter": one.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit, **lines}
+    for each in sets:
+        unit = units[each.parameter]
+        for i, value in enumerate(each.values):
+            lines = {f"pcl_thickness for {place} [mm]": _cell(1e3 * each.line[place][i]) for place in PLACES}
+            yield {"parameter": each.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit, **lines}
 
 
 def _time_rows(sets: list[LevelSet], units: dict[str, str]) -> Iterable[dict[str, str]]:
-    for one in sets:
-        unit = units[one.parameter]
-        for i, value in enumerate(one.values):
-            for j, thickness in enumerate(one.thicknesses):
-                times = {f"{place} [s]": _cell(one.times[place][i, j]) for place in PLACES}
-                place = {"parameter": one.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit}
+    for each in sets:
+        unit = units[each.parameter]
+        for i, value in enumerate(each.values):
+            for j, thickness in enumerate(each.thicknesses):
+                times = {f"{place} [s]": _cell(each.times[place][i, j]) for place in PLACES}
+                place = {"parameter": each.parameter, "value": f"{from_si(float(value), unit):.6g}", "unit": unit}
                 yield {**place, "pcl_thickness [mm]": f"{1e3 * thickness:.6g}", **times}
 
 

@@ -66,8 +66,8 @@ def _row(name: str) -> Input:
 @cache
 def ranges() -> dict[str, Entry]:
     """Return the assumed values of the case and their ranges [SI]: this case's own, then those of the records."""
-    found = {name: _entry(said) | {"value": pair().value(name)} for name, said in case()["ranges"].items()}
-    entries = {name: Entry(**fields) for name, fields in found.items()}
+    own_ranges = {name: _entry(given) | {"value": pair().value(name)} for name, given in case()["ranges"].items()}
+    entries = {name: Entry(**fields) for name, fields in own_ranges.items()}
     for model in pair().models:
         needed = model.table.ancestors(case()["event"])
         for row in model.table.inputs:
@@ -79,19 +79,19 @@ def ranges() -> dict[str, Entry]:
     return entries
 
 
-def _entry(said: dict[str, Any]) -> dict[str, Any]:
+def _entry(record: dict[str, Any]) -> dict[str, Any]:
     """Fields of a range in SI."""
-    ends = {end: to_si(float(said[end]), said["unit"]) for end in ("low", "high")}
-    return {"unit": said["unit"], "source": said["source"], "status": said["status"], **ends}
+    ends = {end: to_si(float(record[end]), record["unit"]) for end in ("low", "high")}
+    return {"unit": record["unit"], "source": record["source"], "status": record["status"], **ends}
 
 
 @cache
 def influences() -> tuple[Influence, ...]:
     """Return what each assumed input does to both times through its range; first what moves their ratio most."""
     spans = (Span(name, float(entry.low or 0.0), float(entry.high or 0.0)) for name, entry in ranges().items())
-    found = [pair().influence(case()["event"], span) for span in spans]
+    influence_list = [pair().influence(case()["event"], span) for span in spans]
     # What only freezing asks for is assumed too, and changes nothing here.
-    moving = (influence for influence in found if np.any(influence.at_low != influence.at_high))
+    moving = (influence for influence in influence_list if np.any(influence.at_low != influence.at_high))
     return tuple(sorted(moving, key=lambda influence: -influence.reach))
 
 
@@ -115,7 +115,7 @@ def sentence() -> str:
     """Return the row of the paper check: what the pair takes, what else it could be read as, what carries the ratio."""
     event = case()["event"]
     times = pair().times(event)
-    others = "; ".join(f"with {one.label}: {_both(one.times)}" for one in alternatives())
+    others = "; ".join(f"with {alternative.label}: {_both(alternative.times)}" for alternative in alternatives())
     most = influences()[0]
     ends = [end for influence in influences() for end in influence.ratios]
     stated = [from_paper(name) for name in ("response_time", "response_time_compression")]
@@ -160,16 +160,19 @@ def table_rows() -> Iterator[dict[str, str | float]]:
 def alternative_rows() -> Iterator[dict[str, str | float]]:
     """Yield the pair as calibrated, and with each other choice."""
     event = case()["event"]
-    for one in (Alternative(f"as calibrated: {_place(event)} of the PCL", pair().times(event)), *alternatives()):
-        yield {"choice": one.label, "shear time [s]": one.times[0], "compression time [s]": one.times[1],
-               "ratio": ratio(one.times)}  # fmt: skip
+    for other in (
+        Alternative(f"as calibrated: {_place(event)} of the PCL", pair().times(event)),
+        *alternatives(),
+    ):
+        yield {"choice": other.label, "shear time [s]": other.times[0], "compression time [s]": other.times[1],
+               "ratio": ratio(other.times)}  # fmt: skip
 
 
 def figure_data() -> dict[str, Any]:
     """Plain data of the tornado: a bar for each input and each choice that moves the ratio."""
     nominal = ratio(pair().times(case()["event"]))
     bars = [_bar(influence) for influence in influences() if influence.reach - 1.0 > SHOWN]
-    choices = [{"label": one.label, "ratio": ratio(one.times)} for one in alternatives()]
+    choices = [{"label": alternative.label, "ratio": ratio(alternative.times)} for alternative in alternatives()]
     return {"ratio": nominal, "bars": bars, "choices": choices}
 
 

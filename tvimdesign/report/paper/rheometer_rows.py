@@ -42,10 +42,10 @@ def plate_stiffness(modulus: float) -> float:
     return 0.5 * math.pi * (0.5 * from_paper("plate_diameter")) ** 4 * modulus / from_paper("plate_gap")
 
 
-def _share(one: Instrument, unit: str) -> str:
+def _share(device: Instrument, unit: str) -> str:
     """`125 mN·m (100 to 230, assumed)`."""
-    value, low, high = (from_si(number, unit) for number in (one.value, one.low, one.high))
-    return f"{value:g} {unit.replace('*', '·').replace('uN', 'µN')} ({low:g} to {high:g}, {one.status})"
+    value, low, high = (from_si(number, unit) for number in (device.value, device.low, device.high))
+    return f"{value:g} {unit.replace('*', '·').replace('uN', 'µN')} ({low:g} to {high:g}, {device.status})"
 
 
 def _strain_as_rate() -> str:
@@ -74,7 +74,7 @@ def _small_strain() -> str:
     least = instrument("least_torque")
     torque = plate_torque(_complex_modulus(hot, 0.0, lowest) * strain)
     sweep = np.geomspace(lowest, from_paper("highest_frequency"), 400)
-    torques = np.array([plate_torque(_complex_modulus(hot, 0.0, float(one)) * strain) for one in sweep])
+    torques = np.array([plate_torque(_complex_modulus(hot, 0.0, float(frequency)) * strain) for frequency in sweep])
     reached = [float(np.interp(math.log(end), np.log(torques), sweep)) for end in (least.value, least.low, least.high)]
     angle = strain * from_paper("plate_gap") / (0.5 * from_paper("plate_diameter"))
     return (

@@ -113,10 +113,10 @@ def _pretension() -> str:
 def _symbols() -> str:
     rate, place = published_rate(), from_paper("placement_radius")
     turned = abs(float(transmission.leg_ratio(OTHER_PIN, place, 0.0, 0.0)))
-    one, other = (transmission.output_stiffness(4, rate, 0.0, ratio, 0.0) for ratio in (turned, 1.0 / turned))
+    first, other = (transmission.output_stiffness(4, rate, 0.0, ratio, 0.0) for ratio in (turned, 1.0 / turned))
     return (
         f"only a ratio of one hides it: with pins at {OTHER_PIN * 1e3:g} mm spring and rotor turn in a ratio of "
-        f"{turned:.2f}, and K_s is {one:.1f} or {other:.2f} N·m/rad as alpha is the one or the other, a factor of "
+        f"{turned:.2f}, and K_s is {first:.1f} or {other:.2f} N·m/rad as alpha is the one or the other, a factor of "
         f"{turned**4:.0f}"
     )
 
@@ -124,16 +124,16 @@ def _symbols() -> str:
 def _angles() -> str:
     place, rate = from_paper("placement_radius"), published_rate()
     radius, thickness = published_values()["pcl_outer_radius"], published_values()["pcl_thickness"]
-    said = []
+    angles = []
     for name in ("release_angle", "stroke", "largest_rotation"):
         angle = from_paper(name)
         ratio = abs(float(transmission.leg_ratio(0.5 * place, place, angle, 0.0)))
         strain = layer.shear_strain(radius, angle, thickness)
-        said.append(
+        angles.append(
             f"{angle:g} rad: {_by_unity(rate) * angle:.2f} N·m, melt sheared by {strain:.0%}, ratio {ratio:.3f}"
         )
     return (
-        f"{'; '.join(said)} (springs alone, {thickness * 1e3:g} mm of PCL, radial pins that give a ratio of one at "
+        f"{'; '.join(angles)} (springs alone, {thickness * 1e3:g} mm of PCL, radial pins that give a ratio of one at "
         "rest). The release stays below the stroke; at the largest angle the ratio of one no longer holds"
     )
 

@@ -52,8 +52,8 @@ class JointState:
 
 def joint_states(resolved: ResolvedModule) -> list[JointState]:
     """Return the joint at every operating point, its PCL come there on heating where history matters."""
-    found = [case for case in cases(resolved) if case.history.name in ("", "nominal") and case.history.shown]
-    return [_state(resolved, case) for case in found]
+    shown_cases = [case for case in cases(resolved) if case.history.name in ("", "nominal") and case.history.shown]
+    return [_state(resolved, case) for case in shown_cases]
 
 
 def _state(resolved: ResolvedModule, case: Case) -> JointState:

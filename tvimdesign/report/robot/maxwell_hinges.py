@@ -123,8 +123,8 @@ def without_spring(modes: Modes, spring: float) -> Modes:
     rates, vectors = np.linalg.eigh(np.diag(1.0 / times) + ratio / spring * np.outer(weights, weights))
     # The slowest rate of PCL that does not relax is lost in rounding: no rate is below the slowest given one.
     rates = np.maximum(rates, 1.0 / np.max(times))
-    found = ratio**2 * (weights @ vectors) ** 2 / rates
-    return [(float(1.0 / rate), float(stiffness)) for rate, stiffness in zip(rates, found, strict=True)]
+    strengths = ratio**2 * (weights @ vectors) ** 2 / rates
+    return [(float(1.0 / rate), float(stiffness)) for rate, stiffness in zip(rates, strengths, strict=True)]
 
 
 def held_angles(state: JointState, made: MaxwellHinges, angle: float) -> dict[str, float]:
@@ -140,7 +140,9 @@ def _relaxed(made: MaxwellHinges, carrier: str, name: str, angle: float, hold: f
     own = [spring for spring in made.springs if spring.name.startswith(f"{name}_")]
     return {
         carrier: angle,
-        **{one.name: angle * -float(np.expm1(-hold * one.stiffness / damping[one.name])) for one in own},
+        **{
+            element.name: angle * -float(np.expm1(-hold * element.stiffness / damping[element.name])) for element in own
+        },
     }
 
 
@@ -151,7 +153,7 @@ def _pressed(made: MaxwellHinges, angle: float, hold: float) -> dict[str, float]
     damping = {hinge.name: hinge.damping for hinge in made.hinges}
     contact = next(spring for spring in made.springs if spring.name == "contact_ahead")
     own = [spring for spring in made.springs if spring.name.startswith("pcl_ahead_")]
-    stiffness, held_by = np.array([(one.stiffness, damping[one.name]) for one in own]).T
+    stiffness, held_by = np.array([(element.stiffness, damping[element.name]) for element in own]).T
     # Without inertia the face stands where its springs agree: (S phi + sum k q)/(S + sum k).
     whole = contact.stiffness + float(np.sum(stiffness))
     matrix = np.zeros((len(own) + 1, len(own) + 1))
@@ -159,4 +161,4 @@ def _pressed(made: MaxwellHinges, angle: float, hold: float) -> dict[str, float]
     matrix[:-1, -1] = stiffness * contact.stiffness / whole / held_by
     angles: NDArray[np.float64] = (expm(matrix * hold) @ np.append(np.zeros(len(own)), angle))[:-1]
     face = (contact.stiffness * angle + float(stiffness @ angles)) / whole
-    return {"face_ahead": face, **{one.name: float(q) for one, q in zip(own, angles, strict=True)}}
+    return {"face_ahead": face, **{element.name: float(q) for element, q in zip(own, angles, strict=True)}}

@@ -66,13 +66,13 @@ def over_temperature(resolved: ResolvedModule, model: JointModel) -> Columns:
     `..._low` and `..._high` are the least and the largest over what the PCL's history allows.
     """
     swept = impedance_sweep(resolved)
-    kept = [name for name in swept if name.startswith(("joint_", "solid_fraction"))]
+    joint_columns = [name for name in swept if name.startswith(("joint_", "solid_fraction"))]
     frequency = float(resolved.quantity("frequency@hot"))
     count = len(swept["temperature"])
     return {
         "temperature": swept["temperature"],
         "frequency": [frequency] * count,
-        **{name: swept[name] for name in kept},
+        **{name: swept[name] for name in joint_columns},
         "springs": [model.states[0].springs] * count,
     }
 
@@ -94,8 +94,8 @@ def write_models(
     """Write bodies, models, tables and FMU into a folder. Raises InputError, GeometryError."""
     refuse_step(step)
     resolved = resolve_design(design)
-    kept = write_design(design, folder.path / "design.json")
-    base, moving, report = make_bodies(kept, folder.path, lambda text: progress(f"bodies: {text}"))
+    written = write_design(design, folder.path / "design.json")
+    base, moving, report = make_bodies(written, folder.path, lambda text: progress(f"bodies: {text}"))
     refuse_failed(report)
     progress("models")
     model = joint_model(resolved, base, moving, step)

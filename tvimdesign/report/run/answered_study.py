@@ -96,15 +96,15 @@ def answer_study(
     study = drawn(study) if drawn_only else study
     deadline = deadline or Deadline(study.solver.time_limit)
     front, search = FrontOfRun(study, table, folder), search or partial(optimize, deadline=deadline)
-    found = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search, designed=designed)
-    early(found)
-    answered = AnsweredStudy(tree, study, found, front, _reported(found, table), deadline=deadline)
+    result = answer(study, progress, keep=front.keep, objectives=front.outputs, search=search, designed=designed)
+    early(result)
+    answered = AnsweredStudy(tree, study, result, front, _reported(result, table), deadline=deadline)
     answered.reported["doubts"] = record_checks(study)
-    if found.found and (sensitivities or study.write.sensitivities):
+    if result.found and (sensitivities or study.write.sensitivities):
         progress("differentiating the outputs")
         with noting(answered.failures):
             deadline.attempt("the sensitivities", partial(_differentiate, answered))
-    front.seek(found, progress, answered.reported, answered.failures)
+    front.seek(result, progress, answered.reported, answered.failures)
     note_left_out(answered)
     progress("")
     return answered
@@ -115,12 +115,12 @@ def proving(study: Study) -> Study:
     return study.model_copy(update={"solver": study.solver.model_copy(update={"prove": True})})
 
 
-def _reported(found: StudyResult, table: Table) -> RunResults:
-    reported = cast("RunResults", results(found, table))
-    reported["why"] = why(found, table)
-    if found.solution:
-        reported["starts"] = starts_reported(found)
-        reported["conflict_set"] = conflicts_reported(found.solution.conflict_set)
+def _reported(result: StudyResult, table: Table) -> RunResults:
+    reported = cast("RunResults", results(result, table))
+    reported["why"] = why(result, table)
+    if result.solution:
+        reported["starts"] = starts_reported(result)
+        reported["conflict_set"] = conflicts_reported(result.solution.conflict_set)
     return reported
 
 
@@ -162,7 +162,7 @@ def drawings(answered: AnsweredStudy) -> list[Drawing]:
 
     if not answered.result.found:
         return []
-    found = run_plot_data.drawings(answered.result, answered.study.table)
+    figures = run_plot_data.drawings(answered.result, answered.study.table)
     if answered.heat_map.get("values"):
-        found.append(Drawing("sensitivities", "design_figures.sensitivities", answered.heat_map))
-    return found + answered.front.drawings()
+        figures.append(Drawing("sensitivities", "design_figures.sensitivities", answered.heat_map))
+    return figures + answered.front.drawings()

@@ -46,8 +46,8 @@ def refuse_what_cannot_be(study: Study, *, proof: bool = True, deadline: Deadlin
 def describe(study: Study) -> str:
     """Return one line on what a valid study asks, then one for each of its records that contradicts itself."""
     what = f"optimises {len(study.vary)} variables" if study.task == "optimize" else "evaluates one module"
-    asked = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
-    return "\n".join([asked, *record_checks(study), *foreseen_ratings(study)])
+    summary = f"{study.name}: valid; {what}, {len(study.require)} requirements ({study.mode} mode)."
+    return "\n".join([summary, *record_checks(study), *foreseen_ratings(study)])
 
 
 def foreseen_ratings(study: Study) -> list[str]:
@@ -55,12 +55,12 @@ def foreseen_ratings(study: Study) -> list[str]:
     from tvimdesign.solve.optimizer.ratings import exceeded_at_start
 
     try:
-        found = exceeded_at_start(study)
+        exceeded = exceeded_at_start(study)
     except SimulationError:
         return []
     module, then = ("The module", "") if not study.vary else ("The module it starts from", " An optimum may be, too.")
     return [
         f"{module} is beyond a rating: {name} is {format_quantity(value, study.table.unit(name))}.{then} Accept it, "
         f'`accept: [{name}]`, or exclude it, `require: {{{name}: ">= 0 {study.table.unit(name)}"}}`.'
-        for name, value in found.items()
+        for name, value in exceeded.items()
     ]

@@ -51,14 +51,14 @@ def check_deep(study: Study, *, as_json: bool) -> None:
     """Check a study, build its problem and look at that. Raises InputError, InfeasibleError."""
     refuse_what_cannot_be(study)
     with progress_output() as progress:
-        found = inspect_study(study, progress)
+        diagnostics = inspect_study(study, progress)
         progress("")
     if as_json:
-        print(json.dumps(plain(found), indent=2, allow_nan=False))
+        print(json.dumps(plain(diagnostics), indent=2, allow_nan=False))
         return
     console = wide_console()
     console.print(describe(study), markup=False, soft_wrap=True)
-    for line in in_words(found):
+    for line in in_words(diagnostics):
         console.print(line, markup=False, soft_wrap=True)
 
 
@@ -91,22 +91,24 @@ def inspect_study(study: Study, progress: Progress) -> Diagnostics:
     return Diagnostics(rows, columns, conditioning, derivatives, structure, start)
 
 
-def in_words(found: Diagnostics) -> list[str]:
+def in_words(diagnostics: Diagnostics) -> list[str]:
     """Return the check for people, every finding with what to do about it."""
-    lines = [*_scaling(found), *_conditioning(found.conditioning), *_derivatives(found.derivatives)]
-    lines += _structure(found.structure)
-    converged = f"converged in {found.start.iterations} iterations, objective {found.start.objective:.5g}"
-    lines.append(f"One solve from the start {converged}." if found.start.converged else endings([found.start])[0])
-    return [*lines, "Nothing speaks against the problem." if found.sound else "Look at what is marked with !."]
+    lines = [*_scaling(diagnostics), *_conditioning(diagnostics.conditioning), *_derivatives(diagnostics.derivatives)]
+    lines += _structure(diagnostics.structure)
+    converged = f"converged in {diagnostics.start.iterations} iterations, objective {diagnostics.start.objective:.5g}"
+    lines.append(
+        f"One solve from the start {converged}." if diagnostics.start.converged else endings([diagnostics.start])[0]
+    )
+    return [*lines, "Nothing speaks against the problem." if diagnostics.sound else "Look at what is marked with !."]
 
 
 def _mark(good: bool) -> str:
     return " " if good else "!"
 
 
-def _scaling(found: Diagnostics) -> list[str]:
+def _scaling(diagnostics: Diagnostics) -> list[str]:
     lines = []
-    for what, spread in (("rows", found.rows), ("unknowns", found.columns)):
+    for what, spread in (("rows", diagnostics.rows), ("unknowns", diagnostics.columns)):
         (most, greatest), (least, smallest) = spread.largest, spread.smallest
         lines.append(
             f"{_mark(spread.ratio < _BADLY_SCALED)} scaling of {what}: greatest derivative {number(greatest, 2)} "
@@ -115,16 +117,16 @@ def _scaling(found: Diagnostics) -> list[str]:
     return lines
 
 
-def _conditioning(found: Conditioning) -> list[str]:
-    good = found.equations < _NEARLY_SINGULAR
+def _conditioning(conditioning: Conditioning) -> list[str]:
+    good = conditioning.equations < _NEARLY_SINGULAR
     lines = [
-        f"{_mark(good)} conditioning: equations of heat and time {found.equations:.1e}; "
-        f"limits and goal by the variables {_number(found.decisions)}."
+        f"{_mark(good)} conditioning: equations of heat and time {conditioning.equations:.1e}; "
+        f"limits and goal by the variables {_number(conditioning.decisions)}."
     ]
     lines += [
         f"  {' and '.join(names)} can be traded for each other at the start, and no limit or goal notices; "
         "fix one of them, or minimise something that tells them apart."
-        for names in found.objectives
+        for names in conditioning.objectives
         if names
     ]
     return lines
@@ -134,27 +136,29 @@ def _number(value: float) -> str:
     return f"{value:.1e}" if math.isfinite(value) else "not determined"
 
 
-def _derivatives(found: DerivativeCheck) -> list[str]:
-    row, by, error = found.worst[0]
-    lines = [f"{_mark(found.right)} derivatives: exact and differenced agree to {error:.0e} ({row} by {by})."]
-    if not found.right:
-        lines += [f"    {row} by {by}: off by {error:.1e}" for row, by, error in found.worst]
+def _derivatives(derivative_check: DerivativeCheck) -> list[str]:
+    row, by, error = derivative_check.worst[0]
+    lines = [
+        f"{_mark(derivative_check.right)} derivatives: exact and differenced agree to {error:.0e} ({row} by {by})."
+    ]
+    if not derivative_check.right:
+        lines += [f"    {row} by {by}: off by {error:.1e}" for row, by, error in derivative_check.worst]
         lines.append("    A row may have a kink at the start; move the start a little, and look again.")
     return lines
 
 
-def _structure(found: Structure) -> list[str]:
+def _structure(structure: Structure) -> list[str]:
     lines = []
-    if found.idle:
-        lines.append(f"! no limit and no goal depends on {', '.join(found.idle)}; take it out of `vary`.")
-    if found.unchangeable:
-        lines.append(f"  nothing under `vary` can change {'; '.join(found.unchangeable)}; it holds.")
+    if structure.idle:
+        lines.append(f"! no limit and no goal depends on {', '.join(structure.idle)}; take it out of `vary`.")
+    if structure.unchangeable:
+        lines.append(f"  nothing under `vary` can change {'; '.join(structure.unchangeable)}; it holds.")
     return lines
 
 
-def plain(found: Diagnostics) -> dict[str, Any]:
+def plain(diagnostics: Diagnostics) -> dict[str, Any]:
     """Return the check as plain data; null for what is infinite."""
-    reported = asdict(found) | {"sound": found.sound}
+    reported = asdict(diagnostics) | {"sound": diagnostics.sound}
     reported["start"].pop("seconds")
     finite: dict[str, Any] = _finite(reported)
     return finite

@@ -72,10 +72,10 @@ def first_screen(answered: AnsweredStudy, width: int, seconds: float | None = No
         facts = [line for fact in shown for line in _fact_lines(fact, width)]
     left = (LINES if width >= _WIDE else NARROW_LINES) - len(head) - len(facts) - after
     first = warning_lines(answered.warnings, width, 1)
-    asked = _requirement_lines(requirements(answer, answered.uncertainty), width, left - len(first))
+    requirement_lines = _requirement_lines(requirements(answer, answered.uncertainty), width, left - len(first))
     counts = [count for count in range(_WARNINGS, 0, -1)
-              if len(asked) + len(warning_lines(answered.warnings, width, count)) <= left]  # fmt: skip
-    return [*head, *asked, *facts, *warning_lines(answered.warnings, width, counts[0] if counts else 1)]
+              if len(requirement_lines) + len(warning_lines(answered.warnings, width, count)) <= left]  # fmt: skip
+    return [*head, *requirement_lines, *facts, *warning_lines(answered.warnings, width, counts[0] if counts else 1)]
 
 
 def _as_fit(lines: Sequence[str], more: Sequence[str], width: int) -> list[str]:

@@ -26,11 +26,11 @@ class FolderMemory:
         self._folder = folder
         solver = study.solver.model_copy(update={"time_limit": SolverOptions().time_limit})  # it changes no design
         asked_for = study.model_copy(update={"solver": solver})
-        asked = {"tvimdesign": __version__, "study": asked_for.model_dump(mode="json")}
+        request = {"tvimdesign": __version__, "study": asked_for.model_dump(mode="json")}
         known = _read(folder.path / PROGRESS / "asked.json")
-        if known is not None and known != asked:
+        if known is not None and known != request:
             raise InputError(f"{folder.out}: holds the front of another study or version; --overwrite to begin anew")
-        folder.write_json(f"{PROGRESS}/asked.json", asked)
+        folder.write_json(f"{PROGRESS}/asked.json", request)
 
     def recall(self, number: int, objective: Objective) -> Point | Failure | None:
         """Return the answer to a question; None where it is not there, or was of another objective."""
@@ -40,18 +40,18 @@ class FolderMemory:
         if "reason" in known:
             return Failure(known["where"], known["reason"])
         trace = Trace(*(np.array(known["trace"][name]) for name in Trace._fields))
-        kept = {name: known[name] for name in ("where", "values", "current_profiles", "cost", "root")}
-        return Point(**kept, trace=trace, objective=objective)
+        entries = {name: known[name] for name in ("where", "values", "current_profiles", "cost", "root")}
+        return Point(**entries, trace=trace, objective=objective)
 
-    def keep(self, number: int, objective: Objective, found: Point | Failure) -> None:
+    def keep(self, number: int, objective: Objective, outcome: Point | Failure) -> None:
         """Write an answer, every digit of it."""
-        reported: dict[str, Any] = {"goal": _plain_objective(objective), "where": found.where}
-        if isinstance(found, Failure):
-            reported["reason"] = found.reason
+        reported: dict[str, Any] = {"goal": _plain_objective(objective), "where": outcome.where}
+        if isinstance(outcome, Failure):
+            reported["reason"] = outcome.reason
         else:
-            assert found.trace is not None  # whatever was sought has one
-            reported |= {name: getattr(found, name) for name in ("values", "current_profiles", "cost", "root")}
-            reported["trace"] = {name: getattr(found.trace, name).tolist() for name in Trace._fields}
+            assert outcome.trace is not None  # whatever was sought has one
+            reported |= {name: getattr(outcome, name) for name in ("values", "current_profiles", "cost", "root")}
+            reported["trace"] = {name: getattr(outcome.trace, name).tolist() for name in Trace._fields}
         self._folder.write(f"{PROGRESS}/{number:04d}.json", json.dumps(reported))
 
 
@@ -61,7 +61,7 @@ def _plain_objective(objective: Objective) -> dict[str, Any]:
 
 def _read(path: Path) -> dict[str, Any] | None:
     try:
-        found: dict[str, Any] = json.loads(path.read_bytes())
+        content: dict[str, Any] = json.loads(path.read_bytes())
     except (FileNotFoundError, ValueError):
         return None
-    return found
+    return content

@@ -55,14 +55,14 @@ class FrontOfRun:
         """Take what found the study's optimum: the front is sought with it."""
         self._built.append((built, runs))
 
-    def seek(self, found: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]) -> None:
+    def seek(self, result: StudyResult, progress: Progress, reported: RunResults, troubles: list[TvimError]) -> None:
         """Seek the front; nothing where none is asked for.
 
         Messages go into `reported`, points without a design into `troubles`.
         """
-        if self.study.front is None or found.solution is None or not found.found:
+        if self.study.front is None or result.solution is None or not result.found:
             return
-        trade = Tradeoff(self.study, found.solution, *self._built[0], progress, self._memory)
+        trade = Tradeoff(self.study, result.solution, *self._built[0], progress, self._memory)
         sought = trace_front(trade, self.outputs, self.study.front.points)
         progress("simulating the whole cycle of the front's points")
         front = self.front = completed(sought, trade)
@@ -77,21 +77,21 @@ class FrontOfRun:
         self.entry = reported["front"] = plain(front, shown_names(self.study, front), self.table, yields, above)
         if any(above):
             troubles.append(AboveRatingError(said_of_ratings(above)))
-        failures = [one for one in front.failures if one.reason != OUT_OF_TIME]
+        failures = [failure for failure in front.failures if failure.reason != OUT_OF_TIME]
         if len(failures) < len(front.failures):
             late.leave_out(f"{len(front.failures) - len(failures)} points of the front")
         if failures:
-            where = "; ".join(f"{one.where}: {one.reason}" for one in failures)
+            where = "; ".join(f"{failure.where}: {failure.reason}" for failure in failures)
             troubles.append(TvimError(f"the front has {len(front.points)} points, but no design was found at {where}"))
 
-    def write(self, folder: ResultsFolder, found: StudyResult) -> None:
+    def write(self, folder: ResultsFolder, result: StudyResult) -> None:
         """Write all of it but its figure."""
         if self.front is None or self.entry is None:
             return
         folder.write("front.csv", front_csv(self.entry))
         folder.write_json("front.json", {**head(), **self.entry})
         for number, point in enumerate(self.front.points, start=1):
-            folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, found, self.table)))
+            folder.write(f"front/{number:02d}.design.json", design_json(design_of(point, number, result, self.table)))
         folder.remove(PROGRESS)
 
     def drawings(self) -> list[Drawing]:
@@ -108,13 +108,13 @@ def of_ratings(point: Point, study: Mapping[str, Any], table: Table) -> dict[str
     return {"status": ABOVE_RATING if above else OPTIMAL, "above_rating": above, "accepting": accepting}
 
 
-def design_of(point: Point, number: int, found: StudyResult, table: Table) -> Design:
+def design_of(point: Point, number: int, result: StudyResult, table: Table) -> Design:
     """Return a point as a design of its own, as `tvimdesign cad` takes it."""
-    return found.design.model_copy(
+    return result.design.model_copy(
         update={
             "tvimdesign": __version__,
-            "name": f"{found.design.name}, point {number} of its front",
-            **of_ratings(point, found.design.study, table),
+            "name": f"{result.design.name}, point {number} of its front",
+            **of_ratings(point, result.design.study, table),
             "values": point.values,
             "current_profiles": point.current_profiles,
             "intervals": {},
@@ -135,7 +135,7 @@ def kept_at(optimizer: Optimizer, front: Front, deadline: Deadline = NEVER) -> l
     from tvimdesign.solve.uncertainty.yields import yields_of  # it loads the compiler
 
     yields = yields_of(optimizer)
-    return [yields.at(one, deadline=deadline).together.share for one in inputs]
+    return [yields.at(values, deadline=deadline).together.share for values in inputs]
 
 
 def said_of_ratings(above: Sequence[tuple[str, ...]]) -> str:
@@ -173,22 +173,22 @@ def plain(
     front: Front,
     names: Sequence[str],
     table: Table,
-    kept: Sequence[float] = (),
+    yield_shares: Sequence[float] = (),
     above: Sequence[tuple[str, ...]] = (),
 ) -> FrontEntry:
     """Return the front as plain data, in units and in SI; null is never."""
 
     def entry(number: int, point: Point) -> FrontPoint:
-        found: FrontPoint = {
+        point_entry: FrontPoint = {
             "number": number, "status": status(front, number - 1), "design": f"front/{number:02d}.design.json",
             "values": {name: finite(from_si(point.values[name], table.unit(name))) for name in names},
             "si": {name: finite(point.values[name]) for name in names},
         }  # fmt: skip
-        if kept:
-            found["yield_share"] = kept[number - 1]
+        if yield_shares:
+            point_entry["yield_share"] = yield_shares[number - 1]
         if above and above[number - 1]:
-            found["above_rating"] = list(above[number - 1])
-        return found
+            point_entry["above_rating"] = list(above[number - 1])
+        return point_entry
 
     return {
         "of": list(front.outputs),
@@ -199,25 +199,25 @@ def plain(
         "spread": front.spread,
         "sought": front.sought,
         "dominated": front.dominated,
-        "failures": [{"where": one.where, "reason": one.reason} for one in front.failures],
+        "failures": [{"where": failure.where, "reason": failure.reason} for failure in front.failures],
         "notes": list(front.notes),
     }  # fmt: skip
 
 
 def in_words(front: Front, table: Table) -> list[str]:
     """Return what the front says: its knee and what things cost there, what is degenerate, what is missing."""
-    said = []
+    sentences = []
     if front.knee is not None:
         point = front.points[front.knee]
         at = ", ".join(f"{name} {format_quantity(point.values[name], table.unit(name))}" for name in front.outputs)
-        said.append(f"The knee is point {front.knee + 1}: {at}. Beyond it {'; '.join(_costs(front, front.knee))}.")
+        sentences.append(f"The knee is point {front.knee + 1}: {at}. Beyond it {'; '.join(_costs(front, front.knee))}.")
     elif front.little_traded:
-        said.append(_no_trade(front, table))
+        sentences.append(_no_trade(front, table))
     elif len(front.points) > 2:
-        said.append("It has no knee: it is nearly straight.")
-    said += [f"{note[0].upper()}{note[1:]}." for note in front.notes]
-    said += [f"No design at {one.where}: {one.reason}." for one in front.failures]
-    return said
+        sentences.append("It has no knee: it is nearly straight.")
+    sentences += [f"{note[0].upper()}{note[1:]}." for note in front.notes]
+    sentences += [f"No design at {failure.where}: {failure.reason}." for failure in front.failures]
+    return sentences
 
 
 def _no_trade(front: Front, table: Table) -> str:
@@ -238,7 +238,7 @@ def _costs(front: Front, knee: int) -> list[str]:
     """Return what a hundredth less of each output costs from the knee to the nearest point that has less of it."""
     points, here, shares = front.points, front.points[knee], front.shares
     distances = np.linalg.norm(shares - shares[knee], axis=1)
-    found = []
+    costs = []
     for less in front.outputs:
         beyond = [i for i, point in enumerate(points) if point.values[less] < here.values[less]]
         there = min(beyond, key=lambda i: distances[i])
@@ -248,8 +248,8 @@ def _costs(front: Front, knee: int) -> list[str]:
             for more in front.outputs if more != less
         }  # fmt: skip
         dearer = " and ".join(f"{rate:.2g} % {more}" for more, rate in risen.items() if rate > 0.0)
-        found.append(f"1 % less {less} costs {dearer} (point {there + 1})")
-    return found
+        costs.append(f"1 % less {less} costs {dearer} (point {there + 1})")
+    return costs
 
 
 def figure_data(front: Front, optimum: Point, table: Table) -> dict[str, Any]:

@@ -20,8 +20,8 @@ def complaint(answer: StudyResult, table: Table) -> str:
     """Report that no design was found: the conflict, the least violations, and what to do."""
     solution = answer.solution
     conflict_set = solution.conflict_set if solution else None
-    kept = solution is not None and solution.feasible and meaning(FEASIBLE).words in answer.design.status
-    missed = "no design known to be the best one" if kept else "no design found that keeps every limit"
+    is_feasible = solution is not None and solution.feasible and meaning(FEASIBLE).words in answer.design.status
+    missed = "no design known to be the best one" if is_feasible else "no design found that keeps every limit"
     late = solution is not None and solution.out_of_time is not None and not conflict_set
     missed += " before the time limit ended the search" if late else ""
     lines = [f"{answer.design.name}: {missed} ({answer.design.status})."]
@@ -99,8 +99,13 @@ def optima(answer: StudyResult) -> list[Optimum]:
     if solution is None:
         return []
     return [
-        {"objective": one.objective, "start": one.number, "reached_by": solution.reached(one), "at": one.end}
-        for one in solution.distinct_optima()
+        {
+            "objective": optimum.objective,
+            "start": optimum.number,
+            "reached_by": solution.reached(optimum),
+            "at": optimum.end,
+        }
+        for optimum in solution.distinct_optima()
     ]
 
 

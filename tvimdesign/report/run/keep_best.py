@@ -24,10 +24,10 @@ class Best:
     study: Study | None = None
     """The study started at it."""
 
-    def note(self, found: StudyResult) -> None:
+    def note(self, result: StudyResult) -> None:
         """Note an answer where it is a design that was searched."""
-        if found.found and found.solution:
-            design = found.design
+        if result.found and result.solution:
+            design = result.design
             self.study = started_at(Study.model_validate(design.study), design.values, design.choices)
 
 

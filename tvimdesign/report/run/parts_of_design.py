@@ -58,8 +58,8 @@ class BackgroundPartsJob:
     def begin(self, design: Design, out: Path) -> None:
         """Let the parts be made into a folder, and come back at once."""
         make_folder(out)
-        asked = out / _ASKED
-        self.begin_with(write_design(design, asked), out)
+        design_file = out / _ASKED
+        self.begin_with(write_design(design, design_file), out)
 
     def begin_with(self, design: Path, out: Path) -> None:
         """Do so with a design.json, which is read while this goes on."""
@@ -103,12 +103,12 @@ def refuse_failed(report: CadReport) -> None:
 
 def in_short(checks: Sequence[SolidCheck]) -> str:
     """Return how many checks passed, how many did not, and the worst failure."""
-    found = worst_first(checks)
-    counts = (f"{sum(check.level == level for check in found)} {level}s" for level in ("failure", "warning"))
-    said = [f"{sum(check.level == 'pass' for check in checks)} of {len(checks)} checks on the solids passed"]
-    said += [count for count in counts if not count.startswith("0 ")]
-    said += [f"the worst: {check.text}" for check in found[:1] if check.level == "failure"]
-    return "; ".join([*said, "cad/checks.json"] if found else said)
+    worst = worst_first(checks)
+    counts = (f"{sum(check.level == level for check in worst)} {level}s" for level in ("failure", "warning"))
+    clauses = [f"{sum(check.level == 'pass' for check in checks)} of {len(checks)} checks on the solids passed"]
+    clauses += [count for count in counts if not count.startswith("0 ")]
+    clauses += [f"the worst: {check.text}" for check in worst[:1] if check.level == "failure"]
+    return "; ".join([*clauses, "cad/checks.json"] if worst else clauses)
 
 
 def worst_first(checks: Sequence[SolidCheck]) -> list[SolidCheck]:

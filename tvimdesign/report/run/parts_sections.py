@@ -41,9 +41,9 @@ def solids_section(cad: Path, study: str) -> Section:
         "The assembly: turn it, hide parts, take it apart, cut it, turn its rotor; pick a part for what it is made "
         "of and its files."
     )
-    told: dict[str, Any] = json.loads(data.read_text("utf-8"))
+    solids: dict[str, Any] = json.loads(data.read_text("utf-8"))
     drawn = Drawn(
-        "solids", "solids/viewer.js", says, {**told, "folder": FOLDER, "cycle": CYCLE}, model.read_bytes(), ["three"]
+        "solids", "solids/viewer.js", says, {**solids, "folder": FOLDER, "cycle": CYCLE}, model.read_bytes(), ["three"]
     )
     return Section("assembly", "Assembly in 3-D", [drawn])
 
@@ -56,9 +56,9 @@ def checks_section(cad: Path) -> list[Section]:
     checks: list[dict[str, Any]] = json.loads(path.read_text("utf-8"))["checks"]
     ordered = sorted(checks, key=lambda check: _LEVELS.index(check["level"]))
     counts = ((level, sum(check["level"] == level for check in checks)) for level in reversed(_LEVELS))
-    said = ", ".join(f"{count} {level}" for level, count in counts if count)
+    summary = ", ".join(f"{count} {level}" for level, count in counts if count)
     failed = [check for check in ordered if check["level"] != "pass"]
-    blocks: list[Block] = [Words([f"{len(checks)} checks on the solids: {said}."])]
+    blocks: list[Block] = [Words([f"{len(checks)} checks on the solids: {summary}."])]
     blocks += [checks_grid("Checks that did not pass", failed)] if failed else []
     return [
         Section("checks", "Checks", [*blocks, Folded("All checks", [checks_grid("Checks on the solids", ordered)])])
@@ -96,8 +96,10 @@ def materials_section(cad: Path) -> list[Section]:
         ]
         for row in rows
     ]
-    found = Grid("Bill of materials", [Head(text, at) for text, at in zip(heads, [*right, False], strict=True)], cells)
-    return [Section("materials", "Bill of materials", [found])]
+    materials = Grid(
+        "Bill of materials", [Head(text, at) for text, at in zip(heads, [*right, False], strict=True)], cells
+    )
+    return [Section("materials", "Bill of materials", [materials])]
 
 
 def _files(names: list[str]) -> Cell:
@@ -126,8 +128,8 @@ def spring_section(cad: Path) -> list[Section]:
     if not rows:
         return []
     heads = ("", "value", "unit", "tolerance", "note")
-    found = [tuple(row[name] for name in ("name", "value", "unit", "tolerance", "note")) for row in rows]
-    return [Section("spring", "Spring sheet", [grid("The spring", heads, found, right=(1,), code=())])]
+    cells = [tuple(row[name] for name in ("name", "value", "unit", "tolerance", "note")) for row in rows]
+    return [Section("spring", "Spring sheet", [grid("The spring", heads, cells, right=(1,), code=())])]
 
 
 def carried_files(cad: Path) -> dict[str, bytes]:
@@ -137,8 +139,8 @@ def carried_files(cad: Path) -> dict[str, bytes]:
     if data.exists():
         names += [name for part in json.loads(data.read_text("utf-8"))["parts"] for name in part["files"]]
     names.append(file_names.SPRING_SHEET)
-    kept = [name for ending in _CARRIED for name in dict.fromkeys(names) if name.endswith(ending)]
-    return {f"{FOLDER}/{name}": (cad / name).read_bytes() for name in kept if (cad / name).exists()}
+    files = [name for ending in _CARRIED for name in dict.fromkeys(names) if name.endswith(ending)]
+    return {f"{FOLDER}/{name}": (cad / name).read_bytes() for name in files if (cad / name).exists()}
 
 
 def _csv(path: Path) -> list[dict[str, str]]:

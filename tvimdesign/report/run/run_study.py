@@ -84,8 +84,8 @@ def run_study(
                 designed=_asked_of_design(making, folder, uncertainty),
                 deadline=deadline,
             )
-        found, failures = answered.result, answered.failures
-        if drawing and found.found:
+        result, failures = answered.result, answered.failures
+        if drawing and result.found:
             vector = bool(making) or study.write.vector
             drawing.begin(folder.path / "plots", drawings(answered), study.name, vector=vector)
         write_answer(folder, answered)  # before this run waits for other processes
@@ -94,21 +94,21 @@ def run_study(
         progress("")
         write_summary(answered, folder)
         if not as_json:
-            after = 2 if making and found.found else 1
+            after = 2 if making and result.found else 1
             print_result(answered, wide_console(), time.perf_counter() - began, after, full=full)
-        if making and found.found:
+        if making and result.found:
             with noting(failures):
                 answered.reported["cad"] = _parts(making, progress, as_json, in_full=full)
         elif making:
             making.stop()
-        if drawing and found.found:
+        if drawing and result.found:
             progress("drawing the plots")
             folder.look_up_versions()
             with noting(failures):
                 drawing.finish()
         write_run_page(folder, answered)
         finish(folder, answered)
-    _say_last(answered, folder.out, failures, without if found.found else "", as_json=as_json)
+    _say_last(answered, folder.out, failures, without if result.found else "", as_json=as_json)
     _end_as(answered)
 
 
@@ -173,12 +173,12 @@ def _end_as(answered: AnsweredStudy) -> None:
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
     from tvimdesign.report.run.yield_words import below_yield
 
-    found, table = answered.result, answered.study.table
-    if not found.found:
-        raise InfeasibleError(complaint(found, table))
-    if refused := above_rating(found, table):
+    result, table = answered.result, answered.study.table
+    if not result.found:
+        raise InfeasibleError(complaint(result, table))
+    if refused := above_rating(result, table):
         raise AboveRatingError(refused)
-    if missed := below_yield(found):
+    if missed := below_yield(result):
         raise BelowYieldError(missed)
     if answered.failures:
         raise done_in_part(answered.failures)
@@ -212,10 +212,10 @@ def make_parts(source: Path, out: Path, *, overwrite: bool, as_json: bool) -> No
     design = read_design(source)
     failures: list[TvimError] = []
     with ResultsFolder(out, overwrite) as folder:
-        kept = write_design(design, folder.path / "design.json")
+        written = write_design(design, folder.path / "design.json")
         alone = BackgroundPartsJob(design.mode, gives_way=False)
         with progress_output() as progress, noting(failures), alone as making:
-            making.begin_with(kept, folder.path)
+            making.begin_with(written, folder.path)
             report = _parts(making, progress, as_json, in_full=True)
             if as_json:
                 print(json.dumps(report, indent=2))

@@ -23,27 +23,29 @@ def sensitivities(answer: StudyResult, deadline: Deadline) -> tuple[OutputSensit
     Raises SimulationError, TimeOverError.
     """
     resolved = resolve_design(answer.design)
-    asked = {*answer.design.study["minimize"], *(one["output"] for one in answer.design.study["require"])}
+    outputs = {*answer.design.study["minimize"], *(limit["output"] for limit in answer.design.study["require"])}
     wanted = [
-        name for name in resolved.table.names(resolved.points) if resolved.table.output(name).headline or name in asked
+        name
+        for name in resolved.table.names(resolved.points)
+        if resolved.table.output(name).headline or name in outputs
     ]
     deadline.check("the outputs were differentiated")
     return output_sensitivities(resolved, answer.design.study["solver"]["cells"], wanted), resolved
 
 
-def sensitivities_csv(found: OutputSensitivities, resolved: ResolvedModule) -> str:
+def sensitivities_csv(sensitivities_of_outputs: OutputSensitivities, resolved: ResolvedModule) -> str:
     """Return a line for each output and variable: logarithmic and plain derivative, and what 1 % more adds."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     table = resolved.table
     writer.writerow(["output", "variable", "log_derivative", "derivative", "derivative_unit", "per_percent", "unit"])
-    for one in entries(found, resolved):
-        of, by = (_difference(table.unit(name)) for name in (one.output, one.variable))
-        derivative = from_si(one.derivative, of) * to_si(1.0, by)
-        share = "" if one.logarithmic is None else f"{one.logarithmic:.6g}"
+    for entry in entries(sensitivities_of_outputs, resolved):
+        of, by = (_difference(table.unit(name)) for name in (entry.output, entry.variable))
+        derivative = from_si(entry.derivative, of) * to_si(1.0, by)
+        share = "" if entry.logarithmic is None else f"{entry.logarithmic:.6g}"
         units = f"{pretty(of) or 1} / {pretty(by) or 1}"
-        added = f"{from_si(one.per_hundredth, of):.6g}"
-        writer.writerow([one.output, one.variable, share, f"{derivative:.6g}", units, added, pretty(of)])
+        added = f"{from_si(entry.per_hundredth, of):.6g}"
+        writer.writerow([entry.output, entry.variable, share, f"{derivative:.6g}", units, added, pretty(of)])
     return stream.getvalue()
 
 
@@ -51,12 +53,14 @@ def _difference(unit: str) -> str:
     return "K" if unit == "degC" else unit
 
 
-def heat_map(found: OutputSensitivities, resolved: ResolvedModule) -> dict[str, Any]:
+def heat_map(sensitivities_of_outputs: OutputSensitivities, resolved: ResolvedModule) -> dict[str, Any]:
     """Return elasticities, one row an output, without the rows and columns in which nothing stands."""
-    cells = {(one.output, one.variable): one.logarithmic for one in entries(found, resolved)}
+    cells = {(entry.output, entry.variable): entry.logarithmic for entry in entries(sensitivities_of_outputs, resolved)}
     reported = {place for place, value in cells.items() if value is not None and abs(value) >= _SHOWN}
-    outputs = [name for name in found.outputs if any(name == output for output, _ in reported)]
-    variables = [name for name in found.variables if any(name == variable for _, variable in reported)]
+    outputs = [name for name in sensitivities_of_outputs.outputs if any(name == output for output, _ in reported)]
+    variables = [
+        name for name in sensitivities_of_outputs.variables if any(name == variable for _, variable in reported)
+    ]
     values = [[cells[output, variable] or 0.0 for variable in variables] for output in outputs]
     return {
         "outputs": [name_in_words(name) for name in outputs],

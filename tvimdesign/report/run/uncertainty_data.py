@@ -45,7 +45,11 @@ class Uncertainty:
         """Compile the module the study starts from, whose numbers under `vary` may change."""
         self.study, self.table = study, study.table
         self.own = bool(study.tolerances)
-        required = [name for one in study.require for name in (one.output, *self.table.output(one.output).also_limited)]
+        required = [
+            name
+            for requirement in study.require
+            for name in (requirement.output, *self.table.output(requirement.output).also_limited)
+        ]
         self.asked = list(dict.fromkeys([*required, *study.minimize, *FIRST_SCREEN]))
         self._start = self._tolerant(resolve_study(study))
         self.model = UncertaintyModel(self._start, self.asked, list(study.vary))
@@ -70,48 +74,57 @@ class Uncertainty:
     def data(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> dict[str, Any]:
         """Return the entry for results.json, with the assumptions for the screen and the seconds."""
         began = time.perf_counter()
-        found = self.of(design, modules, draws)
-        rows = {name: _rows(name, one.swings, one.nominal, self.table) for name, one in found.intervals.items()}
+        uncertainty = self.of(design, modules, draws)
+        rows = {
+            name: _rows(name, interval.swings, interval.nominal, self.table)
+            for name, interval in uncertainty.intervals.items()
+        }
         return {
-            **self.entry(found, modules, draws),
+            **self.entry(uncertainty, modules, draws),
             "assumptions": {name: rows.get(name, []) for name in self.asked},
             "seconds": time.perf_counter() - began,
         }
 
-    def entry(self, found: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
+    def entry(self, uncertainty: DesignUncertainty, modules: int, draws: int) -> UncertaintyEntry:
         """Return plain data for results.json."""
         return {
-            "parts_yield": _share(found.together),
+            "parts_yield": _share(uncertainty.together),
             "modules": modules,
-            "limits": found.limits,
-            "left_out": list(found.left_out),
+            "limits": uncertainty.limits,
+            "left_out": list(uncertainty.left_out),
             "tolerances": "study" if self.own else "standard",
-            "ranges_hold": _share(found.holds),
+            "ranges_hold": _share(uncertainty.holds),
             "draws": draws,
-            "held": found.held,
+            "held": uncertainty.held,
             "intervals": {
-                name: interval_entry(name, one, self.table, found.before.get(name))
-                for name, one in found.intervals.items()
+                name: interval_entry(name, interval, self.table, uncertainty.before.get(name))
+                for name, interval in uncertainty.intervals.items()
             },
-            "unmeasured": [_unmeasured(one, self.table) for one in found.unmeasured],
+            "unmeasured": [_unmeasured(unmeasured_input, self.table) for unmeasured_input in uncertainty.unmeasured],
         }
 
 
-def interval_entry(name: str, one: Interval, table: Table, before: tuple[float, float] | None = None) -> IntervalEntry:
+def interval_entry(
+    name: str, interval: Interval, table: Table, before: tuple[float, float] | None = None
+) -> IntervalEntry:
     """Return an interval in the unit people read, and in SI, with the one before measurements, if there were any."""
     unit = table.unit(name)
     return {
-        **number_entry(one.nominal, unit, (one.low, one.high)),
-        "one_at_a_time": number_entry(one.nominal, unit, one.one_at_a_time),
-        "shares": one.shares,
-        "to_halve": list(one.to_halve),
-        "before": None if before is None else number_entry(one.nominal, unit, before),
+        **number_entry(interval.nominal, unit, (interval.low, interval.high)),
+        "one_at_a_time": number_entry(interval.nominal, unit, interval.one_at_a_time),
+        "shares": interval.shares,
+        "to_halve": list(interval.to_halve),
+        "before": None if before is None else number_entry(interval.nominal, unit, before),
     }
 
 
-def _unmeasured(one: UnmeasuredInput, table: Table) -> UnmeasuredEntry:
-    ends = (one.low, one.high)
-    return {"name": one.name, **number_entry(one.value, table.unit(one.name), ends), "status": one.status}
+def _unmeasured(unmeasured_input: UnmeasuredInput, table: Table) -> UnmeasuredEntry:
+    ends = (unmeasured_input.low, unmeasured_input.high)
+    return {
+        "name": unmeasured_input.name,
+        **number_entry(unmeasured_input.value, table.unit(unmeasured_input.name), ends),
+        "status": unmeasured_input.status,
+    }
 
 
 def _share(share: Yield | None) -> ShareEntry | None:
@@ -122,13 +135,13 @@ def _rows(output: str, swings: Sequence[Swing], nominal: float, table: Table) ->
     """Return the unmeasured inputs that move an output most, the most important first; none that hardly moves it."""
     rows = []
     for swing in swings[:_NAMED]:
-        one, unit = swing.moved, table.unit(swing.moved.name)
+        moved, unit = swing.moved, table.unit(swing.moved.name)
         if swing.size < _LEAST * abs(nominal):
             continue
         rows.append({
-            "input": one.name, "unit": pretty(unit), "description": table.quantity(one.name).description,
-            **{key: from_si(getattr(one, key), unit) for key in ("value", "low", "high")},
-            "status": one.status, "output_unit": pretty(table.unit(output)),
+            "input": moved.name, "unit": pretty(unit), "description": table.quantity(moved.name).description,
+            **{key: from_si(getattr(moved, key), unit) for key in ("value", "low", "high")},
+            "status": moved.status, "output_unit": pretty(table.unit(output)),
             "output_at_low": finite(from_si(swing.at_low, table.unit(output))),
             "output_at_high": finite(from_si(swing.at_high, table.unit(output))),
         })  # fmt: skip

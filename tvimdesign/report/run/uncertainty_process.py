@@ -91,15 +91,17 @@ class UncertaintyProcess:
         Raises TimeOverError if the deadline passes first.
         """
         try:
-            said = self._heard(deadline)
+            reply = self._heard(deadline)
         except ProcessorTimeError as error:
             reason = str(error)
         else:
             code = self._child.returncode
-            found: dict[str, Any] = json.loads(said) if code == 0 else {"error": f"its process ended with code {code}"}
-            if "error" not in found:
-                return found
-            reason = found["error"]
+            uncertainty: dict[str, Any] = (
+                json.loads(reply) if code == 0 else {"error": f"its process ended with code {code}"}
+            )
+            if "error" not in uncertainty:
+                return uncertainty
+            reason = uncertainty["error"]
         raise TvimError(
             f"the uncertainty of the design could not be computed: {reason}; "
             "for the yield and the ranges, run `tvimdesign tolerate` with the results folder"

@@ -44,15 +44,15 @@ def verification_sections(run: Path) -> list[Section]:
 
 def verification_section(folder: Path, run: Path, room: float = MOST) -> Section:
     """Return rows worst first, a conclusion, and those fields for which there is `room` in the page [bytes]."""
-    found: dict[str, Any] = json.loads((folder / DATA).read_text("utf-8"))
+    verification: dict[str, Any] = json.loads((folder / DATA).read_text("utf-8"))
     cells = [
         (row["name"], number(row["model"]), number(row["fe"]), row["unit"], f"{row['ratio']:.3f}",
          f"{100.0 * row['mesh_change']:+.1f} %", row["meaning"])
-        for row in found["rows"]
+        for row in verification["rows"]
     ]  # fmt: skip
-    told = [found["summary"], f"Solvers and versions: {os.path.relpath(folder, run)}/{FILE}."]
+    sentences = [verification["summary"], f"Solvers and versions: {os.path.relpath(folder, run)}/{FILE}."]
     table = grid("The model against finite elements on the drawn parts", _HEADS, cells, right=(1, 2, 4, 5))
-    blocks: list[Block] = [Words(told), table]
+    blocks: list[Block] = [Words(sentences), table]
     for name, words in _SHOWN.items():
         picture = folder / f"{name}.png"
         taken = _AROUND + _BASE64 * picture.stat().st_size if picture.exists() else float("inf")

@@ -23,14 +23,14 @@ _RULES_SHOWN = 5
 def binding(answer: StudyResult) -> list[ActiveConstraint]:
     """Return the limits that hold the design, the costliest first."""
     held = answer.solution.held if answer.solution and answer.found else ()
-    return sorted((one for one in held if one.shadow_price > PRICE_SHOWN), key=lambda one: -one.shadow_price)
+    return sorted((limit for limit in held if limit.shadow_price > PRICE_SHOWN), key=lambda limit: -limit.shadow_price)
 
 
 def slack(answer: StudyResult) -> list[ActiveConstraint]:
     """Return the limits that could be somewhat tighter and change nothing, those with the least margin first."""
     held = answer.solution.held if answer.solution and answer.found else ()
-    found = [one for one in held if one.shadow_price <= PRICE_SHOWN and one.margin > NOTHING]
-    return sorted(found, key=lambda one: one.margin)
+    slack_limits = [limit for limit in held if limit.shadow_price <= PRICE_SHOWN and limit.margin > NOTHING]
+    return sorted(slack_limits, key=lambda limit: limit.margin)
 
 
 def sentences(answer: StudyResult) -> list[str]:
@@ -47,8 +47,8 @@ def _sentence(held: ActiveConstraint) -> str:
         return f"{subject} costs {share}; what of which output is not settled: {_WHY_NOT}."
     costs = [f"{saving:.2g} % {name}" for name, saving in held.sensitivity.items() if saving >= _SAVING_SHOWN]
     saves = [f"{-saving:.2g} % {name}" for name, saving in held.sensitivity.items() if saving <= -_SAVING_SHOWN]
-    said = [f"{verb} {_listed(parts)}" for verb, parts in (("costs", costs), ("saves", saves)) if parts]
-    return f"{subject} {' and '.join(said)}." if said else f"{subject} costs next to nothing."
+    clauses = [f"{verb} {_listed(parts)}" for verb, parts in (("costs", costs), ("saves", saves)) if parts]
+    return f"{subject} {' and '.join(clauses)}." if clauses else f"{subject} costs next to nothing."
 
 
 _WHY_NOT = "it belongs to the supply, or stands in the same way as another limit"
@@ -60,11 +60,11 @@ def _listed(parts: Sequence[str]) -> str:
 
 def slack_in_words(answer: StudyResult, table: Table) -> str:
     """Return the study's slack requirements with their margin, and the machine's rules that have the least."""
-    found = slack(answer)
-    own = [one for one in found if one.origin == "require"]
-    rules = [one for one in found if one.origin not in ("require", "vary")]
-    shown = [f"{one.text} (margin {margin_text(one, table)})" for one in (*own, *rules[:_RULES_SHOWN])]
-    left = len(found) - len(shown)
+    slack_limits = slack(answer)
+    own = [limit for limit in slack_limits if limit.origin == "require"]
+    rules = [limit for limit in slack_limits if limit.origin not in ("require", "vary")]
+    shown = [f"{limit.text} (margin {margin_text(limit, table)})" for limit in (*own, *rules[:_RULES_SHOWN])]
+    left = len(slack_limits) - len(shown)
     more = f"; {left} other rules and ends of ranges have more, or are in why.csv" if left else ""
     return f"Slack: {'; '.join(shown)}{more}." if shown else ""
 
@@ -74,17 +74,17 @@ def why_rows(answer: StudyResult, table: Table) -> list[LimitEntry]:
     rows: list[LimitEntry] = []
     tight, loose = binding(answer), slack(answer)
     held = answer.solution.held if answer.solution and answer.found else ()
-    others = [one for one in held if one not in tight and one not in loose]
+    others = [limit for limit in held if limit not in tight and limit not in loose]
     groups: tuple[tuple[Stands, list[ActiveConstraint]], ...] = (
         ("binds", tight), ("touches", others), ("slack", loose)
     )  # fmt: skip
     for stands, group in groups:
-        for one in group:
-            margin, unit = margin_of(one, table)
+        for limit in group:
+            margin, unit = margin_of(limit, table)
             rows.append({
-                "limit": one.text, "stands": stands, "origin": one.origin,
+                "limit": limit.text, "stands": stands, "origin": limit.origin,
                 "margin": margin if math.isfinite(margin) else None, "margin_unit": pretty(unit),
-                "step": one.step, "shadow_price": one.shadow_price, "sensitivity": dict(one.sensitivity),
+                "step": limit.step, "shadow_price": limit.shadow_price, "sensitivity": dict(limit.sensitivity),
             })  # fmt: skip
     return rows
 

@@ -24,20 +24,20 @@ from tvimdesign.study.tree import StudyTree, study_file
 
 def write_answer(folder: ResultsFolder, answered: AnsweredStudy) -> Path:
     """Write everything but pictures and parts; returns the design's file."""
-    found, table = answered.result, answered.study.table
+    result, table = answered.result, answered.study.table
     folder.write("study.yaml", study_file(answered.tree))
     folder.write("study.resolved.json", answered.study.model_dump_json(indent=2) + "\n")
     write_results(folder, answered)
-    if found.solution and found.found:
-        folder.write("why.csv", why_csv(found, table))
+    if result.solution and result.found:
+        folder.write("why.csv", why_csv(result, table))
     if answered.sensitivities:
         folder.write("sensitivities.csv", answered.sensitivities)
-    for phase, history in found.histories.items():
+    for phase, history in result.histories.items():
         folder.write(f"{phase}.csv", curves_csv(history, PHASE_UNITS, "degC"))
-    units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in found.sweep}
-    folder.write("impedance.csv", curves_csv(found.sweep, units, "1"))
-    answered.front.write(folder, found)
-    return write_design(found.design, folder.path / "design.json")
+    units = {name: table.unit(name.removesuffix("_low").removesuffix("_high")) for name in result.sweep}
+    folder.write("impedance.csv", curves_csv(result.sweep, units, "1"))
+    answered.front.write(folder, result)
+    return write_design(result.design, folder.path / "design.json")
 
 
 def write_results(folder: ResultsFolder, answered: AnsweredStudy) -> None:
@@ -50,8 +50,8 @@ def write_results(folder: ResultsFolder, answered: AnsweredStudy) -> None:
 
 def finish(folder: ResultsFolder, answered: AnsweredStudy) -> None:
     """Write the folder's manifest."""
-    found = answered.result
-    folder.finish(found.design.status, inputs_of(answered), found.design.study, found.seconds)
+    result = answered.result
+    folder.finish(result.design.status, inputs_of(answered), result.design.study, result.seconds)
 
 
 def inputs_of(answered: AnsweredStudy) -> dict[str, Path]:

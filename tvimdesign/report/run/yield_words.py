@@ -58,7 +58,7 @@ def below_yield(answer: StudyResult) -> str:
         f"{answer.design.name}: no design found that {percent(reached.asked)} of the modules keep; "
         f"of the best {percent(reached.together)} do. Most is lost to"
     ]
-    lines += [f"  {lost_in_words(one)}" for one in reached.lost_to]
+    lines += [f"  {lost_in_words(loss)}" for loss in reached.lost_to]
     lines.append("Ease these limits, widen a range under `vary`, tighten these tolerances, or ask `robust` for less.")
     return "\n".join(lines)
 
@@ -67,12 +67,12 @@ def _not_in_time(answer: StudyResult, reached: YieldReached | None, limit: float
     """Report a design whose margins the time limit cut short."""
     limited = "" if limit is None else f" of {duration(limit)}"
     ended = f"the time limit{limited} ended the search before it had all margins against spread"
-    said = "how many modules satisfy every limit is not known"
+    sentence = "how many modules satisfy every limit is not known"
     if reached is not None:
-        said = (
+        sentence = (
             f"{percent(reached.together)} of the modules satisfy every limit so far, {percent(reached.asked)} are asked"
         )
-    return f"{answer.design.name}: {ended}; {said}. Raise `solver.time_limit` (or --time-limit)."
+    return f"{answer.design.name}: {ended}; {sentence}. Raise `solver.time_limit` (or --time-limit)."
 
 
 def lost_in_words(lost: LostTo) -> str:
@@ -83,7 +83,9 @@ def lost_in_words(lost: LostTo) -> str:
 
 def _change(name: str, before: float, after: float, table: Table) -> str:
     unit = table.unit(name)
-    said = f"{name} {number(from_si(before, unit), _DIGITS)} to {number(from_si(after, unit), _DIGITS)} {pretty(unit)}"
+    change = (
+        f"{name} {number(from_si(before, unit), _DIGITS)} to {number(from_si(after, unit), _DIGITS)} {pretty(unit)}"
+    )
     if not (math.isfinite(before) and math.isfinite(after) and before):
-        return said.rstrip()
-    return f"{said.rstrip()} ({100.0 * (after / before - 1.0):+.2g} %)"
+        return change.rstrip()
+    return f"{change.rstrip()} ({100.0 * (after / before - 1.0):+.2g} %)"

@@ -34,32 +34,32 @@ def folder_of(number: int | str) -> str:
 
 def chosen_cells(words: str, cells: SweptCells) -> list[int]:
     """Return numbers from words such as `3,7-9` or `best`. Raises InputError for a word that names no cell."""
-    found: list[int] = []
+    numbers: list[int] = []
     for word in words.replace(" ", "").split(","):
         first, dash, last = word.partition("-")
         if word == "best":
-            found += cells.best
+            numbers += cells.best
         elif first.isdecimal() and (last.isdecimal() or not dash) and int(first) <= int(last or first):
             if int(last or first) > cells.plan.count:
                 raise InputError(f"--cells {words}: the sweep has the cells 1 to {cells.plan.count}")
-            found += range(int(first), int(last or first) + 1)
+            numbers += range(int(first), int(last or first) + 1)
         else:
             raise InputError(f"--cells {words}: {word!r} is no cell; name some such as 3,7-9, or best")
-    if not found:
+    if not numbers:
         raise InputError(f"--cells {words}: no cell of the sweep has an answer, so no parts")
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys(numbers))
 
 
-def _evaluated(one: CellFound) -> StudyTree:
+def _evaluated(cell: CellFound) -> StudyTree:
     """Return the study of a cell's module. Raises InputError for a cell without an answer, or with a profile."""
-    if not one.answered:
-        raise InputError(f"cell {one.number}: it has no answer, so no parts; `reason` in its table says why")
-    if one.study.profile.pieces():
+    if not cell.answered:
+        raise InputError(f"cell {cell.number}: it has no answer, so no parts; `reason` in its table says why")
+    if cell.study.profile.pieces():
         raise InputError(
-            f"cell {one.number}: its current follows a profile, which a sweep's table does not hold; the page of the "
+            f"cell {cell.number}: its current follows a profile, which a sweep's table does not hold; the page of the "
             "sweep has the command that runs it"
         )
-    return one.fixed
+    return cell.fixed
 
 
 def make_parts_of_cells(source: Path, out: Path, words: str, *, overwrite: bool, as_json: bool) -> None:
@@ -110,5 +110,5 @@ def _csv(rows: Sequence[dict[str, Any]]) -> str:
 
 def _print(rows: Sequence[dict[str, Any]], console: Console) -> None:
     for row in rows:
-        kept = f"{row['checks'] - row['failed']} of {row['checks']} checks kept"
-        console.print(f"cell {row['cell']}: {row['status'].replace('_', ' ')}, {kept}: {escape(row['folder'])}")
+        passed = f"{row['checks'] - row['failed']} of {row['checks']} checks kept"
+        console.print(f"cell {row['cell']}: {row['status'].replace('_', ' ')}, {passed}: {escape(row['folder'])}")

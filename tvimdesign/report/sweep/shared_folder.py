@@ -56,9 +56,11 @@ def _prepare_jobs(out: Path) -> None:
 
 def say_part(done: SweepDone, executor: Executor, out: Path, console: Console, *, as_json: bool) -> None:
     """Print what one job of an array has done."""
-    told = {"cells": done.cells, "reused": done.reused, "computed": done.computed, "missing": done.missing}
+    counts = {"cells": done.cells, "reused": done.reused, "computed": done.computed, "missing": done.missing}
     if as_json:
-        print(json.dumps({**told, "shard": list(executor.part), "process": os.getpid(), "folder": str(out)}, indent=2))
+        print(
+            json.dumps({**counts, "shard": list(executor.part), "process": os.getpid(), "folder": str(out)}, indent=2)
+        )
         return
     others = f"{done.missing} of {done.cells} cells are still with other parts"
     console.print(

@@ -89,17 +89,17 @@ def cell_points(plan: SweepPlan, listed: Iterable[dict[str, Value]]) -> dict[str
     axes = [column for column in numbers if column.kind == "axis"] or numbers[:1]
     outputs = [column for column in numbers if column.kind == "output"]
     rows = [row for row in listed if row["broken"] is not None]
-    told = [column for column in outputs if any(_finite(row[column.name]) is not None for row in rows)][:_MOST_OUTPUTS]
-    if not told:
+    drawn = [column for column in outputs if any(_finite(row[column.name]) is not None for row in rows)][:_MOST_OUTPUTS]
+    if not drawn:
         return None
-    names = [column.name for column in (*axes, *told)]
-    labels = [*map(axis_words, axes), *(axis_label(column.name, column.unit) for column in told)]
+    names = [column.name for column in (*axes, *drawn)]
+    labels = [*map(axis_words, axes), *(axis_label(column.name, column.unit) for column in drawn)]
     points = [
         {"number": row["cell"], "status": "between" if row["broken"] == 0 else "breaks a limit",
          "hollow": row["broken"] != 0, "values": [_finite(row[name]) for name in names]}
         for row in rows
     ]  # fmt: skip
-    across = {"of": [told[0].name, axes[0].name], "names": names, "labels": labels}
+    across = {"of": [drawn[0].name, axes[0].name], "names": names, "labels": labels}
     return {**across, "points": points, "words": CELL_WORDS}
 
 
@@ -122,7 +122,7 @@ def _panel(panel: dict[str, Any], data: dict[str, Any], there: set[str]) -> dict
         "lines": [
             {
                 "label": series["label"] or panel["label"], "x": series["x"], "y": series["y"], "points": True,
-                "apart": not data["joined"], "hollow": [not kept for kept in series["kept"]],
+                "apart": not data["joined"], "hollow": [not satisfied for satisfied in series["kept"]],
             }
             for series in panel["series"]
             if series["label"] in there

@@ -97,8 +97,8 @@ def cells_grid(plan: SweepPlan, seen: CellTable) -> Grid:
 
 def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
     """Return the cells that have no answer, with the reason of each."""
-    told = {"status", "reason"}
-    shown = [column for column in columns(plan) if column.kind in {"cell", "axis"} or column.name in told]
+    shown_columns = {"status", "reason"}
+    shown = [column for column in columns(plan) if column.kind in {"cell", "axis"} or column.name in shown_columns]
     left = seen.failures - len(seen.failed)
     note = f"The first {len(seen.failed)} of {seen.failures}; `reason` in cells.csv has all." if left else ""
     return Grid("Cells without an answer", _heads(shown), [_row(row, shown) for row in seen.failed], note)
@@ -106,17 +106,20 @@ def failed_grid(plan: SweepPlan, seen: CellTable) -> Grid:
 
 def _left_out(plan: SweepPlan, seen: CellTable, outputs: int) -> str:
     """Return what the table does not show, and where that is."""
-    said = []
+    sentences = []
     if seen.every_listed > 1:
-        said.append(f"{len(seen.listed)} of {plan.count} cells are in this table, one in {seen.every_listed}")
+        sentences.append(f"{len(seen.listed)} of {plan.count} cells are in this table, one in {seen.every_listed}")
     if outputs > MOST_OUTPUTS:
-        said.append(f"the first {MOST_OUTPUTS} of {outputs} outputs are in it")
-    return f"{'; '.join(said)}. cells.csv and cells.sqlite have all.".capitalize() if said else ""
+        sentences.append(f"the first {MOST_OUTPUTS} of {outputs} outputs are in it")
+    return f"{'; '.join(sentences)}. cells.csv and cells.sqlite have all.".capitalize() if sentences else ""
 
 
 def _heads(shown: list[Column]) -> list[Head]:
-    return [Head(f"{one.name} [{pretty(one.unit)}]" if pretty(one.unit) not in {"", "1"} else one.name, bool(one.unit))
-            for one in shown]  # fmt: skip
+    names = (
+        f"{column.name} [{pretty(column.unit)}]" if pretty(column.unit) not in {"", "1"} else column.name
+        for column in shown
+    )
+    return [Head(name, bool(column.unit)) for name, column in zip(names, shown, strict=True)]
 
 
 def _row(row: dict[str, Value], shown: list[Column]) -> list[Cell]:
@@ -154,13 +157,13 @@ def kept_page(folder: Path) -> bytes:
         return b""
 
 
-def write_sweep_page(plan: SweepPlan, seen: CellTable, folder: ResultsFolder, kept: bytes) -> None:
+def write_sweep_page(plan: SweepPlan, seen: CellTable, folder: ResultsFolder, earlier: bytes) -> None:
     """Write the page, or restore the one that an earlier sweep made from the same."""
     files, study = there(folder, _FILES), _study_text(plan)
     mark = _mark_of(plan, seen, folder.out, [files, study])
-    found = _MARK.search(kept[:2000])
-    if found and found[1].decode() == mark:
-        folder.write(FILE, kept)
+    mark_match = _MARK.search(earlier[:2000])
+    if mark_match and mark_match[1].decode() == mark:
+        folder.write(FILE, earlier)
         return
     write_page(folder, _page(plan, seen, folder, files, study, mark))
 
@@ -168,8 +171,8 @@ def write_sweep_page(plan: SweepPlan, seen: CellTable, folder: ResultsFolder, ke
 def _mark_of(plan: SweepPlan, seen: CellTable, folder: Path, more: list[Any]) -> str:
     """Mark of a page: of what it tells, of the commands in it, and of the version that makes it."""
     commands = CellCommands(plan, folder)
-    told = [seen.statuses, seen.keeping, seen.best, seen.failures, commands.run(1), commands.explore(1)]
-    text = json.dumps([__version__, told, seen.listed, seen.failed, *more], sort_keys=True)
+    content = [seen.statuses, seen.keeping, seen.best, seen.failures, commands.run(1), commands.explore(1)]
+    text = json.dumps([__version__, content, seen.listed, seen.failed, *more], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
@@ -178,7 +181,7 @@ def _page(
 ) -> Page:
     answered = plan.count - seen.failures
     done = "EVALUATED" if plan.task == "evaluate" else "OPTIMISED"
-    said = f"{answered if seen.failures == 0 else f'{answered} OF {plan.count}'} CELLS {done}"
+    verdict = f"{answered if seen.failures == 0 else f'{answered} OF {plan.count}'} CELLS {done}"
     lines, brushed = figures(plan, seen, figure_data(plan, seen, seen.listed))
     sections = [Section("curves", "Figure", [lines])] if lines else []
     sections += [Section("cells", "Cells", [*([brushed] if brushed else []), cells_grid(plan, seen)])]
@@ -186,7 +189,7 @@ def _page(
     sections += [_commands(seen, CellCommands(plan, folder.out))] if answered else []
     sections += [study_section(study), versions_section(folder)]
     return Page(
-        plan.study.name, f"sweep of a {plan.study.mode} module", said, "warn" if seen.failures else "",
+        plan.study.name, f"sweep of a {plan.study.mode} module", verdict, "warn" if seen.failures else "",
         [_glance(plan, seen)], None, sections, made_by_words(folder), files, made_from=mark,
     )  # fmt: skip
 

@@ -37,17 +37,17 @@ DRAWN_FROM = "drawn_from"
 """Name of the figure's mark in sweep.json."""
 
 
-def print_sweep(told: dict[str, Any], plan: SweepPlan, console: Console) -> None:
+def print_sweep(summary: dict[str, Any], plan: SweepPlan, console: Console) -> None:
     """Print how the cells ended, the best of them, and where to look first."""
-    run = told["run"]
-    done = "evaluated" if told["task"] == "evaluate" else "optimised"
-    console.print(f"[bold]{escape(told['study'])}[/bold]: {told['cells']} cells {done} ({told['method']})")
-    ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in told["statuses"].items())
+    run = summary["run"]
+    done = "evaluated" if summary["task"] == "evaluate" else "optimised"
+    console.print(f"[bold]{escape(summary['study'])}[/bold]: {summary['cells']} cells {done} ({summary['method']})")
+    ended = ", ".join(f"{count} {status.replace('_', ' ')}" for status, count in summary["statuses"].items())
     console.print(f"  {escape(ended)}", soft_wrap=True)
     console.print(f"  {run['reused']} reused, {run['computed']} computed in {duration(run['seconds'])}{_work(run)}")
-    for name, best in told["best"].items():
+    for name, best in summary["best"].items():
         console.print(f"  least {name}: {_best(best, plan)}", soft_wrap=True)
-    if not told["best"]:
+    if not summary["best"]:
         console.print("  no cell keeps every limit: `reason` in the table says which limits each breaks")
 
 
@@ -77,14 +77,14 @@ def sweep_study(
     options = {"parquet": parquet, "plots": plots}
     if executor.alone:
         command = Command(out, overwrite=overwrite, as_json=as_json, resume=resume, keep=SHARDS)
-        told = _swept(plan, executor, command, **options)
+        summary = _swept(plan, executor, command, **options)
     else:
         command = Command(out, as_json=as_json, resume=True, keep=SHARDS)
         part = _part(plan, executor, command, overwrite=overwrite, **options)
         if part is None:
             return
-        told = part
-    command.report(told, lambda console: print_sweep(told, plan, console), f"{FILE} and the tables are")
+        summary = part
+    command.report(summary, lambda console: print_sweep(summary, plan, console), f"{FILE} and the tables are")
 
 
 def sweep_folder(
@@ -101,13 +101,13 @@ def sweep_folder(
 
 def _swept(plan: SweepPlan, executor: Executor, command: Command, *, parquet: bool, plots: bool) -> dict[str, Any]:
     resume = command.resume
-    kept = (kept_figure(command.out), kept_page(command.out)) if resume else (KeptFigure(), b"")
+    earlier = (kept_figure(command.out), kept_page(command.out)) if resume else (KeptFigure(), b"")
     with command:
-        if plots and plan.study.write.plots and not kept[0].mark:
+        if plots and plan.study.write.plots and not earlier[0].mark:
             command.start_plotter()  # while the cells are computed
         began = time.perf_counter()
         done = run_sweep(plan, command.folder.path, executor, command.progress)
-        return _gathered(plan, command, done, kept, parquet=parquet, plots=plots, began=began)
+        return _gathered(plan, command, done, earlier, parquet=parquet, plots=plots, began=began)
 
 
 def _part(
@@ -129,7 +129,7 @@ def _part(
 
 
 def _gathered(
-    plan: SweepPlan, command: Command, done: SweepDone, kept: tuple[KeptFigure, bytes], *, parquet: bool, plots: bool,
+    plan: SweepPlan, command: Command, done: SweepDone, prior: tuple[KeptFigure, bytes], *, parquet: bool, plots: bool,
     began: float,
 ) -> dict[str, Any]:  # fmt: skip
     """Write the tables, the figure, the page and the manifest; `kept` are figure and page of an earlier sweep."""
@@ -140,27 +140,27 @@ def _gathered(
     write_tables(plan, every, folder.path)
     if parquet:
         write_parquet(plan, folder.path)
-    found = {
+    results = {
         **head(), "study": plan.study.name, "task": plan.task, "method": plan.block.method, "seed": plan.block.seed,
         "cells": done.cells, "statuses": seen.statuses, "best": seen.best,
         "columns": [column._asdict() for column in columns(plan)],
     }  # fmt: skip
     if plan.study.catalog_folder:  # the explorer reads study.yaml, whose own path is relative to another folder
-        found["catalog"] = str(Path(plan.study.catalog_folder).resolve())
+        results["catalog"] = str(Path(plan.study.catalog_folder).resolve())
     folder.write("study.yaml", study_file(plan.written))
-    folder.write_json("sweep.json", found)
+    folder.write_json("sweep.json", results)
     if plots and plan.study.write.plots:
-        mark = _draw(plan, command, figure_data(plan, seen), kept[0])
+        mark = _draw(plan, command, figure_data(plan, seen), prior[0])
         if not command.failures:
-            found[DRAWN_FROM] = mark
-            folder.write_json("sweep.json", found)
-    write_sweep_page(plan, seen, folder, kept[1])
+            results[DRAWN_FROM] = mark
+            folder.write_json("sweep.json", results)
+    write_sweep_page(plan, seen, folder, prior[1])
     spent = {name: round(value, 3) for name, value in asdict(done.spent).items()}
     seconds = time.perf_counter() - began
     timing = {"seconds": round(seconds, 3), "reused": done.reused, "computed": done.computed, **spent}
     inputs = {"study": plan.tree.path} if plan.tree.path else {}
     command.finish("swept", inputs, {"solver": {"seed": plan.block.seed}}, timing)
-    return {**found, "run": timing, "folder": str(folder.out), **not_done(command.failures)}
+    return {**results, "run": timing, "folder": str(folder.out), **not_done(command.failures)}
 
 
 @dataclass(frozen=True)
@@ -187,12 +187,12 @@ def kept_figure(folder: Path) -> KeptFigure:
     return KeptFigure(mark, files) if mark and files else KeptFigure()
 
 
-def _draw(plan: SweepPlan, command: Command, data: dict[str, Any], kept: KeptFigure) -> str:
+def _draw(plan: SweepPlan, command: Command, data: dict[str, Any], earlier: KeptFigure) -> str:
     """Draw the figure, or restore an earlier one that was drawn from the same; return its mark."""
     vector, folder = plan.study.write.vector, command.folder
     mark = mark_of(data, vector=vector)
-    if mark == kept.mark:
-        for name, content in kept.files.items():
+    if mark == earlier.mark:
+        for name, content in earlier.files.items():
             folder.write(name, content)
         return mark
     command.start_plotter()

@@ -88,8 +88,8 @@ class SweptCells:
 def open_cells(folder: Path) -> SweptCells:
     """Open the cells of a sweep's folder. Raises InputError where it has not ended, or its files are not a sweep's."""
     try:
-        told = json.loads((folder / _TOLD).read_bytes())
-        least, records, count = list(told["best"].values()), told.get("catalog", ""), told["cells"]
+        summary = json.loads((folder / _TOLD).read_bytes())
+        least, records, count = list(summary["best"].values()), summary.get("catalog", ""), summary["cells"]
     except FileNotFoundError:
         raise InputError(f"{folder}: its sweep has not ended; `tvimdesign sweep ... --resume` goes on") from None
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
@@ -99,17 +99,17 @@ def open_cells(folder: Path) -> SweptCells:
     if plan.count != count:
         raise InputError(f"{folder}: study.yaml asks for {plan.count} cells and the table has {count}; sweep it again")
     answered = _rows(folder, "WHERE broken IS NOT NULL ORDER BY cell LIMIT 1", [])
-    return SweptCells(folder, plan, tuple(dict.fromkeys(_number(one) for one in least or answered)))
+    return SweptCells(folder, plan, tuple(dict.fromkeys(_number(row) for row in least or answered)))
 
 
 def _rows(folder: Path, which: str, values: Sequence[Any]) -> list[dict[str, Value]]:
-    """Some rows of the table. Raises InputError where it cannot be read."""
+    """Return some rows of the table. Raises InputError where it cannot be read."""
     path = folder / _TABLE
     try:
         with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as connection:
             connection.row_factory = sqlite3.Row
-            found = connection.execute(f"SELECT * FROM cells {which}", list(values))
-            return [dict(row) for row in found]
+            cursor = connection.execute(f"SELECT * FROM cells {which}", list(values))
+            return [dict(row) for row in cursor]
     except sqlite3.Error as error:
         raise InputError(f"{path}: cannot be read: {error}; `tvimdesign sweep ... --resume` writes it anew") from error
 

@@ -20,36 +20,36 @@ from tvimdesign.solve.nlp.constraints import in_words
 from tvimdesign.solve.uncertainty.tolerance import Spread
 
 
-def print_tolerances(found: Spread, data: Mapping[str, Any], table: Table, console: Console) -> None:
+def print_tolerances(spread: Spread, data: Mapping[str, Any], table: Table, console: Console) -> None:
     """Print what varies from part to part, and what is to be said of both blocks."""
     for note in data["notes"]:
         console.print(f"[dim]{escape(note)}[/dim]")
-    for shown in (spread_table(found, data), concern_table(found, table), robustness_table(data)):
+    for shown in (spread_table(spread, data), concern_table(spread, table), robustness_table(data)):
         print_grid(shown, console)
     for sentence in data["sentences"]:
         console.print(escape(sentence))
     print_grid(unknown_table(data["not_known"]), console)
 
 
-def spread_table(found: Spread, data: Mapping[str, Any]) -> Grid:
+def spread_table(spread: Spread, data: Mapping[str, Any]) -> Grid:
     """Return what is asked or minimised and spreads: by worst case, root-sum-square and modules drawn at random."""
     heads = ("", "as drawn", "worst case", "rss sd", "mc mean", "mc sd", "99.73 %", "unit", "most by")
     rows = [
         (row["output"], _shown(row["as_drawn"]), _span(row["worst_low"], row["worst_high"]),
          _shown(row["deviation_rss"]), _shown(row["mean"]), _shown(row["deviation"]),
-         _span(row["low"], row["high"]), row["unit"], _most_by(found, i))
+         _span(row["low"], row["high"]), row["unit"], _most_by(spread, i))
         for i, row in enumerate(data["outputs"])
-        if row["output"] in found.asked and spreads(found, i)
+        if row["output"] in spread.asked and spreads(spread, i)
     ]  # fmt: skip
     return grid("What spreads from part to part", heads, rows, right=range(1, 7), code=(0, 8))
 
 
-def concern_table(found: Spread, table: Table) -> Grid:
+def concern_table(spread: Spread, table: Table) -> Grid:
     """Limits that too many modules break, and what carries their spread."""
     rows = [
-        (in_words(kept.limit, table), f"{100.0 * kept.share.share:.4g} %", f"{kept.capability:.2f}",
-         _most_by(found, found.outputs.index(kept.limit.output)))
-        for kept in of_concern(found)
+        (in_words(limit.limit, table), f"{100.0 * limit.share.share:.4g} %", f"{limit.capability:.2f}",
+         _most_by(spread, spread.outputs.index(limit.limit.output)))
+        for limit in of_concern(spread)
     ]  # fmt: skip
     return grid("Limits that too many modules break", ("", "yield", "C_pk", "most by"), rows, right=(1, 2))
 
@@ -63,10 +63,10 @@ def robustness_table(data: Mapping[str, Any]) -> Grid:
     return grid("What robustness costs", ("", "nominal optimum", "robust optimum", "unit"), rows, right=(1, 2))
 
 
-def _most_by(found: Spread, i: int) -> str:
+def _most_by(spread: Spread, i: int) -> str:
     """Return the contributor that carries most of an output's spread, with its share."""
-    most = int(found.shares[i].argmax())
-    return f"{found.contributors[most].name} {100.0 * found.shares[i, most]:.0f} %"
+    most = int(spread.shares[i].argmax())
+    return f"{spread.contributors[most].name} {100.0 * spread.shares[i, most]:.0f} %"
 
 
 def unknown_table(data: Mapping[str, Any]) -> Grid:
@@ -99,14 +99,16 @@ _FIGURE = "spread.png"
 
 
 def tolerance_page(
-    folder: ResultsFolder, name: str, found: Spread, data: Mapping[str, Any], table: Table, study: str
+    folder: ResultsFolder, name: str, spread: Spread, data: Mapping[str, Any], table: Table, study: str
 ) -> Page:
     """Return the page of one module's tolerances; `data` is that of tolerances.json."""
     share = data["yield"]
     low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
-    said = f"{100.0 * share['share']:.3g} % OF MODULES KEEP ALL LIMITS ({low} to {high})"
-    varies: list[Block] = [spread_table(found, data)]
-    varies += [one for one in (concern_table(found, table), robustness_table(data)) if one.rows]
+    verdict = f"{100.0 * share['share']:.3g} % OF MODULES KEEP ALL LIMITS ({low} to {high})"
+    varies: list[Block] = [spread_table(spread, data)]
+    varies += [
+        shown_table for shown_table in (concern_table(spread, table), robustness_table(data)) if shown_table.rows
+    ]
     picture = folder.path / _FIGURE
     if picture.exists():
         says = "Who contributes how much to each output's spread, and how modules drawn at random spread"
@@ -120,23 +122,23 @@ def tolerance_page(
         versions_section(folder),
     ]
     first = [Points(data["sentences"]), Points(data["notes"])]
-    return Page(name, "tolerances", said, "", first, None, sections, made_by_words(folder), there(folder, _FILES))
+    return Page(name, "tolerances", verdict, "", first, None, sections, made_by_words(folder), there(folder, _FILES))
 
 
 def _limits(data: Mapping[str, Any]) -> Block:
     rows = [
-        (one["limit"], f"{100.0 * one['yield']:.4g} %", "" if one["cpk"] is None else f"{one['cpk']:.3g}",
-         one["origin"])
-        for one in data["limits"]
+        (limit["limit"], f"{100.0 * limit['yield']:.4g} %", "" if limit["cpk"] is None else f"{limit['cpk']:.3g}",
+         limit["origin"])
+        for limit in data["limits"]
     ]  # fmt: skip
     return grid("Limits", ("limit", "yield", "C_pk", "because"), rows, right=(1, 2))
 
 
 def _contributors(data: Mapping[str, Any]) -> Block:
     rows = [
-        (one["output"], one["contributor"], f"± {number(one['plus_minus'])} {one['unit']}".rstrip(),
-         one["distribution"], one["status"], one["source"])
-        for one in data["contributors"]
+        (entry["output"], entry["contributor"], f"± {number(entry['plus_minus'])} {entry['unit']}".rstrip(),
+         entry["distribution"], entry["status"], entry["source"])
+        for entry in data["contributors"]
     ]  # fmt: skip
     heads = ("output", "contributor", "tolerance", "distribution", "status", "source")
     return grid("Contributors", heads, rows, code=(0, 1))

@@ -68,23 +68,23 @@ def tolerate_study(
         subject = _subject(source, study, progress)
         modules = [subject.resolved, *([subject.nominal] if subject.nominal else [])]
         analyses = [Tolerancing(module, progress, threads) for module in modules]
-        found, preload = _analysed(analyses[0], count)
+        spread, preload = _analysed(analyses[0], count)
         table, study = subject.resolved.table, subject.resolved.study
-        data = reported(found, preload, table, study, count)
+        data = reported(spread, preload, table, study, count)
         progress("moving what nobody has measured")
-        unknown = epistemic_uncertainty(subject.resolved, found, threads)
+        unknown = epistemic_uncertainty(subject.resolved, spread, threads)
         data["not_known"] = unknown_data(unknown, table)
         data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
-        data["sentences"] = [*sentences(found, preload, table), *unknown_sentences(unknown, found)]
+        data["sentences"] = [*sentences(spread, preload, table), *unknown_sentences(unknown, spread)]
         if subject.nominal is not None:
             before, _ = _analysed(analyses[1], count)
-            data["cost_of_robustness"] = _price(before, found, table, study)
-        _write(folder, source, subject, data, found, table)
-        command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(found, table))], study.name)
+            data["cost_of_robustness"] = _price(before, spread, table, study)
+        _write(folder, source, subject, data, spread, table)
+        command.begin_plots([Drawing("spread", "analysis_figures.spread", figure_data(spread, table))], study.name)
         command.finish_plots()
-        page = tolerance_page(folder, study.name, found, data, table, source.read_text("utf-8"))
+        page = tolerance_page(folder, study.name, spread, data, table, source.read_text("utf-8"))
         command.finish("tolerated", {"tolerated": source}, study.model_dump(mode="json"), page=page)
-    command.report(data, lambda console: print_tolerances(found, data, table, console), "Tables and figure are")
+    command.report(data, lambda console: print_tolerances(spread, data, table, console), "Tables and figure are")
 
 
 def _study(source: Path) -> Study:
@@ -122,10 +122,10 @@ def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule
 
 def _optimum(study: Study, progress: Progress) -> Design:
     table = study.table
-    found = answer(study, progress)
-    if not found.found:
-        raise InfeasibleError(complaint(found, table))
-    return found.design
+    result = answer(study, progress)
+    if not result.found:
+        raise InfeasibleError(complaint(result, table))
+    return result.design
 
 
 def _analysed(analysis: Tolerancing, samples: int) -> tuple[Spread, Preload | None]:
@@ -138,20 +138,20 @@ def _price(before: Spread, after: Spread, table: Table, study: Study) -> list[di
     rows: list[dict[str, Any]] = []
     for name in study.minimize:
         unit = table.unit(name)
-        values = [from_si(float(one.nominal[one.outputs.index(name)]), unit) for one in (before, after)]
+        values = [from_si(float(analysis.nominal[analysis.outputs.index(name)]), unit) for analysis in (before, after)]
         rows.append({"output": name, "unit": pretty(unit), "nominal": values[0], "robust": values[1]})
-    shares = [one.together.share for one in (before, after)]
+    shares = [analysis.together.share for analysis in (before, after)]
     return [*rows, {"output": "yield of all limits", "unit": "", "nominal": shares[0], "robust": shares[1]}]
 
 
 def _write(
-    folder: ResultsFolder, source: Path, subject: TolerancedModule, data: dict[str, Any], found: Spread, table: Table
+    folder: ResultsFolder, source: Path, subject: TolerancedModule, data: dict[str, Any], spread: Spread, table: Table
 ) -> None:
     folder.write(f"tolerated{source.suffix}", source.read_bytes())
     if subject.design is not None:
         write_design(subject.design, folder.path / "design.json")
     folder.write_json("tolerances.json", data)
-    folder.write("outputs.csv", as_csv(list(output_rows(found, table))))
-    folder.write("limits.csv", as_csv(list(limit_rows(found, table))))
+    folder.write("outputs.csv", as_csv(list(output_rows(spread, table))))
+    folder.write("limits.csv", as_csv(list(limit_rows(spread, table))))
     folder.write("not_known.csv", as_csv(unknown_rows(data["not_known"])))
-    folder.write("contributors.csv", as_csv(list(contributor_rows(found, table, subject.resolved.study))))
+    folder.write("contributors.csv", as_csv(list(contributor_rows(spread, table, subject.resolved.study))))

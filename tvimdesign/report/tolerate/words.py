@@ -23,81 +23,87 @@ _CARRIED = 0.2
 """Share of a limit's variance from which a contributor counts as carrying it."""
 
 
-def sentences(found: Spread, preload: Preload | None, table: Table) -> list[str]:
+def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str]:
     """Return what people should know, the most important first."""
-    worst = [kept for kept in found.kept if _broken_at_worst(found, kept)]
-    corners = "no limit is broken" if not worst else f"{len(worst)} of {len(found.kept)} limits are broken"
-    said = [
-        f"What varies from part to part: {_percent(found.together)} of the modules keep every limit; in the worst case "
-        f"{corners}."
+    worst = [limit_yield for limit_yield in spread.kept if _broken_at_worst(spread, limit_yield)]
+    corners = "no limit is broken" if not worst else f"{len(worst)} of {len(spread.kept)} limits are broken"
+    lines = [
+        f"What varies from part to part: {_percent(spread.together)} of the modules keep every limit; in the worst "
+        f"case {corners}."
     ]
-    said += _what_first(found, table)
+    lines += _what_first(spread, table)
     if preload is not None:
-        said.append(free_angle(preload))
-    said += _caveats(found)
-    return said
+        lines.append(free_angle(preload))
+    lines += _caveats(spread)
+    return lines
 
 
 def _percent(share: Yield) -> str:
     return f"{100 * share.share:.3g} % ({100 * share.low:.3g} to {100 * share.high:.3g} %)"
 
 
-def _broken_at_worst(found: Spread, kept: Kept) -> bool:
-    i = found.outputs.index(kept.limit.output)
-    end = found.worst.high[i] if kept.limit.sense == "<=" else found.worst.low[i]
-    return not float(kept.limit.residual(end)) <= 1e-9
+def _broken_at_worst(spread: Spread, limit_yield: Kept) -> bool:
+    i = spread.outputs.index(limit_yield.limit.output)
+    end = spread.worst.high[i] if limit_yield.limit.sense == "<=" else spread.worst.low[i]
+    return not float(limit_yield.limit.residual(end)) <= 1e-9
 
 
-def of_concern(found: Spread) -> list[Kept]:
+def of_concern(spread: Spread) -> list[Kept]:
     """Limits that too many modules break, the worst first."""
-    return sorted((kept for kept in found.kept if kept.share.share < _GOOD), key=lambda kept: kept.share.share)
+    return sorted(
+        (limit_yield for limit_yield in spread.kept if limit_yield.share.share < _GOOD),
+        key=lambda limit_yield: limit_yield.share.share,
+    )
 
 
-def _what_first(found: Spread, table: Table) -> Iterator[str]:
+def _what_first(spread: Spread, table: Table) -> Iterator[str]:
     """Yield what to tighten, limit by limit; where the mean stands on the limit, that tightening does not help."""
-    concern = of_concern(found)
+    concern = of_concern(spread)
     if not concern:
         yield f"Every limit is kept by {100 * _GOOD:g} % of the modules and more: nothing needs to be tightened."
         return
-    on_limit = [kept for kept in concern if kept.capability < _ON_THE_LIMIT]
+    on_limit = [limit_yield for limit_yield in concern if limit_yield.capability < _ON_THE_LIMIT]
     if on_limit:
-        names = ", ".join(in_words(kept.limit, table) for kept in on_limit[:_NAMED])
+        names = ", ".join(in_words(limit_yield.limit, table) for limit_yield in on_limit[:_NAMED])
         more = f" and {len(on_limit) - _NAMED} more" if len(on_limit) > _NAMED else ""
         yield (
             f"The mean stands on or beyond {names}{more}: no tolerance mends that. Move the design away from the "
             "limit, as a study with `robust: {sigma: 3}` does."
         )
-    mendable = [kept for kept in concern if kept not in on_limit] or concern
-    lost = {contributor.name: 0.0 for contributor in found.contributors}
-    for kept in mendable:
-        i = found.outputs.index(kept.limit.output)
+    mendable = [limit_yield for limit_yield in concern if limit_yield not in on_limit] or concern
+    lost = {contributor.name: 0.0 for contributor in spread.contributors}
+    for limit_yield in mendable:
+        i = spread.outputs.index(limit_yield.limit.output)
         for j, name in enumerate(lost):
-            lost[name] += (1.0 - kept.share.share) * float(found.shares[i, j])
+            lost[name] += (1.0 - limit_yield.share.share) * float(spread.shares[i, j])
     first = max(lost, key=lambda name: lost[name])
     j = list(lost).index(first)
-    led = _led_by(found, mendable, j)
-    yield f"Tighten {first} first: {'; '.join(_halved(found, kept, j, table) for kept in led)}."
+    led = _led_by(spread, mendable, j)
+    yield f"Tighten {first} first: {'; '.join(_halved(spread, limit_yield, j, table) for limit_yield in led)}."
 
 
-def _led_by(found: Spread, concern: list[Kept], j: int) -> list[Kept]:
+def _led_by(spread: Spread, concern: list[Kept], j: int) -> list[Kept]:
     """Return the limits of concern that one contributor carries most of."""
-    shares = {kept.limit.name: float(found.shares[found.outputs.index(kept.limit.output), j]) for kept in concern}
-    carried = [kept for kept in concern if shares[kept.limit.name] >= _CARRIED] or concern[:1]
-    return sorted(carried, key=lambda kept: -shares[kept.limit.name])[:2]
+    shares = {
+        limit_yield.limit.name: float(spread.shares[spread.outputs.index(limit_yield.limit.output), j])
+        for limit_yield in concern
+    }
+    carried = [limit_yield for limit_yield in concern if shares[limit_yield.limit.name] >= _CARRIED] or concern[:1]
+    return sorted(carried, key=lambda limit_yield: -shares[limit_yield.limit.name])[:2]
 
 
-def _halved(found: Spread, kept: Kept, j: int, table: Table) -> str:
+def _halved(spread: Spread, limit_yield: Kept, j: int, table: Table) -> str:
     """Return what a contributor carries of a limit's spread, and what half its tolerance would do."""
-    i = found.outputs.index(kept.limit.output)
-    share = float(found.shares[i, j])
+    i = spread.outputs.index(limit_yield.limit.output)
+    share = float(spread.shares[i, j])
     carried = (
-        f"it carries {100 * share:.0f} % of the variance behind {in_words(kept.limit, table)}, which "
-        f"{100 * kept.share.share:.3g} % keep"
+        f"it carries {100 * share:.0f} % of the variance behind {in_words(limit_yield.limit, table)}, which "
+        f"{100 * limit_yield.share.share:.3g} % keep"
     )
-    if kept.capability < _ON_THE_LIMIT:
+    if limit_yield.capability < _ON_THE_LIMIT:
         return carried
-    able = kept.capability / math.sqrt(1.0 - 0.75 * share)
-    return f"{carried}; with half its tolerance C_pk would be {able:.2f} instead of {kept.capability:.2f}"
+    able = limit_yield.capability / math.sqrt(1.0 - 0.75 * share)
+    return f"{carried}; with half its tolerance C_pk would be {able:.2f} instead of {limit_yield.capability:.2f}"
 
 
 def free_angle(preload: Preload) -> str:
@@ -113,23 +119,23 @@ def free_angle(preload: Preload) -> str:
     )
 
 
-def _caveats(found: Spread) -> Iterator[str]:
-    rss, drawn = found.deviation, found.drawn.deviation
-    spread = rss > 1e-9 * np.abs(found.nominal)
+def _caveats(result: Spread) -> Iterator[str]:
+    rss, drawn = result.deviation, result.drawn.deviation
+    spread = rss > 1e-9 * np.abs(result.nominal)
     bent = [
-        name for i, name in enumerate(found.outputs)
+        name for i, name in enumerate(result.outputs)
         if spread[i] and abs(drawn[i] - rss[i]) > _BENT * rss[i]
     ]  # fmt: skip
     if bent:
         yield f"Not linear within the tolerances, so trust Monte Carlo rather than root-sum-square: {', '.join(bent)}."
-    turned = [name for i, name in enumerate(found.outputs) if spread[i] and not found.worst.by_sign[i]]
+    turned = [name for i, name in enumerate(result.outputs) if spread[i] and not result.worst.by_sign[i]]
     if turned:
         names = ", ".join(turned)
         yield f"Not monotonic within the tolerances, so the worst corner is not where derivatives point: {names}."
     never = [
-        f"{name} {100 * found.drawn.never[i]:.2g} %" for i, name in enumerate(found.outputs) if found.drawn.never[i]
+        f"{name} {100 * result.drawn.never[i]:.2g} %" for i, name in enumerate(result.outputs) if result.drawn.never[i]
     ]
     if never:
         yield f"Share of the modules in which it never happens: {', '.join(never)}; means leave these out."
-    if found.left_out:
-        yield f"Not in this, as they never happen or hang on a current profile: {', '.join(found.left_out)}."
+    if result.left_out:
+        yield f"Not in this, as they never happen or hang on a current profile: {', '.join(result.left_out)}."

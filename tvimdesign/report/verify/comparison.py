@@ -47,9 +47,13 @@ def compared(module: ResolvedModule, solved: Mapping[str, Solved], times: Mappin
     """Return all rows, the largest difference first; `times` are the design's [s]. Times that one of the two lacks are
     left out."""
     model = at_loads(module, model_values(module)) | {name: times[name] for name in TIMES if name in times}
-    fine = at_loads(module, fe_values(module, {name: one.found for name, one in solved.items()}))
-    coarse = at_loads(module, fe_values(module, {name: one.coarse for name, one in solved.items()}))
-    both = [name for name in fine if all(math.isfinite(one.get(name, math.inf)) for one in (model, fine, coarse))]
+    fine = at_loads(module, fe_values(module, {name: fe_solution.found for name, fe_solution in solved.items()}))
+    coarse = at_loads(module, fe_values(module, {name: fe_solution.coarse for name, fe_solution in solved.items()}))
+    both = [
+        name
+        for name in fine
+        if all(math.isfinite(fe_solution.get(name, math.inf)) for fe_solution in (model, fine, coarse))
+    ]
     rows = [Compared(name, *WORDS[name], model[name], fine[name], coarse[name]) for name in both]
     return sorted(rows, key=lambda row: -abs(math.log(row.ratio)))
 
@@ -117,26 +121,28 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
         *(("layer_edge_traction",) if shear else ("rotor_vane_stiffness", "housing_vane_stiffness")),
     ]  # fmt: skip
     inputs = _drawn(module)
-    found = {name: float(value) for name, value in module.table.evaluate(inputs, names).items()}
-    hub = structure.series(found["pcl_stiffness@cold"], found["structure_stiffness"])
-    yields = found["core_holding_torque"] * float(inputs["holding_safety"])
+    values = {name: float(value) for name, value in module.table.evaluate(inputs, names).items()}
+    hub = structure.series(values["pcl_stiffness@cold"], values["structure_stiffness"])
+    yields = values["core_holding_torque"] * float(inputs["holding_safety"])
     rows = {
-        "spring_rate": found["spring_rate"],
-        "coil_stress": found["coil_stress_per_angle"] / found["held_spring_rate"] * 1e-6,
-        "tang_stress": found["tang_stress_per_angle"] / found["held_spring_rate"] * 1e-6,
-        "hub": hub, "core": found["core_stiffness"], "link": found["link_stiffness"],
-        "natural_frequency": _frequency(found["spring_stiffness"] + hub, float(inputs["moving_inertia"])),
-        "core_stress": found["cold_layer_strength"] / yields * 1e-6,
-        "link_friction_torque": found["link_friction_torque"],
-        "foot_force": 1.0 / (found["spring_count"] * found["placement_radius"]),
-        "plate_stress": plate_stress(module, found["rotor_thickness"], found["core_radius"]) * 1e-6,
+        "spring_rate": values["spring_rate"],
+        "coil_stress": values["coil_stress_per_angle"] / values["held_spring_rate"] * 1e-6,
+        "tang_stress": values["tang_stress_per_angle"] / values["held_spring_rate"] * 1e-6,
+        "hub": hub, "core": values["core_stiffness"], "link": values["link_stiffness"],
+        "natural_frequency": _frequency(values["spring_stiffness"] + hub, float(inputs["moving_inertia"])),
+        "core_stress": values["cold_layer_strength"] / yields * 1e-6,
+        "link_friction_torque": values["link_friction_torque"],
+        "foot_force": 1.0 / (values["spring_count"] * values["placement_radius"]),
+        "plate_stress": plate_stress(module, values["rotor_thickness"], values["core_radius"]) * 1e-6,
     }  # fmt: skip
-    rows |= screw_rows(module, Carried(rows["foot_force"] * found["holding_torque"], 0.0, rows["link_friction_torque"]))
-    plate, floor = found["plate_stiffness"], found["floor_stiffness"]
+    rows |= screw_rows(
+        module, Carried(rows["foot_force"] * values["holding_torque"], 0.0, rows["link_friction_torque"])
+    )
+    plate, floor = values["plate_stiffness"], values["floor_stiffness"]
     if shear:
-        traction = found["layer_edge_traction"] / found["holding_torque"] * 1e-6
+        traction = values["layer_edge_traction"] / values["holding_torque"] * 1e-6
         return {**rows, "plate": plate, "floor": floor, "edge_traction": traction}
-    return {**rows, **_vanes(found["rotor_vane_stiffness"], plate, found["housing_vane_stiffness"], floor)}
+    return {**rows, **_vanes(values["rotor_vane_stiffness"], plate, values["housing_vane_stiffness"], floor)}
 
 
 def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
@@ -165,18 +171,18 @@ def _mean_plate_stress(module: ResolvedModule, thickness: float, core: float) ->
     return float(plate_beside_core.mean_with_bending(sheared, bent) if bent else sheared)
 
 
-def fe_values(module: ResolvedModule, found: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
+def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
     """Return what FE finds, by the same rows."""
     names = ("link_friction_torque", "link_bolt_circle_radius")
     friction, circle = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
-    joint, heat = found["joint"], found.get(HEAT, {})
+    joint, heat = fe_results["joint"], fe_results.get(HEAT, {})
     held = float(module.table.evaluate(_drawn(module), ("holding_torque",))["holding_torque"])
-    slip = friction * found["screws"]["friction_radius"] * 1e-3 / circle
+    slip = friction * fe_results["screws"]["friction_radius"] * 1e-3 / circle
     across = joint["foot_across"] * held if "foot_across" in joint else None
     return {
         **screw_rows(module, Carried(across, joint.get("foot_along", 0.0) * held, slip)),
-        **joint_rows(joint), **spring_rows(found["spring"]), "natural_frequency": joint["frequency"],
-        "link": found["link"]["link"], **({"foot_force": joint["foot_across"]} if "foot_across" in joint else {}),
+        **joint_rows(joint), **spring_rows(fe_results["spring"]), "natural_frequency": joint["frequency"],
+        "link": fe_results["link"]["link"], **({"foot_force": joint["foot_across"]} if "foot_across" in joint else {}),
         "link_friction_torque": slip,
         **{name: heat[name] for name in TIMES if name in heat},
     }  # fmt: skip

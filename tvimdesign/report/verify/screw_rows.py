@@ -40,23 +40,23 @@ class _Tightened(NamedTuple):
 
     def stress(self, along: float, across: float) -> float:
         """Equivalent stress [MPa] with forces along and across it [N]."""
-        found = fasteners.combined_stress(self.force + along, across, self.twist, self.diameter, self.pitch)
-        return float(found) * _MPA
+        combined = fasteners.combined_stress(self.force + along, across, self.twist, self.diameter, self.pitch)
+        return float(combined) * _MPA
 
 
 def screw_rows(module: ResolvedModule, carried: Carried) -> dict[str, float]:
     """Stresses [MPa] by row; none of pins or feet that the module has not, or of pins that friction relieves."""
     names = ("holding_torque", "link_bolt_circle_radius", "link_dowel_circle_radius")
-    found = {name: float(value) for name, value in module.table.evaluate(module.values, names).items()}
+    values = {name: float(value) for name, value in module.table.evaluate(module.values, names).items()}
     friction = float(module.values["link_friction"])
-    left = max(found["holding_torque"] - carried.slip, 0.0)
+    left = max(values["holding_torque"] - carried.slip, 0.0)
     pins = 0.0 if isinstance(module.values["link_fit"], str) and module.values["link_fit"] == "clearance" else left
     link = _tightened(module, "link_screw")
-    sheared = (left - pins) / (LINK_SCREWS * found["link_bolt_circle_radius"])
+    sheared = (left - pins) / (LINK_SCREWS * values["link_bolt_circle_radius"])
     rows = {"link_screw_stress": link.stress(0.0, sheared)}
     if pins:
         diameter, count = (float(module.values[name]) for name in ("link_dowel_diameter", "link_dowel_count"))
-        force = pins / (count * found["link_dowel_circle_radius"])
+        force = pins / (count * values["link_dowel_circle_radius"])
         rows["link_pin_shear"] = force / (0.25 * math.pi * diameter**2) * _MPA
     if carried.across is not None:
         foot = _tightened(module, "mount_screw")

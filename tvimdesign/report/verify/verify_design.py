@@ -109,8 +109,8 @@ def _write(
     folder.write("verify.md", page(name, rows, solved, pictures=pictures))
     if pictures:
         command.progress("verify: drawing the fields")
-        for solver, one in solved.items():
-            _draw(folder, work, solver, one)
+        for solver, solution in solved.items():
+            _draw(folder, work, solver, solution)
 
 
 def _export(design: Design, folder: Path) -> None:

@@ -37,13 +37,13 @@ def verified(rows: Sequence[Compared], solved: dict[str, Solved]) -> dict[str, A
              "mesh_change": row.mesh_change, "meaning": row.meaning}
             for row in rows
         ],
-        "solved": {name: {"fine": _told(one.found), "coarse": _told(one.coarse)} for name, one in solved.items()},
+        "solved": {name: {"fine": _told(parts.found), "coarse": _told(parts.coarse)} for name, parts in solved.items()},
     }  # fmt: skip
 
 
-def _told(found: Mapping[str, float]) -> dict[str, float | None]:
+def _told(values: Mapping[str, float]) -> dict[str, float | None]:
     """Return what a solver found; None for a time that did not come, which JSON has no number for."""
-    return {name: value if math.isfinite(value) else None for name, value in found.items()}
+    return {name: value if math.isfinite(value) else None for name, value in values.items()}
 
 
 def table_csv(rows: Sequence[Compared]) -> str:
@@ -77,9 +77,11 @@ def far(rows: Sequence[Compared]) -> list[str]:
 def summary(rows: Sequence[Compared]) -> str:
     """Return how near the model is, in a sentence or two."""
     beyond = far(rows)
-    told = f"{len(rows) - len(beyond)} of {len(rows)} within {100.0 * FAR:.0f} % of finite elements on the drawn parts"
+    sentence = (
+        f"{len(rows) - len(beyond)} of {len(rows)} within {100.0 * FAR:.0f} % of finite elements on the drawn parts"
+    )
     worst = f"; beyond: {', '.join(beyond)}" if beyond else ""
-    return f"{told}{worst}. `mesh` is how far a value moved from elements 1.6 times as large."
+    return f"{sentence}{worst}. `mesh` is how far a value moved from elements 1.6 times as large."
 
 
 def page(name: str, rows: Sequence[Compared], solved: dict[str, Solved], *, pictures: bool) -> str:
@@ -100,8 +102,13 @@ SOLVER_HEADS = ("solver", "unknowns", "processor seconds", "GB")
 def solver_rows(solved: dict[str, Solved]) -> list[tuple[str, ...]]:
     """Return how large each solver's finer mesh was and what it took, under `SOLVER_HEADS`."""
     return [
-        (key, f"{one.found['unknowns']:.0f}", f"{one.found['seconds']:.0f}", f"{one.found['gigabytes']:.1f}")
-        for key, one in solved.items()
+        (
+            key,
+            f"{solution.found['unknowns']:.0f}",
+            f"{solution.found['seconds']:.0f}",
+            f"{solution.found['gigabytes']:.1f}",
+        )
+        for key, solution in solved.items()
     ]
 
 
@@ -122,7 +129,7 @@ _SHOWS = {
 def verify_page(folder: ResultsFolder, name: str, rows: Sequence[Compared], solved: dict[str, Solved]) -> Page:
     """Return the page; pictures are those that the folder has."""
     beyond = len(far(rows))
-    said = "ALL WITHIN 10 %" if not beyond else f"{beyond} OF {len(rows)} BEYOND 10 %"
+    verdict = "ALL WITHIN 10 %" if not beyond else f"{beyond} OF {len(rows)} BEYOND 10 %"
     first: list[Block] = [Points([summary(rows)])]
     table = grid("The model against finite elements", HEADS, [cells(row) for row in rows], right=(1, 2, 4, 5))
     fields: list[Block] = [
@@ -142,4 +149,4 @@ def verify_page(folder: ResultsFolder, name: str, rows: Sequence[Compared], solv
     ]
     tone: Tone = "warn" if beyond else "good"
     files = there(folder, _FILES)
-    return Page(name, "verification", said, tone, first, None, sections, made_by_words(folder), files)
+    return Page(name, "verification", verdict, tone, first, None, sections, made_by_words(folder), files)

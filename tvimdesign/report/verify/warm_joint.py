@@ -75,17 +75,17 @@ def softening_time(joint: WarmJoint, course: Mapping[str, Array]) -> float:
 
     Between two moments the stiffness falls as an exponential.
     """
-    found = np.array([
+    stiffness = np.array([
         joint.stiffness(
             columns, course["shares"], course["slices"], joint.parts(*(course[name][at] for name in _PARTS))
         )
         for at, columns in enumerate(course["columns"])
     ])  # fmt: skip
-    below = np.flatnonzero(found <= joint.soft)
+    below = np.flatnonzero(stiffness <= joint.soft)
     if not len(below) or below[0] == 0:
         return float("inf")
     pair = slice(below[0] - 1, below[0] + 1)
-    return float(np.interp(-np.log(joint.soft), -np.log(found[pair]), course["times"][pair]))
+    return float(np.interp(-np.log(joint.soft), -np.log(stiffness[pair]), course["times"][pair]))
 
 
 _PARTS = ("core", "edge", "plate", "hot", "cold")

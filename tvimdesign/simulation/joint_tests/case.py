@@ -81,8 +81,8 @@ class Case:
     def rows(self, resolved: ResolvedModule, names: Sequence[str]) -> dict[str, Any]:
         """Return rows of the table at this point, as this history leaves it, by plain name."""
         values = {**resolved.values, f"solid_fraction@{self.point}": self.history.fraction}
-        found = resolved.table.evaluate(values, [f"{name}@{self.point}" for name in names])
-        return {name: found[f"{name}@{self.point}"] for name in names}
+        values_by_name = resolved.table.evaluate(values, [f"{name}@{self.point}" for name in names])
+        return {name: values_by_name[f"{name}@{self.point}"] for name in names}
 
 
 def joint_of(resolved: ResolvedModule, point: str) -> motion.Joint:
@@ -123,7 +123,7 @@ def cases(resolved: ResolvedModule) -> list[Case]:
     """Return the joint at every operating point, once for each history that matters there, the nominal one first."""
     pushes = one_sided(resolved)
     friction = float(resolved.quantity("pin_friction_torque"))
-    found = []
+    cases_tested = []
     for point in resolved.points:
         _, loss = resolved.quantity(f"support@{point}")
         joint, temperature = joint_of(resolved, point), float(resolved.quantity(f"temperature@{point}"))
@@ -131,8 +131,8 @@ def cases(resolved: ResolvedModule) -> list[Case]:
             case = Case(point, temperature, history, joint, pushes, (), friction)
             modes = [(float(time), float(k)) for time, k in case.rows(resolved, ("pcl_modes",))["pcl_modes"]]
             lossy = with_loss(joint, modes, float(loss), float(resolved.quantity(f"frequency@{point}")))
-            found.append(replace(case, joint=lossy[0], modes=lossy[1]))
-    return found
+            cases_tested.append(replace(case, joint=lossy[0], modes=lossy[1]))
+    return cases_tested
 
 
 class _HasCase(Protocol):
@@ -143,10 +143,10 @@ class _HasCase(Protocol):
 _Tested = TypeVar("_Tested", bound=_HasCase)
 
 
-def by_point(found: Sequence[_Tested]) -> list[tuple[str, list[_Tested]]]:
+def by_point(results: Sequence[_Tested]) -> list[tuple[str, list[_Tested]]]:
     """Return the tested cases by operating point."""
-    points = dict.fromkeys(one.case.point for one in found)
-    return [(point, [one for one in found if one.case.point == point]) for point in points]
+    points = dict.fromkeys(result.case.point for result in results)
+    return [(point, [result for result in results if result.case.point == point]) for point in points]
 
 
 def finding(name: str, unit: str, meaning: str, numbers: Sequence[float]) -> Finding:
@@ -161,28 +161,28 @@ def findings_at(point: str, rows: Iterable[tuple[str, str, str, Sequence[float]]
     return [finding(f"{name}@{point}", unit, meaning, values) for name, unit, meaning, values in rows]
 
 
-def contact_columns(case: Case, found: OneSided) -> tuple[Column, ...]:
+def contact_columns(case: Case, course: OneSided) -> tuple[Column, ...]:
     """Return which blocks touch at each sample; nothing where none can part."""
     if not case.one_sided:
         return ()
-    ahead, behind = found.touching.astype(float)
+    ahead, behind = course.touching.astype(float)
     return Column("ahead_touches", "1", ahead), Column("behind_touches", "1", behind)
 
 
-def event_sheets(name: str, found: OneSided) -> tuple[CurveTable, ...]:
+def event_sheets(name: str, course: OneSided) -> tuple[CurveTable, ...]:
     """Return the moments at which a block was left or met, as a sheet of its own; none where none was."""
-    if not found.events:
+    if not course.events:
         return ()
-    rows = np.array([[event.time, float(event.side == 0), float(event.touching)] for event in found.events]).T
+    rows = np.array([[event.time, float(event.side == 0), float(event.touching)] for event in course.events]).T
     names = (("time", "s"), ("block_ahead", "1"), ("touches_from_here", "1"))
     columns = (Column(title, unit, values) for (title, unit), values in zip(names, rows, strict=True))
     return (CurveTable(f"{name}_events", tuple(columns)),)
 
 
-def notes_for(found: Sequence[Case]) -> tuple[str, ...]:
+def notes_for(tested_cases: Sequence[Case]) -> tuple[str, ...]:
     """Return the notes on these cases."""
-    pushes = (PUSHES,) if any(case.one_sided for case in found) else ()
-    history = (HISTORY,) if any(case.history.name for case in found) else ()
+    pushes = (PUSHES,) if any(case.one_sided for case in tested_cases) else ()
+    history = (HISTORY,) if any(case.history.name for case in tested_cases) else ()
     return (LINEAR, *pushes, *history)
 
 

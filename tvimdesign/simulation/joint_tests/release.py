@@ -79,46 +79,48 @@ def release(
     """
     hold = float(resolved.quantity("hold_time")) if hold is None else hold
     resolved = with_paper_points(resolved)
-    found = [_released(resolved, case, angle, hold, kelvin_voigt) for case in cases(resolved)]
-    shown = [one for one in found if one.case.history.shown]
+    releases = [_released(resolved, case, angle, hold, kelvin_voigt) for case in cases(resolved)]
+    shown = [swing for swing in releases if swing.case.history.shown]
     return Trial(
         test="release",
         title=f"Released from {angle:g} rad",
-        sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
+        sheets=tuple(sheet for swing in shown for sheet in _sheets(swing)),
         panels=(
             *(Panel(f"{ANGLE_PANEL}, {point}", "Time after release (s)", "Angle (rad)", _lines(here, "time", "angle"),
                     log_x=True) for point, here in by_point(shown)),
             *(Panel(f"First swing, {point}", "Angle (rad)", "Torque on the link (N·m)",
                     _lines(here, "angle", "torque")) for point, here in by_point(shown)),
         ),
-        findings=tuple(_findings(resolved, found)),
+        findings=tuple(_findings(resolved, releases)),
         notes=(
             f"The PCL was free of strain, was turned to {angle:g} rad at once and held there for {hold:g} s: of a hold "
             "of seconds the melt keeps nothing, frozen PCL nearly all.",
             "Torque is that of the module on the link, friction of the springs' legs on their pins counted.",
-            *_friction_note(found),
-            *notes_for([one.case for one in found]),
-            *overload_notes(resolved, [(one.case, float(abs(one.motion.torque[0]))) for one in found]),
-            *_unsettled(found),
+            *_friction_note(releases),
+            *notes_for([swing.case for swing in releases]),
+            *overload_notes(resolved, [(swing.case, float(abs(swing.motion.torque[0]))) for swing in releases]),
+            *_unsettled(releases),
         ),
     )  # fmt: skip
 
 
-def _friction_note(found: Sequence[Released]) -> tuple[str, ...]:
+def _friction_note(releases: Sequence[Released]) -> tuple[str, ...]:
     """Return a sentence on what friction does to the curves; nothing where there is none."""
-    friction = max(one.case.friction for one in found)
+    friction = max(released.case.friction for released in releases)
     if not friction:
         return ()
-    band = friction / found[0].case.joint.spring_stiffness
+    band = friction / releases[0].case.joint.spring_stiffness
     return (
         f"Friction of {1e3 * friction:.3g} mN.m is a constant torque against the motion: the loop is twice that wide, "
         f"and the springs alone leave the link up to {1e3 * band:.3g} mrad off its rest.",
     )
 
 
-def _unsettled(found: Sequence[Released]) -> tuple[str, ...]:
+def _unsettled(releases: Sequence[Released]) -> tuple[str, ...]:
     """Return a sentence on the points where a link was not followed until it settles."""
-    points = " and ".join(dict.fromkeys(one.case.point for one in found if not np.isfinite(one.settling)))
+    points = " and ".join(
+        dict.fromkeys(released.case.point for released in releases if not np.isfinite(released.settling))
+    )
     if not points:
         return ()
     return (f"At {points} the link still swings where its curve ends: it settles later, if it does.",)
@@ -145,37 +147,37 @@ def _rows_of_a_swing(resolved: ResolvedModule, touching: Touching) -> dict[str, 
 def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[str, float]:
     """Return the mean of every row of a swing over the first one."""
     internal = link.held(case.plant, angle, float(resolved.quantity("hold_time")))
-    found = link.released(case.plant, angle, internal, case.friction, TURNS_OF_A_SWING)
-    instants = _rows_of_a_swing(resolved, Touching(*found.touching.astype(float)))
-    return {name: found.average(values, 0.0, found.first_swing()) for name, values in instants.items()}
+    motion = link.released(case.plant, angle, internal, case.friction, TURNS_OF_A_SWING)
+    instants = _rows_of_a_swing(resolved, Touching(*motion.touching.astype(float)))
+    return {name: motion.average(values, 0.0, motion.first_swing()) for name, values in instants.items()}
 
 
 def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
     internal = link.held(case.plant, angle, hold)
-    found = link.released(case.plant, angle, internal, case.friction)
+    motion = link.released(case.plant, angle, internal, case.friction)
     # Friction holds the link off its old rest: it settles where it stays.
-    settling = found.settling_time(SETTLED)
+    settling = motion.settling_time(SETTLED)
     if case.one_sided:
-        return Released(case, found, case.plant.gap(internal), *_first_ringing(found), settling, None)
+        return Released(case, motion, case.plant.gap(internal), *_first_ringing(motion), settling, None)
     swings = link.swings(case.joint, case.modes, angle, internal)
     if not np.isfinite(settling):
         settling = swings.fading_time(SETTLED * abs(angle))
-    simple = _simple(resolved, case, angle, found.motion) if kelvin_voigt else None
-    return Released(case, found, 0.0, *swings.ringing(), settling, simple)
+    simple = _simple(resolved, case, angle, motion.motion) if kelvin_voigt else None
+    return Released(case, motion, 0.0, *swings.ringing(), settling, simple)
 
 
-def _first_ringing(found: OneSided) -> tuple[float, float]:
+def _first_ringing(motion: OneSided) -> tuple[float, float]:
     """Return frequency [Hz] and equivalent damping ratio of the first swing; 0 and 1 if there is none.
 
     From the decrement d of one period: z = d/sqrt(4 pi^2 + d^2) (textbook).
     """
-    moved = found.motion
+    moved = motion.motion
     turns = turns_of(moved.speed)
     if len(turns) < TURNS_OF_A_SWING:
         return 0.0, 1.0
     left = abs(moved.angle[turns[TURNS_OF_A_SWING - 1]] / moved.angle[0])
     decrement = -np.log(max(left, np.finfo(float).tiny))
-    return 1.0 / found.first_swing(), float(decrement / np.hypot(2.0 * np.pi, decrement))
+    return 1.0 / motion.first_swing(), float(decrement / np.hypot(2.0 * np.pi, decrement))
 
 
 def _simple(resolved: ResolvedModule, case: Case, angle: float, moved: Motion) -> Simple:
@@ -187,79 +189,81 @@ def _simple(resolved: ResolvedModule, case: Case, angle: float, moved: Motion) -
     return Simple(other, torque, swings.fading_time(SETTLED * abs(angle)), float(np.sqrt(apart)))
 
 
-def _sheets(one: Released) -> tuple[CurveTable, ...]:
-    name, moved = f"release_{one.case.name}", one.motion
+def _sheets(released: Released) -> tuple[CurveTable, ...]:
+    name, moved = f"release_{released.case.name}", released.motion
     columns = [
         Column("time", "s", moved.times),
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
         Column("stored_energy", "J", moved.energy),
-        *contact_columns(one.case, one.found),
+        *contact_columns(released.case, released.found),
     ]
-    if one.simple:
+    if released.simple:
         columns += [
-            Column("angle_kelvin_voigt", "rad", one.simple.angle),
-            Column("torque_kelvin_voigt", "N*m", one.simple.torque),
+            Column("angle_kelvin_voigt", "rad", released.simple.angle),
+            Column("torque_kelvin_voigt", "N*m", released.simple.torque),
         ]
-    events = event_sheets(name, one.found)
-    return (CurveTable(name, tuple(columns)), *_first_swing(one, columns), *events)
+    events = event_sheets(name, released.found)
+    return (CurveTable(name, tuple(columns)), *_first_swing(released, columns), *events)
 
 
-def _first_swing(one: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
+def _first_swing(released: Released, columns: Sequence[Column]) -> tuple[CurveTable]:
     """Return the first swing alone, whose loop shows loss and backlash; later ones lie over it."""
-    count = int(np.searchsorted(one.motion.times, one.found.first_swing(), side="right"))
-    return (CurveTable(_loop_name(one), tuple(replace(column, values=column.values[:count]) for column in columns)),)
+    count = int(np.searchsorted(released.motion.times, released.found.first_swing(), side="right"))
+    return (
+        CurveTable(_loop_name(released), tuple(replace(column, values=column.values[:count]) for column in columns)),
+    )
 
 
-def _loop_name(one: Released) -> str:
-    return f"release_{one.case.name}_first_swing"
+def _loop_name(released: Released) -> str:
+    return f"release_{released.case.name}_first_swing"
 
 
-def _lines(found: Sequence[Released], x: str, y: str) -> tuple[PlottedLine, ...]:
+def _lines(releases: Sequence[Released], x: str, y: str) -> tuple[PlottedLine, ...]:
     lines = []
-    for one in found:
-        sheet = _loop_name(one) if x == "angle" else f"release_{one.case.name}"
-        lines.append(PlottedLine(sheet, x, y, one.case.label))
-        if one.simple and not one.case.history.name:
+    for released in releases:
+        sheet = _loop_name(released) if x == "angle" else f"release_{released.case.name}"
+        lines.append(PlottedLine(sheet, x, y, released.case.label))
+        if released.simple and not released.case.history.name:
             across = "angle_kelvin_voigt" if x == "angle" else x
             lines.append(
-                PlottedLine(sheet, across, f"{y}_kelvin_voigt", f"{one.case.point}, Kelvin-Voigt", dashed=True)
+                PlottedLine(sheet, across, f"{y}_kelvin_voigt", f"{released.case.point}, Kelvin-Voigt", dashed=True)
             )
     return tuple(lines)
 
 
-def _findings(resolved: ResolvedModule, found: Sequence[Released]) -> list[Finding]:
+def _findings(resolved: ResolvedModule, releases: Sequence[Released]) -> list[Finding]:
     numbers: list[Finding] = []
     for point in resolved.points:
-        here = [one for one in found if one.case.point == point]
-        energies = [one.motion.energy for one in here]
+        here = [released for released in releases if released.case.point == point]
+        energies = [released.motion.energy for released in here]
         rows = [
             ("held_torque", "N*m", "Torque that holds the link just before it is let go",
-             [abs(float(one.motion.torque[0])) for one in here]),
+             [abs(float(released.motion.torque[0])) for released in here]),
             ("backlash", "rad", "Angle over which nothing but the springs acts right after the hold",
-             [one.backlash for one in here]),
+             [released.backlash for released in here]),
             ("contact_lost", "1", "Share of the first swing, up to its second turn, in which no PCL is in contact",
-             [one.contact_lost for one in here]),
+             [released.contact_lost for released in here]),
             ("ringing_frequency", "Hz", "Frequency at which the link swings; 0 where it creeps back",
-             [one.frequency for one in here]),
+             [released.frequency for released in here]),
             ("ringing_damping_ratio", "1", "Damping ratio of that swing; 1 where it creeps back",
-             [one.damping_ratio for one in here]),
+             [released.damping_ratio for released in here]),
             ("settling_time", "s", f"Time until the link is within {100 * SETTLED:g} % of its angle from its rest",
-             [one.settling for one in here]),
+             [released.settling for released in here]),
             ("rest_angle", "rad", "Angle at which friction holds the link in the end, or at which its curve ends",
-             [abs(float(one.motion.angle[-1])) for one in here]),
+             [abs(float(released.motion.angle[-1])) for released in here]),
             ("energy_dissipated", "J", "Energy that PCL and friction turned into heat over the motion shown",
              [float(energy[0] - energy[-1]) for energy in energies]),
             ("energy_gain", "1", "Largest growth of the stored energy over its start; rounding",
              [max(0.0, float(np.max(np.diff(energy)) / energy[0])) for energy in energies]),
         ]  # fmt: skip
-        simple = [one.simple for one in here if one.simple]
+        simple = [released.simple for released in here if released.simple]
         if simple:
             rows += [
                 ("kelvin_voigt_settling_time", "s", "The same time in the Kelvin-Voigt model",
-                 [one.settling for one in simple]),
+                 [released.settling for released in simple]),
                 ("kelvin_voigt_difference", "1", "Its angle against the full model's, rms over rms; near 1 and above it"
-                 " says nothing", [one.difference for one in simple]),
+                 " says nothing", [released.difference for released in simple]),
             ]  # fmt: skip
         numbers += findings_at(point, rows)
     return numbers

@@ -53,32 +53,32 @@ class Swung:
 def sine(resolved: ResolvedModule, periods: int = PERIODS) -> Trial:
     """Turn the link as a sine of the stroke's amplitude at each point's frequency, from rest."""
     resolved = with_paper_points(resolved)
-    found = [_swung(resolved, case, periods) for case in cases(resolved)]
-    shown = [one for one in found if one.case.history.shown]
-    frequencies = ", ".join(dict.fromkeys(f"{one.frequency:g} Hz" for one in found))
+    swings = [_swung(resolved, case, periods) for case in cases(resolved)]
+    shown = [swing for swing in swings if swing.case.history.shown]
+    frequencies = ", ".join(dict.fromkeys(f"{swing.frequency:g} Hz" for swing in swings))
     return Trial(
         test="sine",
         title=f"Turned as a sine of {float(resolved.quantity('stroke')):g} rad ({frequencies})",
-        sheets=tuple(sheet for one in shown for sheet in _sheets(one)),
+        sheets=tuple(sheet for swing in shown for sheet in _sheets(swing)),
         panels=tuple(
             Panel(f"{place}, {point}", label, "Torque on the link (N·m)", _lines(here, x))
             for x, label, place in (("time", "Time (s)", "Last period"), ("angle", "Angle (rad)", "Loop"))
             for point, here in by_point(shown)
         ),
-        findings=tuple(_findings(resolved, found)),
+        findings=tuple(_findings(resolved, swings)),
         notes=(
             "The angle is prescribed, so the link's inertia takes no part; torque is that of the module on the link.",
             f"The PCL is free of strain at first; the loops and numbers are those of period {periods}.",
-            *notes_for([one.case for one in found]),
-            *overload_notes(resolved, [(one.case, float(np.max(np.abs(one.motion.torque)))) for one in found]),
+            *notes_for([swing.case for swing in swings]),
+            *overload_notes(resolved, [(swing.case, float(np.max(np.abs(swing.motion.torque)))) for swing in swings]),
         ),
     )  # fmt: skip
 
 
 def _swung(resolved: ResolvedModule, case: Case, periods: int) -> Swung:
     frequency = float(resolved.quantity(f"frequency@{case.point}"))
-    found = link.swung(case.plant, float(resolved.quantity("stroke")), frequency, periods, SAMPLES)
-    moved = found.motion
+    motion = link.swung(case.plant, float(resolved.quantity("stroke")), frequency, periods, SAMPLES)
+    moved = motion.motion
     complex_stiffness = complex_stiffness_of(moved, frequency)
     lossy = complex_stiffness.imag
     rows = case.rows(resolved, ("joint_stiffness", "joint_damping"))
@@ -86,12 +86,12 @@ def _swung(resolved: ResolvedModule, case: Case, periods: int) -> Swung:
     expected = complex(rows["joint_stiffness"], omega * rows["joint_damping"])
     loop = last_period(moved, frequency)
     return Swung(
-        case, frequency, found,
+        case, frequency, motion,
         stiffness=complex_stiffness.real,
         damping=lossy / omega if abs(lossy) > ROUNDING * abs(complex_stiffness) else 0.0,
         dissipated=-float(np.trapezoid(moved.torque[loop], moved.angle[loop])),
         apart=abs(complex_stiffness - expected) / abs(expected),
-        contact_lost=found.lost_share(float(moved.times[loop][0]), float(moved.times[-1])),
+        contact_lost=motion.lost_share(float(moved.times[loop][0]), float(moved.times[-1])),
     )  # fmt: skip
 
 
@@ -110,38 +110,38 @@ def complex_stiffness_of(moved: Motion, frequency: float) -> complex:
     return complex(-torque / angle)
 
 
-def _sheets(one: Swung) -> tuple[CurveTable, ...]:
-    moved = one.motion
+def _sheets(swung: Swung) -> tuple[CurveTable, ...]:
+    moved = swung.motion
     columns = (
         Column("time", "s", moved.times),
         Column("angle", "rad", moved.angle),
         Column("torque", "N*m", moved.torque),
-        *contact_columns(one.case, one.found),
+        *contact_columns(swung.case, swung.found),
     )
-    name, loop = f"sine_{one.case.name}", last_period(moved, one.frequency)
+    name, loop = f"sine_{swung.case.name}", last_period(moved, swung.frequency)
     return (
         CurveTable(name, columns),
         CurveTable(f"{name}_loop", tuple(replace(column, values=column.values[loop]) for column in columns)),
-        *event_sheets(name, one.found),
+        *event_sheets(name, swung.found),
     )
 
 
-def _lines(found: Sequence[Swung], x: str) -> tuple[PlottedLine, ...]:
+def _lines(swings: Sequence[Swung], x: str) -> tuple[PlottedLine, ...]:
     """Return the torque of the last period; all before it are like it once the layer has forgotten how it began."""
-    return tuple(PlottedLine(f"sine_{one.case.name}_loop", x, "torque", one.case.label) for one in found)
+    return tuple(PlottedLine(f"sine_{swing.case.name}_loop", x, "torque", swing.case.label) for swing in swings)
 
 
-def _findings(resolved: ResolvedModule, found: Sequence[Swung]) -> list[Finding]:
+def _findings(resolved: ResolvedModule, swings: Sequence[Swung]) -> list[Finding]:
     numbers: list[Finding] = []
     for point in resolved.points:
-        here = [one for one in found if one.case.point == point]
+        here = [swing for swing in swings if swing.case.point == point]
         numbers += findings_at(point, (
-            ("stiffness", "N*m/rad", "Stiffness of the joint, from its motion", [one.stiffness for one in here]),
-            ("damping", "N*m*s/rad", "Damping of the joint, from its motion", [one.damping for one in here]),
+            ("stiffness", "N*m/rad", "Stiffness of the joint, from its motion", [swing.stiffness for swing in here]),
+            ("damping", "N*m*s/rad", "Damping of the joint, from its motion", [swing.damping for swing in here]),
             ("contact_lost", "1", "Share of the last period in which no PCL is in contact",
-             [one.contact_lost for one in here]),
-            ("cycle_energy", "J", "Energy turned into heat in one cycle", [one.dissipated for one in here]),
+             [swing.contact_lost for swing in here]),
+            ("cycle_energy", "J", "Energy turned into heat in one cycle", [swing.dissipated for swing in here]),
             ("frequency_domain_difference", "1", "Complex stiffness as seen against that of small motions, of its size",
-             [one.apart for one in here]),
+             [swing.apart for swing in here]),
         ))  # fmt: skip
     return numbers

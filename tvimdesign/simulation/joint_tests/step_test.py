@@ -45,8 +45,8 @@ def step(
     through the working cycle, softening and stiffening, or through the given history.
     """
     resolved = with_paper_points(resolved)
-    found = [(case, _turned(resolved, case, rise)) for case in cases(resolved)]
-    shown = [(case, moved) for case, moved in found if case.history.shown]
+    motions = [(case, _turned(resolved, case, rise)) for case in cases(resolved)]
+    shown = [(case, moved) for case, moved in motions if case.history.shown]
     history = history or slice_histories(resolved)
     weight = float(resolved.quantity("spring_stiffness") * resolved.quantity("stroke")) if load is None else load
     carried = carry(changing(resolved, history), support_of(resolved), weight, history.times)
@@ -62,7 +62,7 @@ def step(
                 for place in ("near", "middle", "far"))),
             Panel("Angle under load", "Time (s)", "Angle (rad)", lines=(PlottedLine(LOADED, "time", "angle", "link"),)),
         ),
-        findings=(*_relaxed(resolved, found), *_yielded(carried, weight, one_sided=found[0][0].one_sided)),
+        findings=(*_relaxed(resolved, motions), *_yielded(carried, weight, one_sided=motions[0][0].one_sided)),
         notes=(
             f"Angle: to the stroke at a steady speed in {rise:g} s, then held for {WATCHED:g} s; the torque is what "
             "holds the module, without the link's inertia.",
@@ -70,8 +70,8 @@ def step(
             "What freezes joins free of stress, what melts loses its stress.",
             "Temperatures of the cycle do not depend on the load; a heated layer melts along its nominal curve, a "
             "cooled one freezes with the nominal kinetics.",
-            *notes_for([case for case, _ in found]),
-            *overload_notes(resolved, [(case, float(np.max(np.abs(moved.motion.torque)))) for case, moved in found]),
+            *notes_for([case for case, _ in motions]),
+            *overload_notes(resolved, [(case, float(np.max(np.abs(moved.motion.torque)))) for case, moved in motions]),
             *_never_soft(history),
         ),
     )  # fmt: skip
@@ -90,11 +90,11 @@ def _turned(resolved: ResolvedModule, case: Case, rise: float) -> OneSided:
     return link.turned(case.plant, float(resolved.quantity("stroke")), rise, stretches)
 
 
-def _sheet(case: Case, found: OneSided) -> CurveTable:
-    moved = found.motion
+def _sheet(case: Case, motion: OneSided) -> CurveTable:
+    moved = motion.motion
     return CurveTable(f"step_{case.name}", (
         Column("time", "s", moved.times), Column("angle", "rad", moved.angle),
-        Column("holding_torque", "N*m", -moved.torque), *contact_columns(case, found),
+        Column("holding_torque", "N*m", -moved.torque), *contact_columns(case, motion),
     ))  # fmt: skip
 
 
@@ -112,10 +112,10 @@ def _loaded_sheet(carried: Carried, history: SliceHistory) -> CurveTable:
     ))  # fmt: skip
 
 
-def _relaxed(resolved: ResolvedModule, found: Sequence[tuple[Case, OneSided]]) -> list[Finding]:
+def _relaxed(resolved: ResolvedModule, motions: Sequence[tuple[Case, OneSided]]) -> list[Finding]:
     numbers: list[Finding] = []
     for point in resolved.points:
-        holding = [-moved.motion.torque for case, moved in found if case.point == point]
+        holding = [-moved.motion.torque for case, moved in motions if case.point == point]
         numbers += findings_at(point, (
             ("step_peak_torque", "N*m", "Highest torque of the step", [float(np.max(torque)) for torque in holding]),
             ("step_final_torque", "N*m", f"Torque after {WATCHED:g} s", [float(torque[-1]) for torque in holding]),

@@ -311,8 +311,8 @@ class Course:
             energy=self._plant.energy(states[0], states[1], inner, touching),
             stretches=stretches_of(self.durations),
         )
-        rest = float(states[0, -1]) if self.phase.sliding is Sliding.STUCK or self._spent() else None
-        return OneSided(moved, np.array(touching) > 0.0, tuple(self.events), rest)
+        rest_angle = float(states[0, -1]) if self.phase.sliding is Sliding.STUCK or self._spent() else None
+        return OneSided(moved, np.array(touching) > 0.0, tuple(self.events), rest_angle)
 
     def across(self, step: float) -> None:
         """Go on by a step [s], through the events in it."""
@@ -382,7 +382,7 @@ class Course:
         if phase not in self._regimes:
             size = self._plant.size
             rows = np.eye(size, size + 1)
-            one = np.eye(1, size + 1, size)[0]
+            unit = np.eye(1, size + 1, size)[0]
             inner = list(rows[2:])
             pushed = self._plant.torque(rows[0], inner, phase.touching)
             relaxing = self._plant.internal_rates(rows[0], inner, phase.touching)
@@ -394,14 +394,14 @@ class Course:
                 matrix[0] = rows[1]
                 matrix[1] = pushed / inertia if self._omega is None else -(self._omega**2) * rows[0]
             elif phase.sliding is Sliding.STUCK:
-                guards = [self._friction * one - pushed, self._friction * one + pushed]
+                guards = [self._friction * unit - pushed, self._friction * unit + pushed]
             elif phase.sliding.creeping:
                 # The torque stays that of the friction: what the internal angles take of it the angle gives.
                 matrix[0] = -(pushed[2:size] @ relaxing) / pushed[0]
                 guards = [sign * matrix[0]]
             else:
                 matrix[0] = rows[1]
-                matrix[1] = (pushed - sign * self._friction * one) / inertia
+                matrix[1] = (pushed - sign * self._friction * unit) / inertia
                 guards = [sign * rows[1]]
             signs = 2.0 * np.array(phase.touching) - 1.0
             contacts = [side * np.append(pull, 0.0) for side, pull in zip(signs, self._pulls, strict=False)]

@@ -81,9 +81,9 @@ def turned(plant: Plant, angle: float, rise: float, after: Sequence[Stretch]) ->
     for step, count in after:
         for _ in range(count):
             course.across(step)
-    found = course.found()
-    found.touching[1] = len(plant.sides) == 1
-    return found
+    turned_motion = course.found()
+    turned_motion.touching[1] = len(plant.sides) == 1
+    return turned_motion
 
 
 def squeezed(plant: Plant, angle: float) -> Array:

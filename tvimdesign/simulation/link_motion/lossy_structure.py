@@ -61,8 +61,10 @@ def spectrum(stiffness: float, loss: float, frequency: float) -> tuple[float, Mo
     turns = 2j * np.pi * frequencies[:, None] * times
     shares = np.column_stack([np.ones(len(law)), turns / (1.0 + turns)]) / law[:, None] * weights
     lossier = max(stiffness / loss, 1.0)  # a loss that is small counts as much
-    found, _ = nnls(np.concatenate([shares.real, shares.imag * lossier]), np.append(weights, 0.0 * weights))
-    return float(found[0]), [(float(t), float(k)) for t, k in zip(times, found[1:], strict=True) if k > 0.0]
+    weights_found, _ = nnls(np.concatenate([shares.real, shares.imag * lossier]), np.append(weights, 0.0 * weights))
+    return float(weights_found[0]), [
+        (float(t), float(k)) for t, k in zip(times, weights_found[1:], strict=True) if k > 0.0
+    ]
 
 
 def in_series(layer: Modes, spring: float, elements: Modes) -> Modes:
@@ -76,13 +78,13 @@ def in_series(layer: Modes, spring: float, elements: Modes) -> Modes:
     stiffnesses = np.concatenate([of_layer[1], of_structure[1]])
     order = np.argsort(rates)
     ends = np.concatenate([[0.0], rates[order]])
-    found, gaps = _zeros(ends, stiffnesses[order], spring)
+    zeros, gaps = _zeros(ends, stiffnesses[order], spring)
     own = order < len(of_layer[0])
-    behind = found[:, None] * stiffnesses[order] / gaps
+    behind = zeros[:, None] * stiffnesses[order] / gaps
     slope = stiffnesses[order] * rates[order] / gaps**2
-    strengths = np.sum(behind[:, own], axis=1) ** 2 / (found * np.sum(slope, axis=1))
+    strengths = np.sum(behind[:, own], axis=1) ** 2 / (zeros * np.sum(slope, axis=1))
     first = 0 if spring > 0.0 else 1  # without a spring the structure flows, and the slowest mode bears nothing
-    return list(zip((1.0 / found[first:]).tolist(), strengths[first:].tolist(), strict=True))
+    return list(zip((1.0 / zeros[first:]).tolist(), strengths[first:].tolist(), strict=True))
 
 
 def _apart(layer: Array, structure: Array) -> Array:
@@ -99,15 +101,15 @@ def _zeros(ends: Array, stiffnesses: Array, spring: float) -> tuple[Array, Array
 
     def at(logit: Array) -> tuple[Array, Array]:
         share = 1.0 / (1.0 + np.exp(-logit))
-        found = ends[:-1] + width * share
-        gaps = found[:, None] - ends[1:]
+        zeros = ends[:-1] + width * share
+        gaps = zeros[:, None] - ends[1:]
         gaps[above, above] = -width / (1.0 + np.exp(logit))
         gaps[below, below - 1] = (width * share)[1:]
-        return found, gaps
+        return zeros, gaps
 
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        found, gaps = at(middle)
-        rising = spring + np.sum(stiffnesses * found[:, None] / gaps, axis=1) > 0.0
+        roots, gaps = at(middle)
+        rising = spring + np.sum(stiffnesses * roots[:, None] / gaps, axis=1) > 0.0
         low, high = np.where(rising, middle, low), np.where(rising, high, middle)
     return at(0.5 * (low + high))

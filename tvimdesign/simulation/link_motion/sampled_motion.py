@@ -114,13 +114,13 @@ def settling_time(times: Array, angle: Array, share: float) -> float:
 
 def doubling(first: float, last: float) -> list[Stretch]:
     """Return stretches from 0 to `last`: the first of step `first`, each later one of twice the step before."""
-    found: list[Stretch] = []
+    stretches: list[Stretch] = []
     time, step = 0.0, min(first, last / PER_STRETCH)
     while time < last * (1.0 - 1e-9):
         count = min(PER_STRETCH, int(np.ceil((last - time) / step - 1e-9)))
-        found.append((min(step, (last - time) / count), count))
-        time, step = time + found[-1][0] * count, 2.0 * step
-    return found
+        stretches.append((min(step, (last - time) / count), count))
+        time, step = time + stretches[-1][0] * count, 2.0 * step
+    return stretches
 
 
 def growing(first: float, values: Array) -> Iterator[Stretch]:
@@ -138,8 +138,8 @@ def growing(first: float, values: Array) -> Iterator[Stretch]:
 
 def stretches_of(durations: Iterable[float]) -> tuple[Stretch, ...]:
     """Return steps of the same length, one after the other, as stretches."""
-    found: list[Stretch] = []
+    stretches: list[Stretch] = []
     for step in durations:
-        same = bool(found) and found[-1][0] == step
-        found[-1:] = [(step, found[-1][1] + 1)] if same else [*found[-1:], (step, 1)]
-    return tuple(found)
+        same = bool(stretches) and stretches[-1][0] == step
+        stretches[-1:] = [(step, stretches[-1][1] + 1)] if same else [*stretches[-1:], (step, 1)]
+    return tuple(stretches)

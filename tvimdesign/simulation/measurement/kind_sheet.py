@@ -66,7 +66,7 @@ class KindSheet:
 
     def values(self, given: Mapping[str, str]) -> dict[str, Any]:
         """Return settings in SI: those given, as `name=value with unit`, and the defaults. Raises InputError."""
-        found: dict[str, Any] = {
+        settings: dict[str, Any] = {
             name: to_si(float(entry["default"]), entry["unit"])
             for name, entry in self.settings.items()
             if "default" in entry
@@ -77,14 +77,14 @@ class KindSheet:
                 hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(self.settings)}"
                 raise InputError(f"--set {name}: {self.name} has no such setting; {hint}")
             if self.settings[name]["unit"] == "text":
-                found[name] = text
+                settings[name] = text
                 continue
             try:
-                found[name] = parse_quantity(text, self.settings[name]["unit"])
+                settings[name] = parse_quantity(text, self.settings[name]["unit"])
             except UnitError as error:
                 raise InputError(f"--set {name}: {error}") from None
-            _refuse_beyond(name, found[name], self.settings[name])
-        return found
+            _refuse_beyond(name, settings[name], self.settings[name])
+        return settings
 
 
 def _refuse_beyond(name: str, value: float, setting: Mapping[str, Any]) -> None:

@@ -102,11 +102,11 @@ def _likely_kind(blocks: Sequence[Block]) -> KindSheet:
     if len(likely) == 1:
         return likely[0]
     names = [sheet.name for sheet in likely or kind_sheets().values()]
-    found = sorted({name for block in blocks for name in block.columns})
-    said = "may be " if likely else "are of no kind there is: "
+    headings = sorted({name for block in blocks for name in block.columns})
+    verb = "may be " if likely else "are of no kind there is: "
     problems = [why for block in blocks for why in block.problems.values()]
     raise InputError(
-        f"the columns ({', '.join(found) or 'none of a known name'}) {said}{', '.join(names)}; say which with --as"
+        f"the columns ({', '.join(headings) or 'none of a known name'}) {verb}{', '.join(names)}; say which with --as"
         + (f"\n{problems[0]}" if problems else "")
     )
 

@@ -35,13 +35,13 @@ class NoRecordError(InputError):
 
 def record_text(measured: Measured, name: str, based_on: str) -> str:
     """Return the kind's own record as YAML. Raises InputError where nothing follows for one."""
-    found = measured.measurement
-    lines = list(_value_lines(measured, found.record_values))
-    if not measured.kind.category or not (lines or found.record_tables):
+    measurement = measured.measurement
+    lines = list(_value_lines(measured, measurement.record_values))
+    if not measured.kind.category or not (lines or measurement.record_tables):
         raise NoRecordError(_nothing(measured))
     lines += _condition_lines(measured)
     text = [*_head(name, based_on), *(["values:", *lines] if lines else [])]
-    for table, sheet in found.record_tables.items():
+    for table, sheet in measurement.record_tables.items():
         columns = ", ".join(f'{column}: "{unit}"' for column, unit in sheet.columns.items())
         text += ["tables:", f"  {table}:", f"    columns: {{{columns}}}", "    rows:"]
         units = list(sheet.columns.values())
@@ -93,15 +93,15 @@ def _records(measured: Measured, name: str, based_on: str) -> list[tuple[str, st
     """Return category, choice, base and text of every record that follows. Raises InputError where none does."""
     if measured.measurement.fit.misfit:
         raise NoRecordError(f"{measured.kind.name}: {measured.measurement.fit.misfit}")
-    category, found = measured.kind.category, []
+    category, records = measured.kind.category, []
     base = based_on or BASED_ON.get(category, "")
-    others = [one for one in measured.measurement.more_records if any(_value_lines(measured, one.values))]
+    others = [record for record in measured.measurement.more_records if any(_value_lines(measured, record.values))]
     if not others or any(_value_lines(measured, measured.measurement.record_values)):
-        found.append((category, CHOICES.get(category, ""), base, record_text(measured, name, base)))
-    for one in others:
-        text = "\n".join([*_head(name, one.based_on), "values:", *_value_lines(measured, one.values)]) + "\n"
-        found.append((one.category, one.choice, one.based_on, text))
-    return found
+        records.append((category, CHOICES.get(category, ""), base, record_text(measured, name, base)))
+    for other in others:
+        text = "\n".join([*_head(name, other.based_on), "values:", *_value_lines(measured, other.values)]) + "\n"
+        records.append((other.category, other.choice, other.based_on, text))
+    return records
 
 
 def _put_back(earlier: Mapping[Path, bytes | None]) -> None:
@@ -126,11 +126,11 @@ def _head(name: str, based_on: str) -> list[str]:
 
 def _value_lines(measured: Measured, values: Mapping[str, Estimate]) -> Iterator[str]:
     source = _quoted(measured.source)
-    for name, one in values.items():
-        if one.low is None or one.high is None:
+    for name, entry in values.items():
+        if entry.low is None or entry.high is None:
             continue
-        low, value, high = (_number(from_si(end, one.unit)) for end in (one.low, one.value, one.high))
-        yield f'  {name}: {{value: {value}, unit: "{one.unit}", low: {low}, high: {high}, status: measured,'
+        low, value, high = (_number(from_si(end, entry.unit)) for end in (entry.low, entry.value, entry.high))
+        yield f'  {name}: {{value: {value}, unit: "{entry.unit}", low: {low}, high: {high}, status: measured,'
         yield f'    source: "{source}, interval of 95 %"}}'
 
 

@@ -53,9 +53,9 @@ def fit(kind: str, full: Array, answer: StudyResult, modulus: float, time: float
     best: Any = None
     for start in _STARTS:
         begin = np.log(sizes) + start * np.array([field.name == "viscosity" for field in fields(body)])
-        found = least_squares(gap, begin, bounds=(begin - _REACH, begin + _REACH), x_scale=1.0)
-        if best is None or found.cost < best.cost:
-            best = found
+        solution = least_squares(gap, begin, bounds=(begin - _REACH, begin + _REACH), x_scale=1.0)
+        if best is None or solution.cost < best.cost:
+            best = solution
     return ModelFit(body(*(float(value) for value in np.exp(best.x))), float(np.sqrt(np.mean(best.fun**2))))
 
 
@@ -77,12 +77,12 @@ class Comparison:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return the residual of every body."""
-        found = []
+        compared = []
         for kind, fits in self.fits.items():
             residuals = dict(zip(self.specimen.states, (fit.residual for fit in fits), strict=True))
             meaning = f"root mean square of ln({TITLES[kind]} body / full spectrum) over the test"
-            found.append(self.specimen.finding(f"{kind}_residual", "1", meaning, residuals.__getitem__))
-        return tuple(found)
+            compared.append(self.specimen.finding(f"{kind}_residual", "1", meaning, residuals.__getitem__))
+        return tuple(compared)
 
 
 def compare(

@@ -188,7 +188,7 @@ def temperature(
         title="Temperature sweep at 1 Hz and 0.01 % strain",
         sheets=tuple(sheets),
         panels=_temperature_panels(sheets),
-        findings=(crossing, half, *(found for at in ends for found in _moduli_at_1_hertz(at))),
+        findings=(crossing, half, *(finding for at in ends for finding in _moduli_at_1_hertz(at))),
         notes=(
             history_note(resolved),
             f"Cooled at {60.0 * COOLING_RATE:g} K/min, a usual rate; the paper states none. "

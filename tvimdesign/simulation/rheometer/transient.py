@@ -39,9 +39,9 @@ def creep(resolved: ResolvedModule, temperatures: Sequence[float] | None = None)
         sheets=(*(_creep_sheet(at, fitted) for at, fitted in pairs), parameters(compared)),
         panels=tuple(panels),
         findings=tuple(
-            found
+            finding
             for at, fitted in pairs
-            for found in (*_creep_findings(at), *fitted.findings(), *_static_load(at, fitted))
+            for finding in (*_creep_findings(at), *fitted.findings(), *_static_load(at, fitted))
         ),
         notes=(
             history_note(resolved),
@@ -105,7 +105,7 @@ def _creep_findings(at: Specimen) -> tuple[Finding, ...]:
 
 def _static_load(at: Specimen, fitted: Comparison) -> tuple[Finding, ...]:
     """Return the compliance of the fitted bodies under a load that stays: one cannot hold it, another cannot flow."""
-    found = []
+    findings = []
     for kind, fits in fitted.fits.items():
         bodies = dict(zip(at.states, (fit.body for fit in fits), strict=True))
 
@@ -114,8 +114,8 @@ def _static_load(at: Specimen, fitted: Comparison) -> tuple[Finding, ...]:
             return float(bodies[state].creep(DAY) / full)
 
         meaning = f"compliance after a day under load, {TITLES[kind]} body over full spectrum"
-        found.append(at.finding(f"{kind}_after_a_day", "1", meaning, share))
-    return tuple(found)
+        findings.append(at.finding(f"{kind}_after_a_day", "1", meaning, share))
+    return tuple(findings)
 
 
 def relaxation(resolved: ResolvedModule, temperatures: Sequence[float] | None = None) -> Trial:
@@ -132,7 +132,7 @@ def relaxation(resolved: ResolvedModule, temperatures: Sequence[float] | None = 
         title=f"Stress relaxation at {100.0 * STRAIN:g} % strain",
         sheets=(*(_relaxation_sheet(at, fitted) for at, fitted in pairs), parameters(compared)),
         panels=tuple(panels),
-        findings=tuple(found for at, fitted in pairs for found in (*_relaxation_findings(at), *fitted.findings())),
+        findings=tuple(finding for at, fitted in pairs for finding in (*_relaxation_findings(at), *fitted.findings())),
         notes=(
             history_note(resolved),
             f"The strain is reached at a constant rate within {RISE:g} s, as a motor can; the melt relaxes meanwhile.",

@@ -88,7 +88,7 @@ def joint_equations(resolved: ResolvedModule) -> JointEquations:
     }
     start: tuple[float, ...] = (0.0, *(float(model.start[model.index[name]]) for name in MOVING))
     return JointEquations(
-        functions=[ca.Function(name, [state, given], found) for name, found in written.items()],
+        functions=[ca.Function(name, [state, given], outputs) for name, outputs in written.items()],
         observed=(*(f"temperature_{name}" for name in names), FROZEN, *INSTANT),
         cells=model.cells,
         modes=(slices.numel() - _BESIDE) // (2 * model.cells),
@@ -122,8 +122,8 @@ def _slices(
     count = len(profile.cells)
     stiffnesses, times = [], []
     for cell in range(count):
-        found = polymer.spectrum(profile.cells[cell], profile.fractions[cell], rheology)
-        modes = motion.layer_modes(found, moment, depth)
+        spectrum = polymer.spectrum(profile.cells[cell], profile.fractions[cell], rheology)
+        modes = motion.layer_modes(spectrum, moment, depth)
         times += [time for time, _ in modes]
         stiffnesses += [count * stiffness for _, stiffness in modes]
     return [*stiffnesses, *times, *support, springs]

@@ -59,11 +59,11 @@ def fmu_variables(equations: JointEquations, resolved: ResolvedModule) -> tuple[
 
 
 def _observed(names: Sequence[str]) -> list[Variable]:
-    found = []
+    variables = []
     for name in names:
         meaning = _MEANINGS.get(name) or f"Temperature: {name.removeprefix('temperature_').replace('_', ' ')}."
-        found.append(Variable(name, "output", OBSERVED_UNITS.get(name, "K"), meaning))
-    return found
+        variables.append(Variable(name, "output", OBSERVED_UNITS.get(name, "K"), meaning))
+    return variables
 
 
 _MEANINGS = {

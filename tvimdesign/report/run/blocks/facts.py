@@ -138,7 +138,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
         Fact("Soft", list(_soft(answer, uncertainty))),
         Fact("Stiff", list(_stiff(answer, uncertainty))),
         Fact("Accepts", list(_accepts(answer))),
-        *(Fact("Idealized ~", [_idealized(one, answer, table)]) for one in answer.idealizations),
+        *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table), *measured_fact(uncertainty),
         *_margins(answer, table), *_yield(answer, uncertainty), *_ranges(uncertainty),
     ]  # fmt: skip
@@ -197,14 +197,14 @@ def _accepts(answer: StudyResult) -> Iterator[str]:
         yield f"{', '.join(answer.accepted_in_vain)}: not needed, the design is within the rating"
 
 
-def _idealized(one: Any, answer: StudyResult, table: Table) -> str:
-    asked = [limit["output"] for limit in answer.design.study["require"]]
+def _idealized(idealization: Any, answer: StudyResult, table: Table) -> str:
+    required = [limit["output"] for limit in answer.design.study["require"]]
     headlines = ["spring_stiffness", "least_spring_stiffness", *(row.name for row in table.outputs if row.headline)]
-    first = dict.fromkeys(name for name in (*asked, *headlines) if name in one.as_drawn)
-    values = "; ".join(_as_drawn(name, one.as_drawn[name], answer, table) for name in list(first)[:2])
-    count = len(one.as_drawn)
+    first = dict.fromkeys(name for name in (*required, *headlines) if name in idealization.as_drawn)
+    values = "; ".join(_as_drawn(name, idealization.as_drawn[name], answer, table) for name in list(first)[:2])
+    count = len(idealization.as_drawn)
     rows = f"{count} values, marked in results.csv" if count else "no value here is another for it"
-    return f"{one.text}: {one.leaves_out} ({rows})" + (f"; {values}" if values else "")
+    return f"{idealization.text}: {idealization.leaves_out} ({rows})" + (f"; {values}" if values else "")
 
 
 def _as_drawn(name: str, drawn: float, answer: StudyResult, table: Table) -> str:
@@ -248,9 +248,11 @@ def chosen_fact(answer: StudyResult) -> list[Fact]:
         others = [f"with margins, {count}", f"ranked without margins, the best is {', '.join(first)}"]
     else:
         others = [f"best {count}, ranked without margins"]
-    for place, one in zip(("next", "third"), choosing.best[1:], strict=False):
-        worse = 100.0 * (one.objective / best.objective - 1.0)
-        others.append(f"the {place} is {worse:.2g} % worse: {', '.join(instead(one.choices)) or 'the one chosen'}")
+    for place, combination in zip(("next", "third"), choosing.best[1:], strict=False):
+        worse = 100.0 * (combination.objective / best.objective - 1.0)
+        others.append(
+            f"the {place} is {worse:.2g} % worse: {', '.join(instead(combination.choices)) or 'the one chosen'}"
+        )
     return [Fact("Chosen", [*(f"{label(name)} {word}" for name, word in own.items()), *others], listing=True)]
 
 
@@ -281,7 +283,11 @@ def _current(answer: StudyResult, table: Table) -> list[Fact]:
 
 def measured_fact(uncertainty: Mapping[str, Any]) -> list[Fact]:
     """Return what was measured, and the intervals that shrink most by it, before and after."""
-    names = [one["name"] for one in uncertainty.get("unmeasured", ()) if one["status"] == "measured"]
+    names = [
+        unmeasured_input["name"]
+        for unmeasured_input in uncertainty.get("unmeasured", ())
+        if unmeasured_input["status"] == "measured"
+    ]
     gains = shrunk(uncertainty.get("intervals", {}))
     if not names or not gains:
         return []

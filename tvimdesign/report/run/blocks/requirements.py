@@ -51,11 +51,11 @@ class Requirement:
 def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Requirement]:
     """Return an entry for each output the study requires something of, then the machine's violated rules."""
     table, intervals = table_for(answer.design.mode), uncertainty.get("intervals", {})
-    asked: dict[str, list[Mapping[str, Any]]] = {}
+    limits_by_output: dict[str, list[Mapping[str, Any]]] = {}
     for limit in answer.design.study["require"]:
-        asked.setdefault(limit["output"], []).append(limit)
+        limits_by_output.setdefault(limit["output"], []).append(limit)
     rows = []
-    for name, limits in asked.items():
+    for name, limits in limits_by_output.items():
         behind = {name, *table.output(name).least_of, *table.output(name).also_limited}
         checks = [check for check in answer.checks if check.origin == "require" and check.output in behind]
         assumed = next(iter(uncertainty.get("assumptions", {}).get(name, ())), None)
@@ -101,11 +101,11 @@ def _interval(name: str, table: Table, intervals: Mapping[str, Mapping[str, Any]
 
 
 def _requirement(
-    answer: StudyResult, table: Table, name: str, asked: str, checks: Sequence[ConstraintCheck]
+    answer: StudyResult, table: Table, name: str, limit_text: str, checks: Sequence[ConstraintCheck]
 ) -> Requirement:
     check = min(checks, key=lambda check: check.worst)
     stands, tone = _stands(answer, check, table)
-    return Requirement(name, asked, _got(answer, table, name, check), "", stands, tone, check.worst)
+    return Requirement(name, limit_text, _got(answer, table, name, check), "", stands, tone, check.worst)
 
 
 def _got(answer: StudyResult, table: Table, name: str, check: ConstraintCheck) -> str:

@@ -102,14 +102,14 @@ def _constant_currents(answer: StudyResult) -> list[str]:
     return [*lines, f"Default: this module at {currents(defaults)}; the paper heats with 1.5 A."]
 
 
-def constant_against(objective: float, found: Solution) -> str:
+def constant_against(objective: float, solution: Solution) -> str:
     """Compare the objective of the best constant current with that of the profile's module.
 
     They are unlike if that has margins for a yield; the fact "Current" compares both without.
     """
-    if found.yield_reached is not None:
+    if solution.yield_reached is not None:
         return "it has no margins for the yield, the profile's module has"
-    worse = objective / found.objective - 1.0
+    worse = objective / solution.objective - 1.0
     return f"its objective is {abs(worse):.1%} {'higher' if worse > 0.0 else 'lower'}"
 
 
@@ -179,9 +179,9 @@ def values_grid(values: Mapping[str, Any]) -> Grid:
     """Return every input and output as results.csv has it."""
     heads = [Head(text, text == "value") for text in ("name", "group", "value", "unit", "status", "meaning", "source")]
     cells = [
-        [Cell(name, code=True), Cell(one["group"]),
-         Cell("never", 1e300) if one["value"] is None else Cell(number(one["value"], 6), one["value"]),
-         *(Cell(one[key]) for key in ("unit", "status", "description", "source"))]
-        for name, one in values.items()
+        [Cell(name, code=True), Cell(value["group"]),
+         Cell("never", 1e300) if value["value"] is None else Cell(number(value["value"], 6), value["value"]),
+         *(Cell(value[key]) for key in ("unit", "status", "description", "source"))]
+        for name, value in values.items()
     ]  # fmt: skip
     return Grid("Inputs and outputs", heads, cells)

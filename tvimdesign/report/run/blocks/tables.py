@@ -180,15 +180,15 @@ def assumptions_grid(assumptions: Mapping[str, Sequence[Mapping[str, Any]]]) -> 
 def unmeasured_grid(uncertainty: Mapping[str, Any], values: Mapping[str, Any]) -> Grid:
     """Return every unmeasured input with its range, its source and the outputs that it moves, the weightiest first."""
     intervals = uncertainty["intervals"]
-    moved = {one["name"]: moves(one["name"], intervals) for one in uncertainty["unmeasured"]}
+    moved = {entry["name"]: moves(entry["name"], intervals) for entry in uncertainty["unmeasured"]}
     order = sorted(
-        uncertainty["unmeasured"], key=lambda one: -max((share for _, share in moved[one["name"]]), default=0)
+        uncertainty["unmeasured"], key=lambda entry: -max((share for _, share in moved[entry["name"]]), default=0)
     )
     rows = [
-        (one["name"], number(one["value"]), range_text(one), one["unit"], one["status"],
-         ", ".join(f"{output} {100.0 * share:.0f} %" for output, share in moved[one["name"]][:_NAMED]),
-         values[one["name"]]["source"])
-        for one in order
+        (entry["name"], number(entry["value"]), range_text(entry), entry["unit"], entry["status"],
+         ", ".join(f"{output} {100.0 * share:.0f} %" for output, share in moved[entry["name"]][:_NAMED]),
+         values[entry["name"]]["source"])
+        for entry in order
     ]  # fmt: skip
     heads = ("input", "value", "range", "unit", "status", "share of what it moves", "source")
     note = (

@@ -152,8 +152,8 @@ def _temperature(answer: StudyResult) -> Verdict | None:
     values, table = answer.design.values, table_for(answer.design.mode)
     if values.get("hot_point_margin", 0.0) >= -TEMPERATURE:
         return None
-    asked = [limit for limit in answer.design.study["require"] if limit["output"].endswith("@hot")]
-    if all(_is_met_at_the_end(limit, values) for limit in asked):
+    hot_limits = [limit for limit in answer.design.study["require"] if limit["output"].endswith("@hot")]
+    if all(_is_met_at_the_end(limit, values) for limit in hot_limits):
         return None
     reached, wanted = (values[name] for name in ("softened_temperature", "temperature@hot"))
     unit = table.unit("temperature@hot")

@@ -170,6 +170,6 @@ def _fits(words: Mapping[str, str], values: Mapping[str, Any], table: Table) -> 
         if any(feature.choice in words for feature in row.requires)
         for rule in row.rules
     ]
-    found = table.evaluate(values, list(dict.fromkeys(name for name, _ in brought)))
-    return all((found[name] - rule.value) * (1.0 if rule.sense == ">=" else -1.0) >= -RULE_TOLERANCE
+    fit_values = table.evaluate(values, list(dict.fromkeys(name for name, _ in brought)))
+    return all((fit_values[name] - rule.value) * (1.0 if rule.sense == ">=" else -1.0) >= -RULE_TOLERANCE
                for name, rule in brought)  # fmt: skip

@@ -66,7 +66,7 @@ class Fit:
 
     def __getitem__(self, name: str) -> Estimate:
         """Return a parameter, or what follows, by its name."""
-        return next(one for one in (*self.parameters, *self.derived) if one.name == name)
+        return next(estimate for estimate in (*self.parameters, *self.derived) if estimate.name == name)
 
 
 class BestFit(NamedTuple):
@@ -91,7 +91,10 @@ def best_fit(problem: Problem) -> BestFit:
     Raises InputError where there are fewer values than parameters, or the equations give no number at the start.
     """
     residuals = Residuals(problem)
-    return BestFit(residuals, robust_fit(residuals, np.array([one.inner(one.start) for one in problem.parameters])))
+    return BestFit(
+        residuals,
+        robust_fit(residuals, np.array([parameter.inner(parameter.start) for parameter in problem.parameters])),
+    )
 
 
 def fitted(problem: Problem, *, profiles: bool = True) -> Fit:
@@ -105,17 +108,17 @@ def with_intervals(fit: BestFit, *, profiles: bool = True) -> Fit:
     known = spread(residuals, best)
     free = {i for direction in known.free_directions for i in moved_by(direction)}
     parameters, words = [], in_words(fit.problem, known, best.inner)
-    for i, one in enumerate(fit.problem.parameters):
-        if one.nuisance:
+    for i, parameter in enumerate(fit.problem.parameters):
+        if parameter.nuisance:
             continue
-        ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and one.profiled)
-        words += _unbounded(one, ends)
-        parameters.append(_estimate(one, best.inner[i], ends))
+        ends = (None, None) if i in free else _ends(residuals, best, known, i, profiles and parameter.profiled)
+        words += _unbounded(parameter, ends)
+        parameters.append(_estimate(parameter, best.inner[i], ends))
     misfit = _misfit(residuals, best, known)
     return Fit(
         fit.problem, tuple(parameters), _derived(residuals, best, known), correlation(known.covariance),
         tuple(fit.predicted()), tuple(map(float, best.noise)),
-        tuple(one.rho for one in known.follows), (*words, *([misfit] if misfit else [])), misfit,
+        tuple(parameter.rho for parameter in known.follows), (*words, *([misfit] if misfit else [])), misfit,
     )  # fmt: skip
 
 
@@ -167,35 +170,35 @@ def _ends(residuals: Residuals, best: RobustFit, known: Spread, at: int, profile
     return profile_end(residuals, best, known, at, -1), profile_end(residuals, best, known, at, 1)
 
 
-def _within(one: Parameter, low: float, high: float) -> tuple[float, float]:
+def _within(parameter: Parameter, low: float, high: float) -> tuple[float, float]:
     """Return an interval within a parameter's bounds; open where a positive one reaches them."""
-    least, most = one.bounds
-    if not one.positive:
+    least, most = parameter.bounds
+    if not parameter.positive:
         return max(low, least), min(high, most)
     return low if low > least else -np.inf, high if high < most else np.inf
 
 
-def _estimate(one: Parameter, inner: float, ends: tuple[float | None, float | None]) -> Estimate:
-    low, high = (None if end is None or not np.isfinite(end) else float(one.outer(float(end))) for end in ends)
-    return Estimate(one.name, one.unit, one.meaning, float(one.outer(inner)), low, high)
+def _estimate(parameter: Parameter, inner: float, ends: tuple[float | None, float | None]) -> Estimate:
+    low, high = (None if end is None or not np.isfinite(end) else float(parameter.outer(float(end))) for end in ends)
+    return Estimate(parameter.name, parameter.unit, parameter.meaning, float(parameter.outer(inner)), low, high)
 
 
-def _unbounded(one: Parameter, ends: tuple[float | None, float | None]) -> list[str]:
+def _unbounded(parameter: Parameter, ends: tuple[float | None, float | None]) -> list[str]:
     sides = [side for end, side in zip(ends, ("below", "above"), strict=True) if end is not None and np.isinf(end)]
-    return [f"The data do not bound {one.name} from {side}." for side in sides]
+    return [f"The data do not bound {parameter.name} from {side}." for side in sides]
 
 
 def _derived(residuals: Residuals, best: RobustFit, known: Spread) -> tuple[Estimate, ...]:
     """Return derived quantities with intervals by the covariance; none where a free direction moves one."""
     logarithms, slopes = residuals.derived(best.inner)
-    found = []
-    for one, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
+    estimates = []
+    for quantity, middle, slope in zip(residuals.problem.derived, logarithms, slopes, strict=True):
         half = known.half(slope)
         open_ = any(abs(slope @ direction) > 1e-6 * np.max(np.abs(slope)) for direction in known.free_directions)
         open_ = open_ or half > _UNKNOWN
         ends = (None, None) if open_ else (float(np.exp(middle - half)), float(np.exp(middle + half)))
-        found.append(Estimate(one.name, one.unit, one.meaning, float(np.exp(middle)), *ends))
-    return tuple(found)
+        estimates.append(Estimate(quantity.name, quantity.unit, quantity.meaning, float(np.exp(middle)), *ends))
+    return tuple(estimates)
 
 
 def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
@@ -204,14 +207,14 @@ def in_words(problem: Problem, known: Spread, inner: Array) -> list[str]:
     `inner` are the solver's numbers of the best fit.
     """
     undetermined: set[int] = set()
-    said = []
+    sentences = []
     for direction in known.free_directions:
         moved = moved_by(direction)
         undetermined.update(moved)
         named = [i for i in moved if not problem.parameters[i].nuisance]
-        said += [_free(problem.parameters, direction, named, inner)] if named else []
-    said += _correlated(problem.parameters, correlation(known.covariance), undetermined)
-    return said + _following(problem, known)
+        sentences += [_free(problem.parameters, direction, named, inner)] if named else []
+    sentences += _correlated(problem.parameters, correlation(known.covariance), undetermined)
+    return sentences + _following(problem, known)
 
 
 def _following(problem: Problem, known: Spread) -> list[str]:
@@ -253,18 +256,18 @@ def _free(parameters: Sequence[Parameter], direction: Array, moved: Sequence[int
 
 
 def _correlated(parameters: Sequence[Parameter], rho: Array, left_out: set[int]) -> list[str]:
-    said = []
-    for i, one in enumerate(parameters):
+    sentences = []
+    for i, parameter in enumerate(parameters):
         for j in range(i + 1, len(parameters)):
-            if abs(rho[i, j]) < CLOSE or {i, j} & left_out or one.nuisance or parameters[j].nuisance:
+            if abs(rho[i, j]) < CLOSE or {i, j} & left_out or parameter.nuisance or parameters[j].nuisance:
                 continue
             how = "rises with" if rho[i, j] > 0.0 else "falls as"
             end = "" if rho[i, j] > 0.0 else " rises"
-            said.append(
-                f"The data hardly tell {one.name} and {parameters[j].name} apart (correlation {rho[i, j]:.3f}): "
-                f"{one.name} {how} {parameters[j].name}{end}, and each alone is less sure than both together."
+            sentences.append(
+                f"The data hardly tell {parameter.name} and {parameters[j].name} apart (correlation {rho[i, j]:.3f}): "
+                f"{parameter.name} {how} {parameters[j].name}{end}, and each alone is less sure than both together."
             )
-    return said
+    return sentences
 
 
 def _listed(names: Sequence[str]) -> str:

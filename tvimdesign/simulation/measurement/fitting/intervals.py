@@ -95,7 +95,7 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
     z = residuals.at(fit.inner) * weights
     jacobian = residuals.jacobian(fit.inner) * weights[:, None]
     taken = parameters_of(residuals, fit.inner, fit.noise)
-    within = np.diag([_box(one) for one in residuals.problem.parameters])
+    within = np.diag([_box(parameter) for parameter in residuals.problem.parameters])
     everything = within + jacobian.T @ jacobian
     groups = [
         _group([(z[part], jacobian[part]) for part in (residuals.parts[i] for i in alike)], everything,
@@ -115,10 +115,10 @@ def spread(residuals: Residuals, fit: RobustFit) -> Spread:
     return Spread(covariance, directions, tuple(parts), tuple(freedom), tuple(follows), slack)
 
 
-def _box(one: Parameter) -> float:
+def _box(parameter: Parameter) -> float:
     """Return one over the variance of a nuisance that is known to lie between two ends, width^2/12 [R]; 0 of others."""
-    least, most = one.bounds
-    bounded = one.nuisance and not one.positive and np.isfinite(most - least)
+    least, most = parameter.bounds
+    bounded = parameter.nuisance and not parameter.positive and np.isfinite(most - least)
     return 12.0 / (most - least) ** 2 if bounded else 0.0
 
 
@@ -136,13 +136,13 @@ def _group(channels: Sequence[tuple[Array, Array]], everything: Array, taken: fl
 
     `everything` is the curvature of the sum of squares of all data.
     """
-    z = np.concatenate([one for one, _ in channels])
+    z = np.concatenate([misfits for misfits, _ in channels])
     pull, slope = influence(z)
     mean, left = float(np.mean(slope)), max(1.0 - taken / len(z), 0.05)
     few = 1.0 + (1.0 - left) * float(np.var(slope)) / mean**2  # [H], correction for few data
     squares = np.sum([slopes.T @ slopes for _, slopes in channels], axis=0)
     freedom = max(len(z) - taken, 1.0)
-    series = [Series(influence(one)[0], slopes) for one, slopes in channels]
+    series = [Series(influence(channel)[0], slopes) for channel, slopes in channels]
     follows = following(series, everything - squares, freedom)
     moved = np.sum([moved_by_noise(slopes, follows.rho) for _, slopes in channels], axis=0)
     size = few**2 * float(np.mean(pull**2)) / left * follows.wider
@@ -169,8 +169,8 @@ def _inverse(matrix: Array) -> tuple[Array, tuple[Array, ...]]:
     scale[scale == 0.0] = 1.0
     values, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
     flat = values < _SMALLEST**2 * len(values) + 1e-13
-    kept = np.where(flat, 0.0, 1.0 / np.where(flat, 1.0, values))
-    inverse = (vectors * kept) @ vectors.T / np.outer(scale, scale)
+    inverses = np.where(flat, 0.0, 1.0 / np.where(flat, 1.0, values))
+    inverse = (vectors * inverses) @ vectors.T / np.outer(scale, scale)
     directions = (vectors[:, flat] / scale[:, None]).T
     return inverse, tuple(direction / np.max(np.abs(direction)) for direction in directions)
 

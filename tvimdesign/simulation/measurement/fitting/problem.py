@@ -116,12 +116,14 @@ class Residuals:
         """Build the functions."""
         self.problem = problem
         inner = ca.MX.sym("x", len(problem.parameters))
-        values: Values = {one.name: one.outer(inner[i]) for i, one in enumerate(problem.parameters)}
+        values: Values = {parameter.name: parameter.outer(inner[i]) for i, parameter in enumerate(problem.parameters)}
         predicted = [ca.vec(ca.MX(channel.predicted(values))) for channel in problem.channels]
-        compared = [ca.log(one) if c.relative else one for one, c in zip(predicted, problem.channels, strict=True)]
+        compared = [
+            ca.log(value) if c.relative else value for value, c in zip(predicted, problem.channels, strict=True)
+        ]
         self._values = ca.Function("values", [inner], [ca.vertcat(*compared)])
         self._jacobian = ca.Function("jacobian", [inner], [ca.jacobian(ca.vertcat(*compared), inner)])
-        following = [ca.log(ca.MX(one.formula(values))) for one in problem.derived]
+        following = [ca.log(ca.MX(quantity.formula(values))) for quantity in problem.derived]
         out = ca.vertcat(*following) if following else ca.MX(0, 1)
         self._derived = ca.Function("derived", [inner], [out, ca.jacobian(out, inner)])
         measured = [np.log(c.measured) if c.relative else c.measured for c in problem.channels]
@@ -141,8 +143,8 @@ class Residuals:
 
         No larger than `_FARTHEST` times the largest value measured, where the equations give less or no number.
         """
-        found: Array = self._measured - np.asarray(self._values(inner)).ravel()
-        numbers = np.nan_to_num(found, nan=self._most, posinf=self._most, neginf=-self._most)
+        differences: Array = self._measured - np.asarray(self._values(inner)).ravel()
+        numbers = np.nan_to_num(differences, nan=self._most, posinf=self._most, neginf=-self._most)
         clipped: Array = np.clip(numbers, -self._most, self._most)
         return clipped
 

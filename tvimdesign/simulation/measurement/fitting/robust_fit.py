@@ -71,10 +71,12 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
             "the equations give no number at the start of the fit; look at units and ranges of the columns"
         )
     _refuse_wild(residuals, start)
-    for one in residuals.problem.parameters:
-        least, most = one.bounds
+    for parameter in residuals.problem.parameters:
+        least, most = parameter.bounds
         if not least < most:
-            raise InputError(f"{one.name}: the data suggest {one.start:.0e} {one.unit}; look for a wrong number")
+            raise InputError(
+                f"{parameter.name}: the data suggest {parameter.start:.0e} {parameter.unit}; look for a wrong number"
+            )
     floor = _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts])
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
     noise = np.where(noise > 0.0, noise, floor)
@@ -105,7 +107,7 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
     tolerance, steps = (_EXACT, _MOST_STEPS) if fixed is None else (_ROUGH, _FEW_STEPS)
     free = np.arange(len(start)) != fixed
     weights = weights_of(residuals, noise)
-    bounds = np.array([one.bounds for one in residuals.problem.parameters])[free]
+    bounds = np.array([parameter.bounds for parameter in residuals.problem.parameters])[free]
 
     def whole(part: Array) -> Array:
         inner = start.copy()
@@ -118,13 +120,13 @@ def solved(residuals: Residuals, start: Array, noise: Array, fixed: int | None =
     def jacobian(part: Array) -> Array:
         return (residuals.jacobian(whole(part)) * weights[:, None])[:, free]
 
-    found = least_squares(
+    solution = least_squares(
         values,
         np.clip(start[free], bounds[:, 0], bounds[:, 1]), jac=jacobian, bounds=(bounds[:, 0], bounds[:, 1]),
         loss="soft_l1", f_scale=LINEAR_UP_TO, xtol=tolerance, ftol=tolerance, gtol=tolerance, max_nfev=steps,
         x_scale="jac",
     )  # fmt: skip
-    return whole(found.x)
+    return whole(solution.x)
 
 
 def parameters_of(residuals: Residuals, inner: Array, noise: Array) -> Array:
@@ -138,8 +140,8 @@ def parameters_of(residuals: Residuals, inner: Array, noise: Array) -> Array:
 def weights_of(residuals: Residuals, noise: Array) -> Array:
     """Return one over the noise, for every value."""
     weights = np.empty(residuals.problem.count)
-    for part, one in zip(residuals.parts, noise, strict=True):
-        weights[part] = 1.0 / one
+    for part, deviation in zip(residuals.parts, noise, strict=True):
+        weights[part] = 1.0 / deviation
     return weights
 
 

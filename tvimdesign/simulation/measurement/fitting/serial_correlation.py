@@ -61,15 +61,15 @@ def following(series: Sequence[Series], others: Array, freedom: float) -> Follow
     `others` is what all else says of the numbers fitted (their curvature), `freedom` the values less the parameters
     that they determine.
     """
-    if sum(len(one.pulls) for one in series) < FEWEST or not any(np.any(one.pulls) for one in series):
+    if sum(len(each.pulls) for each in series) < FEWEST or not any(np.any(each.pulls) for each in series):
         return INDEPENDENT
     whole, neighbours, inner = (np.sum(part, axis=0) for part in zip(*map(_products, series), strict=True))
     size = np.sqrt(np.append(np.diag(others), 0.0) + np.diag(whole))
     size[size == 0.0] = 1.0
-    squares = [one / np.outer(size, size) for one in (whole, neighbours, inner)]
+    squares = [each / np.outer(size, size) for each in (whole, neighbours, inner)]
     at = np.append(_RHO, 0.0)
     left, logarithm = _left_and_logarithm(squares, others / np.outer(size, size)[:-1, :-1], at)
-    ends = sum(len(one.pulls) - 1 for one in series)
+    ends = sum(len(each.pulls) - 1 for each in series)
     likelihood = -0.5 * (ends * np.log1p(-(at**2)) + logarithm + freedom * np.log(left))[:-1]
     chance = np.exp(likelihood - np.max(likelihood))
     chance /= np.sum(chance)
@@ -95,9 +95,9 @@ def moved_by_noise(slopes: Array, rho: float) -> Array:
     return np.asarray(square + wider)
 
 
-def _products(one: Series) -> tuple[Array, Array, Array]:
+def _products(each: Series) -> tuple[Array, Array, Array]:
     """Return sums of products of rows (slopes, pull): with themselves, with neighbours, and without both ends."""
-    rows = np.column_stack([one.slopes, one.pulls])
+    rows = np.column_stack([each.slopes, each.pulls])
     beside = rows[1:].T @ rows[:-1]
     return rows.T @ rows, beside + beside.T, rows[1:-1].T @ rows[1:-1]
 

@@ -88,8 +88,8 @@ def rows_of(block: Block, quantities: Sequence[str]) -> list[Array]:
     import numpy as np
 
     values = [block.values(quantity) for quantity in quantities]
-    whole = np.all([np.isfinite(one) for one in values], axis=0)
-    return [one[whole] for one in values]
+    whole = np.all([np.isfinite(column) for column in values], axis=0)
+    return [value[whole] for value in values]
 
 
 def series_of(block: Block, quantities: Sequence[str], most: int = 0) -> list[Array]:
@@ -101,7 +101,7 @@ def series_of(block: Block, quantities: Sequence[str], most: int = 0) -> list[Ar
 
     every = rows_of(block, quantities)
     step = -(-len(every[0]) // most) if most else 1
-    taken = [one[::step] for one in every]
+    taken = [column[::step] for column in every]
     if np.any(np.diff(taken[0]) <= 0.0):
         raise InputError(f"{block.place}: {quantities[0]} does not rise from row to row")
     return taken

@@ -30,20 +30,26 @@ class ColumnMap:
 
     def applied(self, headings: list[Heading]) -> list[Heading]:
         """Return the headings with what the map says; a quantity it names is no longer found elsewhere."""
-        taken = [one._replace(quantity="") if one.quantity in self.columns else one for one in headings]
+        taken = [heading._replace(quantity="") if heading.quantity in self.columns else heading for heading in headings]
         for quantity, entry in self.columns.items():
-            for i, one in enumerate(taken):
+            for i, heading in enumerate(taken):
                 meant = (
-                    plain(one.text) == plain(str(entry["heading"])) if "heading" in entry else i + 1 == entry["column"]
+                    plain(heading.text) == plain(str(entry["heading"]))
+                    if "heading" in entry
+                    else i + 1 == entry["column"]
                 )
                 if meant:
-                    taken[i] = one._replace(quantity=quantity, unit=str(entry.get("unit", one.unit)))
-        return [_in_si(one) for one in taken] if self.units else taken
+                    taken[i] = heading._replace(quantity=quantity, unit=str(entry.get("unit", heading.unit)))
+        return [_in_si(heading) for heading in taken] if self.units else taken
 
 
-def _in_si(one: Heading) -> Heading:
+def _in_si(heading: Heading) -> Heading:
     """Return a heading without a unit with that of SI."""
-    return one if one.unit or not one.quantity else one._replace(unit=pretty(si_unit(unit_of(one.quantity))))
+    return (
+        heading
+        if heading.unit or not heading.quantity
+        else heading._replace(unit=pretty(si_unit(unit_of(heading.quantity))))
+    )
 
 
 def read_column_map(path: Path) -> ColumnMap:

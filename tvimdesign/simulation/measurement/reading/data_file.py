@@ -71,7 +71,7 @@ class Block:
                 raise InputError(self.problems[quantity])
         if any(quantity not in self.columns for quantity in quantities):
             return 0
-        return int(np.sum(np.all([np.isfinite(self.values(one)) for one in quantities], axis=0)))
+        return int(np.sum(np.all([np.isfinite(self.values(name)) for name in quantities], axis=0)))
 
     def number(self, setting: str) -> float | None:
         """Return a setting said before the table, in SI; None where it is not there or no number."""
@@ -81,8 +81,8 @@ class Block:
             value = float(words[0])
         except (IndexError, ValueError):
             return None
-        found = conversion(words[1] if len(words) > 1 else entry["unit"], entry["unit"])
-        return None if found is None else found[0] + found[1] * value
+        converted = conversion(words[1] if len(words) > 1 else entry["unit"], entry["unit"])
+        return None if converted is None else converted[0] + converted[1] * value
 
     def shown(self, uses: Sequence[str] = ()) -> list[str]:
         """Return lines on its columns with their units and ranges: those of `uses`, or all, and what is unused then."""
@@ -144,26 +144,28 @@ def _place(path: Path, sheet: Sheet) -> str:
 def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
     lines = raw.rows[0].line, raw.rows[-1].line
     good, flagged = _not_flagged(raw)
-    found: dict[str, Column] = {}
+    columns_by_name: dict[str, Column] = {}
     problems: dict[str, str] = {}
     if not good:
         why = f"{file}:{lines[0]}: {flagged}: no row is left; measure where the instrument can"
-        problems = {one.quantity: why for one in raw.headings if one.quantity}
+        problems = {heading.quantity: why for heading in raw.headings if heading.quantity}
     raw = replace(raw, rows=good or raw.rows)
     unused = []
-    for i, one in enumerate(columns.applied(raw.headings)):
-        if not one.quantity or one.quantity in found or not good:
-            unused += [one.text] if one.text and not one.text.startswith("column ") else []
+    for i, heading in enumerate(columns.applied(raw.headings)):
+        if not heading.quantity or heading.quantity in columns_by_name or not good:
+            unused += [heading.text] if heading.text and not heading.text.startswith("column ") else []
             continue
         try:
-            column = _column(i, one, raw, sheet, file)
+            column = _column(i, heading, raw, sheet, file)
         except InputError as error:
-            problems.setdefault(one.quantity, str(error))
+            problems.setdefault(heading.quantity, str(error))
             continue
         if column is not None:
-            found[one.quantity] = column
-    unread = {quantity: why for quantity, why in problems.items() if quantity not in found}
-    return Block(file, raw.title, lines, found, tuple(unused), raw.settings, tuple(raw.skipped), unread, flagged)
+            columns_by_name[heading.quantity] = column
+    unread = {quantity: why for quantity, why in problems.items() if quantity not in columns_by_name}
+    return Block(
+        file, raw.title, lines, columns_by_name, tuple(unused), raw.settings, tuple(raw.skipped), unread, flagged
+    )
 
 
 def _folded(text: str) -> str:
@@ -180,7 +182,7 @@ def _is_flag(cell: str) -> bool:
 
 def _not_flagged(raw: RawBlock) -> tuple[list[Row], str]:
     """Return the rows that the instrument does not flag in a column of verdicts, and a count of the others in words."""
-    columns = [i for i, one in enumerate(raw.headings) if plain(one.text) in known()["verdicts"]["names"]]
+    columns = [i for i, heading in enumerate(raw.headings) if plain(heading.text) in known()["verdicts"]["names"]]
     good, counts = [], Counter[str]()
     for row in raw.rows:
         cells = [_folded(row.cells[i]) for i in columns if i < len(row.cells)]
@@ -193,28 +195,28 @@ def _not_flagged(raw: RawBlock) -> tuple[list[Row], str]:
     return good, f"{counts.total()} of {len(raw.rows)} rows are flagged by the instrument ({named})" if counts else ""
 
 
-def _column(at: int, one: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Column | None:
+def _column(at: int, heading: Heading, raw: RawBlock, sheet: Sheet, file: str) -> Column | None:
     """Return a column in SI; None where all its cells are empty. Raises InputError."""
     cells = [row.cells[at] if at < len(row.cells) else "" for row in raw.rows]
     if all(cell.lower() in _NOTHING for cell in cells):
         return None
-    wanted = unit_of(one.quantity)
-    where = f"{file}:{raw.rows[0].line}: column {at + 1}, {one.text!r}"
-    if not one.unit:
+    wanted = unit_of(heading.quantity)
+    where = f"{file}:{raw.rows[0].line}: column {at + 1}, {heading.text!r}"
+    if not heading.unit:
         raise InputError(
-            f"{where}, has no unit; write it into the heading, as in '{one.text} [{wanted}]', or into a column map"
+            f"{where}, has no unit; write it into the heading, as in '{heading.text} [{wanted}]', or into a column map"
         )
-    found = conversion(one.unit, wanted)
-    if found is None:
-        raise InputError(f"{where}: {one.unit!r} is no unit of {one.quantity}, such as {wanted}")
+    converted = conversion(heading.unit, wanted)
+    if converted is None:
+        raise InputError(f"{where}: {heading.unit!r} is no unit of {heading.quantity}, such as {wanted}")
     numbers = [_number(cell, row.line, at, sheet, file) for cell, row in zip(cells, raw.rows, strict=True)]
     with np.errstate(over="ignore"):
-        values = found[0] + found[1] * np.array(numbers, dtype=float)
+        values = converted[0] + converted[1] * np.array(numbers, dtype=float)
     if np.any(np.isinf(values)) or np.all(np.isnan(values)):
         raise InputError(f"{where}: a value is too large, or none is a number")
-    if one.quantity.endswith("temperature") and np.nanmin(values) < _COLDEST:
+    if heading.quantity.endswith("temperature") and np.nanmin(values) < _COLDEST:
         raise InputError(f"{where}: {np.nanmin(values):g} K is at absolute zero, or below; look at the column's unit")
-    return Column(one.quantity, one.text, one.unit, values)
+    return Column(heading.quantity, heading.text, heading.unit, values)
 
 
 def _number(cell: str, line: int, at: int, sheet: Sheet, file: str) -> float:
@@ -228,10 +230,10 @@ def _number(cell: str, line: int, at: int, sheet: Sheet, file: str) -> float:
 
 def _range(column: Column) -> str:
     """Describe a column, as in `'G'' [Pa], 120 to 4.1e5`, in the file's own unit."""
-    found = conversion(column.unit, unit_of(column.quantity))
-    assert found is not None
+    converted = conversion(column.unit, unit_of(column.quantity))
+    assert converted is not None
     finite = column.values[np.isfinite(column.values)]
-    low, high = ((end - found[0]) / found[1] for end in (finite.min(), finite.max()))
+    low, high = ((end - converted[0]) / converted[1] for end in (finite.min(), finite.max()))
     unit = pretty(column.unit) or "plain number"
     gaps = len(column.values) - len(finite)
     counted = f", {gaps} {'gap' if gaps == 1 else 'gaps'}" if gaps else ""

@@ -45,11 +45,11 @@ def known() -> dict[str, Any]:
 @cache
 def _by_name() -> dict[str, list[str]]:
     """Return the quantities a name may stand for."""
-    found: dict[str, list[str]] = {}
+    quantities_by_name: dict[str, list[str]] = {}
     for key, entry in known()["quantities"].items():
         for name in [*entry["names"], key]:
-            found.setdefault(plain(name), []).append(key)
-    return found
+            quantities_by_name.setdefault(plain(name), []).append(key)
+    return quantities_by_name
 
 
 def plain(name: str) -> str:
@@ -86,7 +86,10 @@ def _quantity(text: str, unit: str) -> str:
     """Return the quantity of a name: of several, the one that has such a unit."""
     without = _IN_BRACKETS.fullmatch(text)
     may_be = _by_name().get(plain(text)) or (_by_name().get(plain(without[1])) if without else None) or [""]
-    return next((one for one in may_be if one and unit and conversion(unit, unit_of(one)) is not None), may_be[0])
+    return next(
+        (quantity for quantity in may_be if quantity and unit and conversion(unit, unit_of(quantity)) is not None),
+        may_be[0],
+    )
 
 
 def read_unit(text: str) -> str:
@@ -123,10 +126,12 @@ def conversion(unit: str, wanted: str) -> tuple[float, float] | None:
     for kind in kinds:
         for text in {unit, unit.replace("C", "degC") if unit in {"C", "°C"} else unit}:
             try:
-                zero, one = (parse_quantity(f"{count} {text}" if text != "1" else count, kind) for count in ("0", "1"))
+                zero, unit_value = (
+                    parse_quantity(f"{count} {text}" if text != "1" else count, kind) for count in ("0", "1")
+                )
             except UnitError:
                 continue
-            return zero, one - zero
+            return zero, unit_value - zero
     return None
 
 

@@ -144,21 +144,21 @@ def separated(text: str, file: str, separator: str = "", decimal: str = "") -> S
     lines = text.splitlines()
     begin = list(islice((line for line in lines if line.strip()), _LINES_LOOKED_AT))
     choices = [
-        (one, sign)
-        for one in ([separator] if separator else SEPARATORS)
+        (mark, sign)
+        for mark in ([separator] if separator else SEPARATORS)
         for sign in ([decimal] if decimal else DECIMALS)
-        if not (one == "comma" and sign == "comma")
+        if not (mark == "comma" and sign == "comma")
     ]
-    counts = [_counts(begin, one, sign) for one, sign in choices]
+    counts = [_counts(begin, mark, sign) for mark, sign in choices]
     scores = [good - 3 * bad for good, bad in counts]
     if not scores or max(scores) <= 0:
         raise InputError(f"{file}: no line has two numbers side by side; expected columns of numbers under headings")
     likely = [i for i, score in enumerate(scores) if score >= _LIKELY * max(scores)]
-    found, sign = choices[min(likely, key=lambda i: counts[i][1])]
+    chosen, sign = choices[min(likely, key=lambda i: counts[i][1])]
     if sign == "comma" and not decimal:
-        _refuse_thousands(begin, found, file)
-    rows = (Row(i, cells_of(line, found)) for i, line in enumerate(lines, start=1))
-    return Sheet(tuple(rows), found, sign)
+        _refuse_thousands(begin, chosen, file)
+    rows = (Row(i, cells_of(line, chosen)) for i, line in enumerate(lines, start=1))
+    return Sheet(tuple(rows), chosen, sign)
 
 
 def cells_of(line: str, separator: str) -> tuple[str, ...]:

@@ -34,24 +34,24 @@ def blocks_of(sheet: Sheet, file: str, ending: str, *, by_place: bool = False) -
 
     Raises InputError, with the line, where rows and headings do not go together.
     """
-    found: list[RawBlock] = []
+    blocks: list[RawBlock] = []
     settings: dict[str, str] = {}
     titles, begin = [(0, sheet.title)], 0
     rows = sheet.rows
     while begin < len(rows):
         if not _begins(sheet, begin):
-            said = _said(rows[begin], settings)
-            titles += [(rows[begin].line, said)] if said else []
+            setting_text = _said(rows[begin], settings)
+            titles += [(rows[begin].line, setting_text)] if setting_text else []
             begin += 1
             continue
         headings, head_line = _headings(sheet, begin, file, ending, by_place=by_place)
         title = [text for line, text in titles if line < head_line][-1]
         end, skipped = _end(sheet, begin, file)
-        kept = [row for row in rows[begin:end] if row.line not in skipped]
-        _refuse_ragged(kept, len(headings), file)
-        found += _divided(RawBlock(title, headings, kept, dict(settings), skipped))
+        data_rows = [row for row in rows[begin:end] if row.line not in skipped]
+        _refuse_ragged(data_rows, len(headings), file)
+        blocks += _divided(RawBlock(title, headings, data_rows, dict(settings), skipped))
         titles, begin = [(0, sheet.title)], end
-    return found
+    return blocks
 
 
 def _is_data(sheet: Sheet, row: Row) -> bool:
@@ -119,27 +119,27 @@ def _headings(sheet: Sheet, begin: int, file: str, ending: str, *, by_place: boo
     rows = sheet.rows
     names, units = _names_and_units(_rows_above(sheet, begin), sheet.numbers(rows[begin]))
     default = known()["formats"].get(ending.lower(), [])
-    found = _aligned(names, units, rows[begin], sheet, default) if names else []
+    heads = _aligned(names, units, rows[begin], sheet, default) if names else []
     width = sum(map(bool, rows[begin].cells))
     line = min((row.line for row in (names, units) if row), default=rows[begin].line)
     if default:  # by place, as the format has them, where the headings do not say it
-        if not {one.quantity for one in found} >= {name for name, _ in default}:
-            found = [heading(f"{name} [{unit}]") for name, unit in default]
-        return found + [Heading(f"column {i}", "", "") for i in range(len(found) + 1, _MOST_COLUMNS)], line
-    if not found and by_place:
+        if not {column.quantity for column in heads} >= {name for name, _ in default}:
+            heads = [heading(f"{name} [{unit}]") for name, unit in default]
+        return heads + [Heading(f"column {i}", "", "") for i in range(len(heads) + 1, _MOST_COLUMNS)], line
+    if not heads and by_place:
         return [Heading(f"column {i}", "", "") for i in range(1, len(rows[begin].cells) + 1)], line
-    if not found:
+    if not heads:
         raise InputError(
             f"{file}:{rows[begin].line}: numbers without a row of headings above them; write one, such as "
             "'time [s]; angle [deg]', or say it by place in a file for --columns: "
             "{time: {column: 1, unit: s}, angle: {column: 2, unit: deg}}"
         )
-    if sheet.separator == "blanks" and len(found) != width:
+    if sheet.separator == "blanks" and len(heads) != width:
         raise InputError(
-            f"{file}:{rows[begin].line}: {width} numbers under {len(found)} headings; where blanks separate, a heading "
+            f"{file}:{rows[begin].line}: {width} numbers under {len(heads)} headings; where blanks separate, a heading "
             "is one word: separate by tabs or semicolons"
         )
-    return found, line
+    return heads, line
 
 
 def _rows_above(sheet: Sheet, begin: int) -> list[Row]:
@@ -188,9 +188,9 @@ def _aligned(
     if len(given) == len(texts) - 1 and plain(texts[0]) in {"index", "no", "nr", "point", "#"}:
         given = ["1", *given]  # a count of the rows has no unit, not even an empty cell where blanks separate
     given = [unit or "1" for unit in given] + ["1" if units else ""] * (len(texts) - len(given))
-    found = [heading(text, unit) for text, unit in zip(texts, given, strict=False)]
+    columns = [heading(text, unit) for text, unit in zip(texts, given, strict=False)]
     fallback = dict(default)
-    return [one if one.unit else one._replace(unit=fallback.get(one.quantity, "")) for one in found]
+    return [column if column.unit else column._replace(unit=fallback.get(column.quantity, "")) for column in columns]
 
 
 def _refuse_ragged(rows: Sequence[Row], count: int, file: str) -> None:
@@ -204,7 +204,7 @@ def _refuse_ragged(rows: Sequence[Row], count: int, file: str) -> None:
 
 def _divided(block: RawBlock) -> list[RawBlock]:
     """Split a table by the column that names its parts, such as Malvern's `Action Name` or NETZSCH's `Segment`."""
-    names = [plain(one.text) for one in block.headings]
+    names = [plain(title.text) for title in block.headings]
     column = next((names.index(name) for name in known()["divided_by"] if name in names), None)
     if column is None:
         return [block]

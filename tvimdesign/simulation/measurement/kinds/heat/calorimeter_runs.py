@@ -60,7 +60,7 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
     threshold = max(_LEAST_RATE, 0.2 * float(np.median(np.abs(smooth))))
     kinds = np.where(smooth < -threshold, -1, np.where(smooth > threshold, 1, 0))
     edges = [0, *(np.flatnonzero(np.diff(kinds)) + 1), len(kinds)]
-    found = []
+    runs = []
     for begin, end in pairwise(edges):
         way = {-1: "cooled", 0: "held", 1: "heated"}[int(kinds[begin])]
         span = float(np.ptp(temperature[begin:end]))
@@ -69,8 +69,8 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
         every = -(-(end - begin) // _MOST_ROWS)
         part = slice(begin, end, every)
         name = f"{block.title or block.file}, {way}"
-        found.append(Run(name, way, time[part] - time[begin], temperature[part], heat[part]))
-    return found
+        runs.append(Run(name, way, time[part] - time[begin], temperature[part], heat[part]))
+    return runs
 
 
 def _at_new_times(block: Block, which: str) -> list[Array]:

@@ -58,8 +58,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         )
     end = Derived("melting_end", "degC", "Temperature at which melting ends",
                   lambda values: values["melting_start"] + values["melting_width"])  # fmt: skip
-    found = fitted(Problem(parameters, channels, [end] if melting else []), profiles=profiles)
-    reported = {one.name: one for one in (*found.parameters, *found.derived)}
+    fit = fitted(Problem(parameters, channels, [end] if melting else []), profiles=profiles)
+    reported = {estimate.name: estimate for estimate in (*fit.parameters, *fit.derived)}
     values = {name: reported[name] for name in _RECORD if name in reported}
     chosen = {
         "crystallization_reference": (settings["reference_temperature"], "degC"),
@@ -67,7 +67,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
             ("equilibrium_melting_temperature", "degC"), ("glass_transition", "degC"), ("transport_energy", "kJ/mol"),
         )},
     }  # fmt: skip
-    return Measurement(found, tuple(_notes(runs, upwards)), values, {}, chosen if freezing else {})
+    return Measurement(fit, tuple(_notes(runs, upwards)), values, {}, chosen if freezing else {})
 
 
 def kinetics_of(values: Values, settings: Settings) -> crystallization.Kinetics:
@@ -130,17 +130,17 @@ def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
 
 def _fraction_and_slope(psi: Any, kinetics: crystallization.Kinetics) -> tuple[Any, Any]:
     """Return X(psi) and dX/dpsi, the exact derivative of the product's equation."""
-    one, exponent = ca.SX.sym("psi"), ca.SX.sym("n")
-    fraction = crystallization.solid_fraction(one, kinetics._replace(avrami_exponent=exponent))
-    both = ca.Function("both", [one, exponent], [fraction, ca.gradient(fraction, one)])
+    reduced, exponent = ca.SX.sym("psi"), ca.SX.sym("n")
+    fraction = crystallization.solid_fraction(reduced, kinetics._replace(avrami_exponent=exponent))
+    both = ca.Function("both", [reduced, exponent], [fraction, ca.gradient(fraction, reduced)])
     count = psi.shape[0]
-    found, slope = both.map(count)(psi.T, ca.repmat(ca.MX(kinetics.avrami_exponent), 1, count))
-    return found.T, slope.T
+    values, slope = both.map(count)(psi.T, ca.repmat(ca.MX(kinetics.avrami_exponent), 1, count))
+    return values.T, slope.T
 
 
 def _window_start(runs: Sequence[Run]) -> list[Parameter]:
     """Return start and width of the window, from the half-height of the melting peak."""
-    run = max(runs, key=lambda one: float(np.ptp(one.heat)))
+    run = max(runs, key=lambda candidate: float(np.ptp(candidate.heat)))
     down = np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]]) - run.heat
     inside = run.temperature[down > 0.4 * np.max(down)]
     width = max(float(inside[-1] - inside[0]), 1.0)

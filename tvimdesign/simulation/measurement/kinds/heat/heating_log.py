@@ -56,14 +56,14 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     for i, block in enumerate(blocks):
         end = "" if len(blocks) == 1 else f"_{i + 1}"
         time, current, seen = _log(block)
-        air = float(np.mean([one[0] for one in seen.values()]))
+        air = float(np.mean([temperatures[0] for temperatures in seen.values()]))
         parameters.append(
             Parameter(_AMBIENT + end, "degC", "Temperature of the air", air, positive=False, scale=1.0, profiled=False)
         )
         channels += _channels(block, module, _course(time, current, block.file), seen, _AMBIENT + end)
-    found = fitted(Problem(parameters, channels), profiles=profiles)
-    known = {row.name: found[row.name] for row in rows}
-    return Measurement(found, tuple(_notes(rows, channels, source)), known)
+    fit = fitted(Problem(parameters, channels), profiles=profiles)
+    known = {row.name: fit[row.name] for row in rows}
+    return Measurement(fit, tuple(_notes(rows, channels, source)), known)
 
 
 def _rows(resolved: ResolvedModule, settings: Settings) -> list[Input]:
@@ -73,7 +73,7 @@ def _rows(resolved: ResolvedModule, settings: Settings) -> list[Input]:
     for name in chosen:
         if name not in there:
             raise InputError(f"--set fitted: {name[:40]} is no contact or loss of such a module; {', '.join(there)}")
-    counting = [name for name, row in there.items() if all(_has(resolved, one) for one in row.requires)]
+    counting = [name for name, row in there.items() if all(_has(resolved, requirement) for requirement in row.requires)]
     return [there[name] for name in chosen or counting]
 
 
@@ -87,7 +87,7 @@ def _log(block: Block) -> tuple[Array, Array, dict[str, Array]]:
     places = [name for name in PLACES if name in block.columns]
     time, current, *seen = series_of(block, ["time", "current", *places])
     where = f"{block.place}"
-    first = [one[0] for one in seen]
+    first = [temperatures[0] for temperatures in seen]
     if np.ptp(first) > _COLD:
         raise InputError(
             f"{where}: the temperatures of the first row differ by {np.ptp(first):.1f} K; a log begins with a module "
@@ -119,13 +119,13 @@ def _channels(
     block: Block, module: LoggedModule, course: tuple[Course, Array], seen: Mapping[str, Array], ambient: str
 ) -> list[Channel]:
     moments, rows = course
-    kept: list[tuple[Values, dict[str, Any]]] = []
+    inputs_kept: list[tuple[Values, dict[str, Any]]] = []
 
     def all_of(values: Values) -> dict[str, Any]:
         # the same symbols ask for every column: gone through once
-        if not kept or kept[0][0] is not values:
-            kept[:] = [(values, module.temperatures(moments, {**values, _AMBIENT: values[ambient]}))]
-        return kept[0][1]
+        if not inputs_kept or inputs_kept[0][0] is not values:
+            inputs_kept[:] = [(values, module.temperatures(moments, {**values, _AMBIENT: values[ambient]}))]
+        return inputs_kept[0][1]
 
     def predicted(place: str) -> Callable[[Values], Any]:
         return lambda values: all_of(values)[place]

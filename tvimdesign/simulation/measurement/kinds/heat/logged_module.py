@@ -54,16 +54,16 @@ class LoggedModule:
         heating, cooling = self._model.phases["softening"], self._model.phases["stiffening"]
         inputs, at = self._inputs(given), course.cooled_from
         states = heating.initial(inputs)
-        found = [self._seen(heating, states, course.current[:1], inputs)]
+        seen = [self._seen(heating, states, course.current[:1], inputs)]
         if at > 0:
             warmed = self._march(heating, states, course.time[: at + 1], course.current[:at], given)
-            found.append(self._seen(heating, warmed, course.current[:at], inputs))
+            seen.append(self._seen(heating, warmed, course.current[:at], inputs))
             states = warmed[:, -1]
         if at < len(course.current):
             begin = cooling.begin(states, inputs)
             cooled = self._march(cooling, begin, course.time[at:], course.current[at:], given)
-            found.append(self._seen(cooling, cooled, course.current[at:], inputs))
-        every = ca.horzcat(*found)
+            seen.append(self._seen(cooling, cooled, course.current[at:], inputs))
+        every = ca.horzcat(*seen)
         return {place: every[row, :].T for place, row in self.places.items()}
 
     def _seen(self, phase: PhaseFunctions, states: Any, current: Array, inputs: Any) -> Any:

@@ -40,8 +40,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         differences.append(float(np.max(np.abs(hot - cold))))
         names = [f"hot_{i}_{row}" for row in range(len(hot))]
         faces += [
-            Parameter(name, "degC", "Temperature of the hot face", one, positive=False, nuisance=True)
-            for name, one in zip(names, hot, strict=True)
+            Parameter(name, "degC", "Temperature of the hot face", temperature, positive=False, nuisance=True)
+            for name, temperature in zip(names, hot, strict=True)
         ]
         state = _State(current, names, heat, settings["leak"], settings["ambient"])
         channels += [
@@ -50,7 +50,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
                     np.concatenate([current, current]), "current", "A"),
         ]  # fmt: skip
     seebeck, resistance, conductance = np.median(starts, axis=0)
-    found = fitted(
+    fit = fitted(
         Problem([
             Parameter("seebeck", "mV/K", "Voltage for each kelvin between the faces", seebeck),
             Parameter("resistance", "ohm", "Resistance", resistance),
@@ -59,11 +59,11 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         ], channels),
         profiles=profiles,
     )  # fmt: skip
-    values = {name: found[name] for name in ("seebeck", "resistance", "conductance")}
+    values = {name: fit[name] for name in ("seebeck", "resistance", "conductance")}
     notes = _notes(settings, max(differences))
     if not _two_currents([rows_of(block, ["current"])[0] for block in blocks]):
-        return Measurement(found, (_ONE_CURRENT, *notes))
-    return Measurement(found, tuple(notes), values)
+        return Measurement(fit, (_ONE_CURRENT, *notes))
+    return Measurement(fit, tuple(notes), values)
 
 
 def _two_currents(every: Sequence[Array]) -> bool:

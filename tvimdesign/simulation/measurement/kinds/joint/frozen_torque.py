@@ -76,30 +76,30 @@ class Turned(NamedTuple):
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit joints that were turned until they gave, together: one stiffness and torque. Raises InputError."""
     joints = [_turned(block, end) for block, end in zip(blocks, endings(blocks), strict=True)]
-    gave = [one for one in joints if one.bends]
-    broke = [one for one in joints if one.broke and not one.bends]
+    gave = [joint for joint in joints if joint.bends]
+    broke = [joint for joint in joints if joint.broke and not joint.bends]
     broke = broke if len(broke) >= _LEAST_BREAKS else []
     parameters = [Parameter("stiffness", "N*m/rad", "Stiffness of the frozen joint", joints[0].line[0])]
     if gave or broke:
-        most = float(np.median([one.most for one in (*gave, *broke)]))
+        most = float(np.median([joint.most for joint in (*gave, *broke)]))
         parameters.append(Parameter("holding_torque", "N*m", "Torque at which it gives", most))
     parameters += [
-        Parameter(f"zero_angle{one.end}", "deg", "Angle without torque", one.line[1], positive=False,
-                  scale=float(np.ptp(one.angle)))
-        for one in joints
+        Parameter(f"zero_angle{joint.end}", "deg", "Angle without torque", joint.line[1], positive=False,
+                  scale=float(np.ptp(joint.angle)))
+        for joint in joints
     ]  # fmt: skip
-    channels = [one.channel() for one in joints]
+    channels = [joint.channel() for joint in joints]
     if broke:
-        torques = np.array([one.most for one in broke])
+        torques = np.array([joint.most for joint in broke])
         channels.append(
             Channel("torque at the break", "N*m", torques,
                     lambda values: values["holding_torque"] * ca.DM.ones(len(torques)),
                     np.arange(1.0, len(torques) + 1.0), "joint", "1", relative=True)
         )  # fmt: skip
     with_bond = bool(gave or broke) and any(name in settings for name in _SIZES)
-    found = fitted(Problem(parameters, channels, _bond(settings) if with_bond else []), profiles=profiles)
-    record = {"bond_strength": found["bond_strength"]} if with_bond else {}
-    return Measurement(found, tuple(_notes(joints, bool(gave or broke), with_bond)), record)
+    fit = fitted(Problem(parameters, channels, _bond(settings) if with_bond else []), profiles=profiles)
+    record = {"bond_strength": fit["bond_strength"]} if with_bond else {}
+    return Measurement(fit, tuple(_notes(joints, bool(gave or broke), with_bond)), record)
 
 
 def torque_of(angle: Any, values: Values, zero: str = "zero_angle", *, bends: bool = True) -> Any:
@@ -139,7 +139,7 @@ def _bond(settings: Settings) -> list[Derived]:
 def _notes(joints: Sequence[Turned], seen: bool, with_bond: bool) -> list[str]:
     notes = ["The stiffness is that of all between the two places the angle is measured at: fixture and link too."]
     if not seen:
-        most = max(one.most for one in joints)
+        most = max(joint.most for joint in joints)
         notes.append(
             f"The torque rises straight up to its largest value: the joint holds {most:.3g} N.m at least. Where it "
             f"gives is not fitted; {_LEAST_BREAKS} joints that break give a torque with an interval."

@@ -73,8 +73,8 @@ class JointOfModule:
         as_built = {**self.resolved.values, **given, f"frequency@{point}": self.omega / (2.0 * np.pi)}
         if self.state == FROZEN:
             names = [f"joint_stiffness@{point}", f"joint_damping@{point}"]
-            found = table.evaluate(as_built, names)
-            return found[names[0]], found[names[1]]
+            values_by_name = table.evaluate(as_built, names)
+            return values_by_name[names[0]], values_by_name[names[1]]
         springs = table.evaluate(as_built, ["spring_stiffness"])["spring_stiffness"]
         branch = table.evaluate({**as_built, "stroke": self.amplitude}, ["stroke_branch"])["stroke_branch"]
         return springs + branch[0], branch[1] / self.omega
@@ -86,7 +86,7 @@ class JointOfModule:
         share, seen = ca.SX.sym("share", 2), ca.SX.sym("seen", 2)
         inputs = {row.name: start * _factor(share[i]) for i, (row, start) in enumerate(zip(rows, starts, strict=True))}
         stiffness, damping = self._impedance(inputs)
-        usual = [float(one) for one in self._impedance({})]
+        usual = [float(entry) for entry in self._impedance({})]
         left = ca.vertcat((stiffness - seen[0]) / usual[0], (damping - seen[1]) / usual[1])
         solve = ca.rootfinder("solve", "newton", ca.Function("left", [share, seen], [left]), _NEWTON)
 
@@ -102,9 +102,9 @@ class JointOfModule:
     def kept(self, fit: Fit) -> tuple[Fit, list[str]]:
         """Drop values that the module cannot have from a fit; return notes on them too."""
         names = [row.name for row in self._explained]
-        if not {*names} <= {one.name for one in fit.derived} or self._given_again(fit, names):
+        if not {*names} <= {quantity.name for quantity in fit.derived} or self._given_again(fit, names):
             return fit, []
-        left = tuple(one for one in fit.derived if one.name not in names)
+        left = tuple(quantity for quantity in fit.derived if quantity.name not in names)
         return replace(fit, derived=left), [
             f"No {names[0]} and {names[1]} give {self.source.name} this stiffness and damping when {self.state}: "
             "neither is written to a record. Another value of the module is not as the study has it."
@@ -118,9 +118,9 @@ class JointOfModule:
         misses = np.abs(there / np.array([fit.value("stiffness"), fit.value("damping")]) - 1.0)
         return bool(np.max(misses) < _HELD)
 
-    def _may_be(self, one: Estimate) -> bool:
-        row = next(row for row in self.resolved.table.inputs if row.name == one.name)
-        return bool(np.isfinite(one.value) and row.lower <= one.value <= row.upper)
+    def _may_be(self, estimate: Estimate) -> bool:
+        row = next(row for row in self.resolved.table.inputs if row.name == estimate.name)
+        return bool(np.isfinite(estimate.value) and row.lower <= estimate.value <= row.upper)
 
     def records(self, fit: Fit, *, inertia: bool) -> tuple[dict[str, Estimate], list[OtherRecord], list[str]]:
         """Return values of the joint's own record, records of other categories, and notes on them."""
@@ -131,7 +131,7 @@ class JointOfModule:
             friction, note = self._pin_friction(fit["friction"])
             own |= {_FRICTION: friction} if friction else {}
             notes += note
-        names = {one.name for one in fit.derived}
+        names = {quantity.name for quantity in fit.derived}
         for row in (row for row in self._explained if row.name in names):
             if row.record is None:
                 continue
@@ -148,22 +148,26 @@ class JointOfModule:
         table, values = self.resolved.table, self.resolved.values
         names = ["pin_friction_torque", "preload_friction_torque"]
         of_one = table.evaluate({**values, _FRICTION: 1.0}, names)
-        unit, rest = float(of_one[names[0]]), float(of_one[names[1]])
-        if unit <= 0.0 or torque.value <= rest:
-            return None, [f"The friction is no more than the wave spring's {rest:.3g} N.m: none is left for the pins."]
-        low, high = (None if end is None else max(end - rest, 0.0) / unit for end in (torque.low, torque.high))
-        return Estimate(_FRICTION, "1", "Friction of legs on pins", (torque.value - rest) / unit, low, high), []
+        unit, intercept = float(of_one[names[0]]), float(of_one[names[1]])
+        if unit <= 0.0 or torque.value <= intercept:
+            return None, [
+                f"The friction is no more than the wave spring's {intercept:.3g} N.m: none is left for the pins."
+            ]
+        low, high = (None if end is None else max(end - intercept, 0.0) / unit for end in (torque.low, torque.high))
+        return Estimate(_FRICTION, "1", "Friction of legs on pins", (torque.value - intercept) / unit, low, high), []
 
     def notes(self) -> list[str]:
         """Return notes on the assumptions."""
-        said = [
+        sentences = [
             f"The module is that of {self.source.name}, {self.state}, at {self.omega / (2.0 * np.pi):.3g} Hz: what its "
             "sizes and other materials are off by counts as the values found."
         ]
         if self.state == MOLTEN:
             turned = float(np.degrees(self.amplitude))
-            said.append(f"The melt's stiffness and damping are those of a motion of {turned:.3g} degrees to each side.")
-        return said
+            sentences.append(
+                f"The melt's stiffness and damping are those of a motion of {turned:.3g} degrees to each side."
+            )
+        return sentences
 
 
 def joint_of_module(settings: Settings, omega: float, amplitude: float) -> JointOfModule | None:
@@ -187,9 +191,9 @@ def joint_of_module(settings: Settings, omega: float, amplitude: float) -> Joint
 def with_records(fit: Fit, notes: Sequence[str], module: JointOfModule | None, *, inertia: bool) -> Measurement:
     """Return a measurement of a joint with what follows for records; `inertia` says whether it was fitted."""
     if module is None:
-        said = "Without --set study=... and --set state=... nothing but the inertia goes to a record."
+        note = "Without --set study=... and --set state=... nothing but the inertia goes to a record."
         own = {_INERTIA: fit["inertia"]} if inertia else {}
-        return Measurement(fit, (*notes, said), own)
-    kept, missed = module.kept(fit)
-    own, others, left = module.records(kept, inertia=inertia)
-    return Measurement(kept, (*notes, *module.notes(), *missed, *left), own, more_records=others)
+        return Measurement(fit, (*notes, note), own)
+    kept_fit, missed = module.kept(fit)
+    own, others, left = module.records(kept_fit, inertia=inertia)
+    return Measurement(kept_fit, (*notes, *module.notes(), *missed, *left), own, more_records=others)

@@ -60,10 +60,10 @@ class Record(NamedTuple):
 
     def own(self) -> list[Parameter]:
         """Return its own parameters."""
-        rest = float(np.median(self.angle[-max(len(self.angle) // 10, 3) :]))
+        rest_angle = float(np.median(self.angle[-max(len(self.angle) // 10, 3) :]))
         speed = (self.angle[1] - self.angle[0]) / (self.time[1] - self.time[0])
         sizes = (self.size, self.size, self.size / self.period)
-        starts = (rest, float(self.angle[0]), float(speed))
+        starts = (rest_angle, float(self.angle[0]), float(speed))
         units = ("deg", "deg", "rad/s")
         meanings = ("Angle at rest", "Angle at the first sample", "Speed at the first sample")
         return [
@@ -96,18 +96,18 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     ]
     if not known:
         parameters.insert(0, Parameter("inertia", "kg*m^2", "Inertia of all that turns", inertia))
-    parameters += [one for record in records for one in record.own()]
+    parameters += [entry for record in records for entry in record.own()]
     module = joint_of_module(settings, 2.0 * np.pi / first.period, first.size)
     following = [*_derived(known), *(module.derived() if module and known else [])]
-    found = fitted(Problem(parameters, [one.channel(known) for one in records], following), profiles=profiles)
+    fit = fitted(Problem(parameters, [entry.channel(known) for entry in records], following), profiles=profiles)
     notes = [note for record, block in zip(records, blocks, strict=True) for note in _thinned_note(record, block)]
     if not known:
         notes.append(
             "Without --set inertia=... a free swing gives ratios only: natural frequency and damping ratio are sure, "
             "stiffness, damping and friction are not: no record follows."
         )
-        return Measurement(found, tuple(notes))
-    return with_records(found, notes, module, inertia=False)
+        return Measurement(fit, tuple(notes))
+    return with_records(fit, notes, module, inertia=False)
 
 
 def _record(block: Block, end: str) -> Record:
@@ -151,18 +151,18 @@ def swing(time: Array, values: Values, steps: int, corner: float) -> Any:
         k3 = rates(after + 0.5 * h * k2)
         k4 = rates(after + h * k3)
         after = after + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    one = ca.Function("one", [state, step, constants], [after])
+    one_step = ca.Function("one", [state, step, constants], [after])
     given = ca.vertcat(*(values[name] for name in _CONSTANTS))
     count = len(time) - 1
     first = ca.vertcat(values["first_angle"], values["first_speed"])
-    course = one.mapaccum(count)(first, np.diff(time)[None, :], ca.repmat(given, 1, count))
+    course = one_step.mapaccum(count)(first, np.diff(time)[None, :], ca.repmat(given, 1, count))
     return ca.horzcat(first, course)[0, :].T
 
 
 def period_and_decay(time: Array, angle: Array) -> tuple[float, float]:
     """Return period [s] by the crossings of rest and decay [1/s] by the sizes of halves; its length if it creeps."""
-    rest = float(np.median(angle[-max(len(angle) // 10, 3) :]))
-    away = angle - rest
+    rest_angle = float(np.median(angle[-max(len(angle) // 10, 3) :]))
+    away = angle - rest_angle
     noise = 0.05 * np.max(np.abs(away))
     changes = np.flatnonzero(np.diff(np.sign(away)) != 0)
     crossings = [i for i in changes if np.max(np.abs(away[i : i + max(len(away) // 50, 3)])) > noise]

@@ -56,9 +56,9 @@ class Sine(NamedTuple):
     def parameters(self) -> list[Parameter]:
         """Return the frequency and the harmonics of the true angle: of this measurement alone."""
         shape = [
-            Parameter(f"shape{self.end}_{i}", "deg", "Part of the angle", float(one), positive=False, scale=self.size,
+            Parameter(f"shape{self.end}_{i}", "deg", "Part of the angle", float(value), positive=False, scale=self.size,
                       nuisance=True)
-            for i, one in enumerate(self.start)
+            for i, value in enumerate(self.start)
         ]  # fmt: skip
         omega = Parameter(f"omega{self.end}", "rad/s", "Angular frequency", self.omega, nuisance=True)
         return [omega, *shape]
@@ -103,7 +103,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     known = {"inertia": 0.0} if together else known
     module = joint_of_module(settings, records[0].omega, records[0].size)
     problem = Problem(
-        [*_joint(records, known, together=together), *(one for record in records for one in record.parameters())],
+        [*_joint(records, known, together=together), *(value for record in records for value in record.parameters())],
         [channel for record in records for channel in record.channels(known)],
         [
             Derived("loss", "N*m/rad", "Part of the stiffness in quadrature at the first record's frequency",
@@ -131,27 +131,27 @@ def _joint(records: Sequence[Sine], known: Values, *, together: bool) -> list[Pa
     table, torque = [], []
     for record in records:
         values = {f"omega{record.end}": record.omega}
-        values |= {f"shape{record.end}_{i}": float(one) for i, one in enumerate(record.start)}
-        angle, speed, acceleration = (np.asarray(ca.DM(one)).ravel() for one in record.course(values))
+        values |= {f"shape{record.end}_{i}": float(value) for i, value in enumerate(record.start)}
+        angle, speed, acceleration = (np.asarray(ca.DM(value)).ravel() for value in record.course(values))
         table.append(np.column_stack([angle, speed, np.sign(speed), np.ones(len(angle)), acceleration]))
         torque.append(record.torque - known.get("inertia", 0.0) * acceleration)
     whole = np.concatenate(table)[:, : 4 if known else 5]
-    found = np.linalg.lstsq(whole, np.concatenate(torque), rcond=None)[0]
+    terms = np.linalg.lstsq(whole, np.concatenate(torque), rcond=None)[0]
     size = float(np.ptp(torque[0])) / records[0].size
-    stiffness = max(abs(float(found[0])), 1e-3 * size)
+    stiffness = max(abs(float(terms[0])), 1e-3 * size)
     name, meaning = "stiffness", "Stiffness"
     if together:
         name, meaning = "dynamic_stiffness", "Stiffness less inertia times omega^2, at the frequency of the records"
     parameters = [
         Parameter(name, "N*m/rad", meaning, stiffness),
-        from_zero("damping", "N*m*s/rad", "Viscous damping", max(float(found[1]), 1e-3 * stiffness / records[0].omega)),
+        from_zero("damping", "N*m*s/rad", "Viscous damping", max(float(terms[1]), 1e-3 * stiffness / records[0].omega)),
         from_zero("friction", "N*m", "Dry friction: the loop's half-width that no speed changes",
-                  max(float(found[2]), 1e-3 * stiffness * records[0].size)),
-        Parameter("zero_angle", "deg", "Angle without torque", -float(found[3]) / stiffness, positive=False,
+                  max(float(terms[2]), 1e-3 * stiffness * records[0].size)),
+        Parameter("zero_angle", "deg", "Angle without torque", -float(terms[3]) / stiffness, positive=False,
                   scale=records[0].size, nuisance=together),
     ]  # fmt: skip
     if not known:
-        inertia = max(float(found[4]), 1e-3 * stiffness / records[0].omega ** 2)
+        inertia = max(float(terms[4]), 1e-3 * stiffness / records[0].omega ** 2)
         parameters.insert(0, Parameter("inertia", "kg*m^2", "Inertia of what the torque's cell moves", inertia))
     return parameters
 
@@ -181,7 +181,7 @@ def _frequency(time: Array, angle: Array) -> float:
     rough = np.pi * max(len(crossings), 1) / (time[-1] - time[0])
     tried = rough * np.linspace(0.7, 1.3, _TRIED)
     for _ in range(2):
-        left = [_left(time - time[0], angle, one) for one in tried]
+        left = [_left(time - time[0], angle, frequency) for frequency in tried]
         best, step = tried[int(np.argmin(left))], tried[1] - tried[0]
         tried = best + step * np.linspace(-1.0, 1.0, _TRIED)
     return float(best)
@@ -193,8 +193,8 @@ def _left(time: Array, angle: Array, omega: float) -> float:
 
 
 def _notes(records: Sequence[Sine], *, together: bool) -> list[str]:
-    told = ", ".join(f"{record.omega / (2.0 * np.pi):.3g} Hz" for record in records)
-    notes = [f"Frequencies: {told}. The angle is taken as {HARMONICS} harmonics."]
+    frequencies = ", ".join(f"{record.omega / (2.0 * np.pi):.3g} Hz" for record in records)
+    notes = [f"Frequencies: {frequencies}. The angle is taken as {HARMONICS} harmonics."]
     if together:
         notes.append(
             "One frequency cannot tell inertia and stiffness apart: only dynamic_stiffness, K - I omega^2, is known. "

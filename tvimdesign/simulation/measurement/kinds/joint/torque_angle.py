@@ -33,10 +33,10 @@ _SIZES = ("wire_diameter", "coil_diameter", "coil_count")
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
     """Fit blocks of torque, mass or force over angle. Raises InputError for what lacks."""
     series = [_series(block, settings) for block in blocks]
-    torque = np.concatenate([one for one, _ in series])
-    angle = np.concatenate([one for _, one in series])
+    torque = np.concatenate([values for values, _ in series])
+    angle = np.concatenate([values for _, values in series])
     both_signs = bool(np.min(torque) < 0.0 < np.max(torque))
-    two_ways = any(len(set(direction(one))) > 1 for one, _ in series)
+    two_ways = any(len(set(direction(values))) > 1 for values, _ in series)
     stiffness, zero = (float(x) for x in _line(torque, angle))
     friction, turned = 0.05 * float(np.ptp(torque)), float(np.ptp(angle))
     parameters = [
@@ -52,9 +52,9 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         for block, (torques, angles) in zip(blocks, series, strict=True)
     ]
     derived = [_modulus(settings)] if any(name in settings for name in _SIZES) else []
-    found = fitted(Problem(parameters, channels, derived), profiles=profiles)
-    record = {"youngs_modulus": found["youngs_modulus"]} if derived else {}
-    return Measurement(found, tuple(_notes(two_ways, both_signs, bool(derived))), record)
+    fit = fitted(Problem(parameters, channels, derived), profiles=profiles)
+    record = {"youngs_modulus": fit["youngs_modulus"]} if derived else {}
+    return Measurement(fit, tuple(_notes(two_ways, both_signs, bool(derived))), record)
 
 
 def direction(torque: Array) -> Array:
@@ -63,7 +63,7 @@ def direction(torque: Array) -> Array:
     steps = np.concatenate([[0.0], change])
     for i in range(1, len(steps)):
         steps[i] = steps[i] or steps[i - 1]
-    first = next((one for one in steps if one), 1.0)
+    first = next((step for step in steps if step), 1.0)
     return np.asarray(np.where(steps == 0.0, first, steps))
 
 
@@ -79,7 +79,7 @@ def _angle(torque: Any, way: Any, side: Any, values: Values) -> Any:
 
 
 def _predicted(torque: Array) -> Callable[[Values], Any]:
-    load, way, side = (ca.DM(one) for one in (torque, direction(torque), np.sign(torque)))
+    load, way, side = (ca.DM(column) for column in (torque, direction(torque), np.sign(torque)))
     return lambda values: _angle(load, way, side, values)
 
 

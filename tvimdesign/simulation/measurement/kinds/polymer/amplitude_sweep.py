@@ -92,7 +92,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         Parameter("drop_power", "1", "Power of the strain by which it goes", 2.0, least=_POWERS[0], most=_POWERS[1]),
         *(parameter for sweep in sweeps for parameter in sweep.parameters()),
     ]
-    found = fitted(Problem(parameters, [one for sweep in sweeps for one in sweep.channels()]), profiles=profiles)
+    fit = fitted(Problem(parameters, [channel for sweep in sweeps for channel in sweep.channels()]), profiles=profiles)
     name, notes = _phase([sweep.temperature for sweep in sweeps], settings)
     beyond = sum(sweep.beyond for sweep in sweeps)
     if beyond:
@@ -103,7 +103,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
             "record's; go to larger strains."
         )
         name = ""
-    return Measurement(found, tuple(notes), {name: found["linear_strain"]} if name else {})
+    return Measurement(fit, tuple(notes), {name: fit["linear_strain"]} if name else {})
 
 
 def _sweep(block: Block, settings: Settings, end: str) -> Sweep:

@@ -98,12 +98,16 @@ class Melt(NamedTuple):
         return values[shift_name(self._near(test))]
 
     def _near(self, test: MeltTest) -> float:
-        return min(self.temperatures, key=lambda one: abs(one - test.temperature))
+        return min(self.temperatures, key=lambda temperature: abs(temperature - test.temperature))
 
     @property
     def shifted(self) -> list[float]:
         """The temperatures whose tests are shifted."""
-        return [one for one in self.temperatures if one != self.reference and not np.isnan(one)]
+        return [
+            temperature
+            for temperature in self.temperatures
+            if temperature != self.reference and not np.isnan(temperature)
+        ]
 
 
 def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: bool) -> Measurement:
@@ -114,11 +118,11 @@ def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: boo
         raise InputError(
             f"{untold[0].name}: the file does not say its temperature, as others do; --set temperature=..."
         )
-    kept = list(tests) if untold else [test for test in tests if test.temperature >= least]
-    if not kept:
+    molten = list(tests) if untold else [test for test in tests if test.temperature >= least]
+    if not molten:
         raise InputError("--set least_temperature leaves no test")
     most = round(settings["largest_modes"])
-    melt = _melt(kept, settings)
+    melt = _melt(molten, settings)
     count, first = _fewest_modes(melt, most)
     best, notes = _best(melt, count, first, profiles=profiles)
     notes = [*_notes(tests, melt, count, most), *notes]
@@ -132,14 +136,14 @@ def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
     if np.isnan(tests[0].temperature):
         return Melt(tests, [np.nan], np.nan)
     temperatures: list[float] = []
-    for one in sorted(test.temperature for test in tests):
-        if not temperatures or one - temperatures[-1] > _TOGETHER:
-            temperatures.append(one)
+    for temperature in sorted(test.temperature for test in tests):
+        if not temperatures or temperature - temperatures[-1] > _TOGETHER:
+            temperatures.append(temperature)
     wanted = settings.get("reference_temperature", temperatures[len(temperatures) // 2])
     known = settings.get("flow_activation_energy")
     ramps = any(test.ramp is not None for test in tests)
     if known is None and not ramps:
-        return Melt(tests, temperatures, min(temperatures, key=lambda one: abs(one - wanted)))
+        return Melt(tests, temperatures, min(temperatures, key=lambda temperature: abs(temperature - wanted)))
     return Melt(tests, temperatures, wanted, _USUAL_ENERGY if known is None else known, known)
 
 
@@ -151,7 +155,7 @@ def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fi
     if melt.energy is not None or len(melt.temperatures) == 1:
         return with_intervals(first, profiles=profiles), []
     free = with_intervals(first, profiles=False)
-    shifts = {one: free[shift_name(one)] for one in melt.shifted}
+    shifts = {temperature: free[shift_name(temperature)] for temperature in melt.shifted}
     activation = arrhenius(shifts, melt.reference)
     note = shift_note(activation, shifts, melt.reference)
     if activation.describes:
@@ -180,23 +184,23 @@ def _fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
         problem = _problem(melt, count)
         if len(problem.parameters) >= melt.values:
             break
-        found = best_fit(problem)
-        criterion = _criterion(found, melt)
+        candidate = best_fit(problem)
+        criterion = _criterion(candidate, melt)
         if criterion > least - _BETTER:
             break
-        chosen, best, least = count, found, criterion
+        chosen, best, least = count, candidate, criterion
     return chosen, best
 
 
-def _criterion(found: BestFit, melt: Melt) -> float:
+def _criterion(fit: BestFit, melt: Melt) -> float:
     """Return Schwarz's criterion, less is better [Sch]."""
-    return _misfit(found) + len(found.problem.parameters) * float(np.log(melt.values))
+    return _misfit(fit) + len(fit.problem.parameters) * float(np.log(melt.values))
 
 
-def _misfit(found: BestFit) -> float:
+def _misfit(fit: BestFit) -> float:
     """Return the sum of n ln(mean square of the residuals) over what errs alike."""
     squares: dict[str, list[Any]] = {}
-    for channel, predicted in zip(found.problem.channels, found.predicted(), strict=True):
+    for channel, predicted in zip(fit.problem.channels, fit.predicted(), strict=True):
         left = np.log(channel.measured / predicted) if channel.relative else channel.measured - predicted
         squares.setdefault(channel.noise_of, []).append(left if channel.relative else left / np.ptp(channel.measured))
     groups = [np.concatenate(group) for group in squares.values()]
@@ -209,9 +213,9 @@ def _problem(melt: Melt, count: int) -> Problem:
     parameters += [curve.own for test in melt.tests for curve in test.curves if curve.own]
     if melt.energy is None:
         parameters += [
-            Parameter(shift_name(one), "1", "Shift of the rates to those of the reference",
-                      float(guessed_shift(one, melt.reference)))
-            for one in melt.shifted
+            Parameter(shift_name(temperature), "1", "Shift of the rates to those of the reference",
+                      float(guessed_shift(temperature, melt.reference)))
+            for temperature in melt.shifted
         ]  # fmt: skip
     elif melt.known_energy is None:
         parameters.append(Parameter("flow_activation_energy", "kJ/mol", "Of the shift with temperature", melt.energy))
@@ -294,28 +298,30 @@ class Activation(NamedTuple):
 
 def arrhenius(shifts: Mapping[float, Estimate], reference: float) -> Activation:
     """Return the energy by least squares of ln a_T over 1/T - 1/T_ref, through zero, weighted by the intervals."""
-    inverse = np.array([1.0 / one - 1.0 / reference for one in shifts])
-    logs = np.array([np.log(one.value) for one in shifts.values()])
-    halves = np.array([_half(one) for one in shifts.values()])
+    inverse = np.array([1.0 / shift - 1.0 / reference for shift in shifts])
+    logs = np.array([np.log(shift.value) for shift in shifts.values()])
+    halves = np.array([_half(shift) for shift in shifts.values()])
     weights = 1.0 / np.maximum(halves, 1e-6) ** 2
     energy = GAS_CONSTANT * float(np.sum(weights * inverse * logs) / np.sum(weights * inverse**2))
     missed = np.maximum(np.abs(logs - energy / GAS_CONSTANT * inverse) - halves, 0.0)
     return Activation(energy, float(np.expm1(np.max(missed))))
 
 
-def _half(one: Estimate) -> float:
+def _half(estimate: Estimate) -> float:
     """Return half the interval of a factor's logarithm."""
-    return 1.0 if one.low is None or one.high is None else 0.5 * float(np.log(one.high / one.low))
+    return 1.0 if estimate.low is None or estimate.high is None else 0.5 * float(np.log(estimate.high / estimate.low))
 
 
-def shift_note(found: Activation, shifts: Mapping[float, Estimate], reference: float) -> list[str]:
+def shift_note(activation: Activation, shifts: Mapping[float, Estimate], reference: float) -> list[str]:
     """Return the factors in a line, and whether the law describes them."""
-    table = ", ".join(f"{one - ZERO_CELSIUS:.0f} degC: {shift.value:.3g}" for one, shift in shifts.items())
+    table = ", ".join(
+        f"{temperature - ZERO_CELSIUS:.0f} degC: {shift.value:.3g}" for temperature, shift in shifts.items()
+    )
     law = (
-        f"Arrhenius' law with {found.energy / 1e3:.1f} kJ/mol describes them."
-        if found.describes
-        else f"Arrhenius' law misses one by {100.0 * found.farthest:.0f} %: no activation energy is given, and the "
-        "shift of the record this is based on is not that of these data."
+        f"Arrhenius' law with {activation.energy / 1e3:.1f} kJ/mol describes them."
+        if activation.describes
+        else f"Arrhenius' law misses one by {100.0 * activation.farthest:.0f} %: no activation energy is given, and "
+        "the shift of the record this is based on is not that of these data."
     )
     return [f"Shift factors to {reference - ZERO_CELSIUS:.0f} degC: {table}. {law}"]
 
@@ -327,14 +333,14 @@ def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: S
     """
     modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
     own = (best[f"{name}_{i}"] for i in range(1, count + 1) for name in ("time", "modulus"))
-    left_open = [one.name for one in own if one.low is None or one.high is None]
+    left_open = [parameter.name for parameter in own if parameter.low is None or parameter.high is None]
     if left_open:
         viscosity = best["zero_shear_viscosity"]
         known = "" if viscosity.low is None else (
             f" The viscosity is known: give {viscosity.value:.3g} Pa.s as pcl_zero_shear_viscosity in a study's module."
         )  # fmt: skip
         return Measurement(best, (*notes, f"The data leave {', '.join(left_open)} open: no record is written.{known}"))
-    seen = next(one.most for one in best.problem.parameters if one.name == "time_1") / _BEYOND
+    seen = next(parameter.most for parameter in best.problem.parameters if parameter.name == "time_1") / _BEYOND
     if modes[0][0] > seen:
         why = (
             f"The slowest mode takes {modes[0][0]:.3g} s, and the tests see {seen:.3g} s: the viscosity is "
@@ -342,7 +348,7 @@ def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: S
         )
         return Measurement(best, (*notes, why))
     values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
-    if any(one.name == "flow_activation_energy" for one in best.parameters):
+    if any(parameter.name == "flow_activation_energy" for parameter in best.parameters):
         values["flow_activation_energy"] = best["flow_activation_energy"]
     table = RecordTable({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
     return Measurement(

@@ -102,7 +102,7 @@ def _oscillation(block: Block) -> tuple[list[Array], str]:
     cut = _cut_off(columns[2] / columns[1])
     if not np.any(cut):
         return columns, ""
-    ratio, viscosity = (float(np.median(one[cut])) for one in (columns[2] / columns[1], columns[2] / columns[0]))
+    ratio, viscosity = (float(np.median(series[cut])) for series in (columns[2] / columns[1], columns[2] / columns[0]))
     note = (
         f"{block.place}: G''/G' stays at {ratio:.3g} in {np.sum(cut)} of {len(cut)} rows, which are left out: the "
         "instrument has cut the smaller modulus off."
