@@ -120,7 +120,7 @@ def test_a_search_without_a_design_when_the_time_is_over_says_what_to_do() -> No
 
 @pytest.mark.gate
 def test_the_search_for_the_conflict_ends_with_the_time() -> None:
-    clock = Clock("looking for the design that breaks least")
+    clock = Clock("searching for the design of least violation")
     quick = SEARCHED.replace('">= 2 N.m"', '">= 2 N.m", response_time: "<= 1 s"').replace("starts: 6", "starts: 1")
     solution = clock.optimize(read_study_text(quick))
     assert solution.status.startswith("not converged")

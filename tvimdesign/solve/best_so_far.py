@@ -13,7 +13,7 @@ class SearchInterrupted(KeyboardInterrupt):
     """A search that was interrupted."""
 
     def __init__(self, best: Study | None = None) -> None:
-        """`best` is the study begun at the best design so far; None where there was none yet."""
+        """`best` is the study started at the best design so far; None if there is none yet."""
         super().__init__()
         self.best = best
 

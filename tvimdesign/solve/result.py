@@ -39,12 +39,12 @@ from tvimdesign.study.design import Design
 from tvimdesign.study.result_study import started_at
 
 Designed = Callable[[Design], None]
-"""Who is told a design as soon as it is there."""
+"""Receiver of a design as soon as it exists."""
 
 
 @dataclass(frozen=True)
 class ConstraintCheck:
-    """One limit held against the design."""
+    """Limit and the design's value."""
 
     text: str
     output: str
@@ -91,7 +91,7 @@ class StudyResult:
 
     @property
     def found(self) -> bool:
-        """Whether there is a design: evaluated, optimal, beyond a rating that is not accepted, or below a yield."""
+        """Existence of a design: evaluated, optimal, beyond a rating that is not accepted, or below a yield."""
         return _is_found(self.design, self.solution)
 
     @property
@@ -112,7 +112,7 @@ class StudyResult:
 
     @property
     def feasible(self) -> bool:
-        """Whether every requirement and rule is satisfied."""
+        """Feasibility: every requirement and rule is satisfied."""
         return all(check.kept for check in self.checks)
 
 
@@ -132,7 +132,7 @@ def answer(
     """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError.
 
     What found the optimum is handed to `keep`, able to trade some outputs afterwards. A `search` may stand in place of
-    the usual one. `designed` is told a design that is found before all that there is to say of it is computed. An
+    the usual one. `designed` receives a design as soon as it exists, before its whole account is computed. An
     interrupt of the search, or once it has found a design, is SearchInterrupted.
     """
     refuse_impossible(study)

@@ -70,14 +70,14 @@ class BranchAndBound:
 
     trees: Sequence[Relaxation]
     keep: int
-    """Combinations that are to be found for certain: bounds are held against the last of them."""
+    """Number of best combinations that the search must prove: bounds are compared with the last of them."""
     solver: BoxSolver | None = None
     """This process unless given."""
     found: dict[tuple[int, Box], Run] = field(default_factory=dict)
     inside: float = 0.0
     """Largest share by which a design within a box was better than the box's bound."""
     unknown: set[tuple[int, Box]] = field(default_factory=set)
-    """Combinations without a design so far of which it is not certain that they have none."""
+    """Combinations without a design so far, though it is not certain that they have none."""
     _open: list[Node] = field(default_factory=list)
     _made: int = 0
     _told: int = 0
@@ -281,7 +281,7 @@ class BranchAndBound:
         left = len(self._open)
         best = min((run.start.objective for run in self.found.values()), default=None)
         so_far = "" if best is None else f", objective {best:.5g} so far"
-        message = f"{len(self.found)} combinations solved, {left} boxes of them still open{so_far}"
+        message = f"{len(self.found)} combinations solved, {left} nodes left in branch and bound{so_far}"
         relaxation.optimizer.progress(message)
 
 

@@ -1,4 +1,4 @@
-"""Every combination of listed sizes solved: slow, and what branch and bound is held against.
+"""Every combination of listed sizes solved: slow, for a comparison with branch and bound.
 
 Combinations go in blocks. In a block each is solved warm from the one before, which is its neighbour. Each optimum with
 all sizes free begins a chain of its own, so that a worse optimum of one chain does not hide a better one of another.

@@ -19,7 +19,7 @@ Records = dict[str, str]
 
 @dataclass(frozen=True)
 class Family:
-    """Combinations of records: one of them, and the mixtures of which each has one record."""
+    """Combinations of records: one of them, and the mixtures that each contribute one record."""
 
     records: Records
     mixtures: tuple[Mixture, ...]
@@ -40,7 +40,7 @@ def families_of(study: Study) -> list[Family]:
     """Return families that hold every combination of listed records once. Raise InputError as `given` does.
 
     Nothing is mixed where modules spread, as margins are those of a record's own numbers, or where a current follows a
-    profile, which is held against constant currents with the same records.
+    profile, which is compared with constant currents and the same records.
     """
     listed = listed_records(study, study.table)
     if study.robust or study.profile.pieces():

@@ -97,7 +97,7 @@ class Relaxation:
     def from_all_over(self) -> list[Run]:
         """Searches in boxes from designs all over the ranges that keep the arithmetic limits, then from the start."""
         runs: list[Run] = []
-        self.optimizer.progress("no start keeps all limits: looking all over the ranges")
+        self.optimizer.progress("no start satisfies the limits: searching the whole ranges")
         designs = designs_all_over(self.optimizer, lambda inputs: self._mixed(inputs, {}))
         for begin in [*designs, self.optimizer.model.start] if designs else []:
             optima = [run.start for run in runs if run.start.converged]
@@ -363,6 +363,6 @@ class Relaxation:
 
 
 def order(run: Run) -> tuple[bool, bool, float]:
-    """Converged runs first, then those that know a design that keeps every limit; the best of each first."""
+    """Rank converged runs first, then those with a feasible design; the best of each first."""
     failed = not run.start.converged
     return (failed, failed and run.start.status != FEASIBLE, run.start.objective)

@@ -55,7 +55,7 @@ class ParallelSolver:
         self._alive = True
         self._changed = threading.Condition()
         self._waiting: list[Task] = []
-        """Tasks that nobody has begun, the most urgent first."""
+        """Tasks not started, the most urgent first."""
         self._under_way: Task | None = None
         """The other process's task."""
         self._taken: set[tuple[int, Box, str, int]] = set()

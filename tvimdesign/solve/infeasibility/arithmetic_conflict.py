@@ -1,7 +1,7 @@
 """Limits that arithmetic alone cannot keep together, looked for before a working cycle is simulated.
 
 The limits that depend on no cycle are a problem of a dozen unknowns. It is solved from several starts; where none of
-them keeps the limits, no start of the whole problem does, and the elastic problem says which limits conflict.
+them satisfies the limits, no start of the whole problem does, and the elastic problem says which limits conflict.
 """
 
 from __future__ import annotations

@@ -39,8 +39,8 @@ class ConflictSearch:
 
 
 def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progress) -> ConflictSearch | None:
-    """Ask of a problem no start of which converged what can be had; None where not even the switch can be found."""
-    progress("no start keeps all limits: looking for the design that breaks least")
+    """Find the conflict of a problem without a converged start; None if not even its switch can be simulated."""
+    progress("no start satisfies the limits: searching for the design of least violation")
     elastic = ElasticMode(optimizer)
     least = _least_violation(elastic, failed)
     if least is None:
@@ -58,7 +58,7 @@ def find_conflicts(optimizer: Optimizer, failed: Sequence[Run], progress: Progre
 
 
 class SecondTry:
-    """Starts that ended nowhere, begun again from a design that keeps all limits; the elastic problem is built once."""
+    """Failed starts, started again from a feasible design; the elastic problem is built once."""
 
     def __init__(self, optimizer: Optimizer) -> None:
         """Start with nothing built."""

@@ -46,12 +46,12 @@ class ElasticSolution:
 
     @property
     def converged(self) -> bool:
-        """Whether the numbers mean anything."""
+        """Validity of the numbers."""
         return self.run.start.converged
 
     @property
     def conflict_search(self) -> bool:
-        """Whether all limits that counted can be satisfied."""
+        """Feasibility of all limits that counted."""
         return self.converged and bool(np.max(self.slacks, initial=0.0) <= FEASIBILITY_TOL)
 
 

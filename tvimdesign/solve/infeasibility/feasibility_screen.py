@@ -99,8 +99,8 @@ class FeasibilityScreen:
         """Return whether no search from some inputs finds a point that satisfies the limits.
 
         That is so where the sum of breaches has a least value above nothing from each of them, and where the worst
-        breach is not brought to nothing from the first and the last either. Nothing is said where a search for the
-        sum does not converge. Raises KeyboardInterrupt where an interrupt ended one.
+        breach is not brought to nothing from the first and the last either. It is False if a search for
+        the sum does not converge. Raise KeyboardInterrupt if an interrupt ended one.
         """
         if not all(self._least(self._sum, within, begin) > ALGEBRAIC_TOLERANCE for begin in begins):
             return False

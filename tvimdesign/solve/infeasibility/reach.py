@@ -13,7 +13,7 @@ _ENDS = {
     "soft": ("joint_impedance@hot", 1.0, "softening_band"),
     "stiff": ("joint_impedance@cold", -1.0, "stiffening_band"),
 }
-"""Of each target: the impedance it is held against, whether the least or the largest of that counts, and its band."""
+"""For each target: the impedance it is compared with, whether its least or largest value counts, and its band."""
 
 
 def refuse_unreachable(study: Study, deadline: Deadline | None = None) -> None:

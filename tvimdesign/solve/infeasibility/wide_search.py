@@ -1,7 +1,7 @@
 """Designs all over the ranges that keep what depends on no working cycle: where to look before a study is infeasible.
 
 Searches that begin at a few starts can end in a valley in which some limits cannot be kept, though they can elsewhere.
-Of 200 random studies two were told infeasible for it; eighty random designs held one that kept every limit.
+For this reason two of 200 random studies were reported infeasible; eighty random designs held a feasible one.
 Source: R. Storn, K. Price, Differential evolution, Journal of Global Optimization 11 (1997) 341-359, by scipy.
 """
 

@@ -64,7 +64,7 @@ _SETTINGS: dict[Beginning, dict[str, Any]] = {
     "cold": _ANYWHERE, "feasible": _FEASIBLE, "warm": _WARM, "sharp": _WARM,
 }  # fmt: skip
 _SHARP = 1e-11
-"""Tolerance at which a limit that hardly presses is told from one that does not."""
+"""Tolerance that separates a limit which hardly presses from one which does not."""
 _MOST_ITERATIONS = {"cold": 120, "near": 60, "warm": 25, "sharp": 60}
 """A warm start takes two to ten iterations or goes nowhere; who asks for one then starts from further back. A near one
 takes 13 to 45, measured on six studies, or seldom comes to anything new."""

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Mixture:
-    """Records of one or a few choices that share numbers, of which a design has one."""
+    """Records of one or a few choices that share numbers; a design has one of them."""
 
     records: tuple[dict[str, str], ...]
     """What is chosen by each of them, by the choices' names."""

@@ -33,7 +33,7 @@ class Start:
     relaxed: bool = False
     """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
     second_try: bool = False
-    """Whether it converged only from a design that keeps all limits, which was sought from where it began."""
+    """Whether it converged only from a feasible design, which was sought from its beginning."""
     by_neighbor: bool = False
     """Whether it ended a period of a number, such as a turn of the coils, beside where the solver came to first."""
     crossed: bool = False
@@ -195,7 +195,7 @@ class YieldReached:
     modules: int
     """Drawn apart from those the design was found by."""
     shares: dict[str, float]
-    """Share of them that keeps each limit, by its name."""
+    """Share of them that satisfies each limit, by its name."""
     together: float
     """Share of them that keeps all."""
     lost_to: tuple[LostTo, ...]
@@ -207,7 +207,7 @@ class YieldReached:
 
     @property
     def reached(self) -> bool:
-        """Return whether as many modules as asked keep every limit."""
+        """Return whether the requested share of modules satisfies the limits."""
         return self.together >= self.asked
 
 

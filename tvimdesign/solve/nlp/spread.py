@@ -222,7 +222,7 @@ def sobol_indices(
 
 
 def share_kept(satisfied: NDArray[np.bool_]) -> Yield:
-    """Yield of modules of which it is known whether they keep a limit."""
+    """Return the yield of modules from whether each satisfies a limit."""
     count, share, z = len(satisfied), float(np.mean(satisfied)), _CONFIDENCE
     middle = (share + z**2 / (2.0 * count)) / (1.0 + z**2 / count)
     half = z / (1.0 + z**2 / count) * math.sqrt(share * (1.0 - share) / count + (z / (2.0 * count)) ** 2)

@@ -1,6 +1,6 @@
 """A search in boxes: within a small one around a point, then in a wider one around where that ended.
 
-Started at a design that keeps every limit, IPOPT may leave it and come to none again: it moves all numbers off their
+Started at a feasible design, IPOPT may leave it and not reach another one: it moves all numbers off their
 limits at once, and looks for the limits from far away. Within a box it stays near, and an optimum of a box that no side
 holds is one of the whole problem.
 Source: A. Conn, N. Gould, P. Toint, Trust-Region Methods (2000), sections 6.1 and 15.2.

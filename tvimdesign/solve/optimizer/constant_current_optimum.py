@@ -1,4 +1,4 @@
-"""The optimum with constant currents: where a search for profiles begins, and what they are held against."""
+"""Optimum with constant currents: a search for profiles starts there and is compared with it."""
 
 from __future__ import annotations
 

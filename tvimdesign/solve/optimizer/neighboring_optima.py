@@ -28,7 +28,7 @@ _SMALLEST_STEP = 0.5
 """Share of a period that must be left up to an end of the range for the end to be tried."""
 
 _LEAST_RAMP = 0.5
-"""Share of its second node below which the first of a current is where it rests on its way there."""
+"""Share of its second node below which the first of a current is on its way there."""
 
 
 class NeighboringOptima:

@@ -220,7 +220,7 @@ class Optimizer:
         parameters = self.parameters(objective)
         if self.deadline.remaining <= 0.0:
             self.deadline.met = True
-            return replace(self._not_begun(x, inputs, parameters), within=within or {})
+            return replace(self._not_started(x, inputs, parameters), within=within or {})
         multipliers = {} if warm is None else {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
         ends = self.ends(within or {}, objective)
         if not len(x):
@@ -289,7 +289,7 @@ class Optimizer:
         answer = {"x": x, "f": point.objective, "lam_g": np.zeros(len(point.rows)), "lam_x": np.zeros(0)}
         return answer, {"return_status": "Solve_Succeeded" if good else NO_DESIGN, "success": good, "iter_count": 0}
 
-    def _not_begun(self, x: Array, inputs: Array, parameters: Parameters) -> Run:
+    def _not_started(self, x: Array, inputs: Array, parameters: Parameters) -> Run:
         """Return a run that ended where it was to start, as the time was over."""
         point = self.problem.at(x, parameters)
         answer = {"x": x, "f": point.objective, "lam_g": np.zeros(len(point.rows)), "lam_x": np.zeros(len(x))}

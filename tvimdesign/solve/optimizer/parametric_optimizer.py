@@ -20,7 +20,7 @@ from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Range, Study, given
 
 AT_END = 1e-4
-"""Share of the range, or of a limit's scale, within which a number is said to be at its end."""
+"""Share of the range, or of a limit's scale, within which a number counts as at its end."""
 _PRESSES = 1e-6
 """Multiplier over the objective above which a limit costs something."""
 
@@ -37,7 +37,7 @@ class Moved:
 
     @property
     def converged(self) -> bool:
-        """Whether IPOPT reports an optimum."""
+        """IPOPT's verdict that this is an optimum."""
         return self.run.start.converged
 
 

@@ -21,7 +21,7 @@ NO_DESIGN = "Infeasible_Problem_Detected"
 """IPOPT's word for a point from which no step brings the limits nearer."""
 
 FEASIBLE = "Feasible_Point_Found"
-"""Status of a run that knows a design that keeps every limit, and no optimum."""
+"""Status of a run with a feasible design but no optimum."""
 NO_MODULE = "Invalid_Number_Detected"
 """IPOPT's word for a point at which there is no module: an output is no number there."""
 
@@ -43,7 +43,7 @@ MEANINGS = {
         "converged, though less exactly than asked",
         "look at what the check outside the solver says, or ease `solver.tolerance`",
     ),
-    FEASIBLE: Meaning("a design that keeps every limit was found, not the best one", _BETTER_START),
+    FEASIBLE: Meaning("a feasible design was found, not the best one", _BETTER_START),
     "Infeasible_Problem_Detected": Meaning(
         "ended where no small change brings the broken limits closer to holding",
         "ease one of the limits it names, or widen a range that stands in the way",

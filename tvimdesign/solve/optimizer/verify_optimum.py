@@ -23,7 +23,7 @@ CYCLE_TOLERANCE = 2e-3
 
 _SLEW_STEP = 1e-4
 SAME_CURRENT = 1e-4
-"""Share of the range within which a current is said to be at its end."""
+"""Share of the range within which a current counts as at its end."""
 
 
 def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], seconds: dict[str, float]) -> Solution:

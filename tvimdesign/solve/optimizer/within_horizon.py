@@ -1,8 +1,8 @@
 """A switch that ends: an optimum may take longer than is simulated, where nothing that is asked for limits its time.
 
 A power, voltage or temperature at its peak is smallest where the layer barely gets as hot as it must, hours later. The
-problem has every switch end within `horizon`, as nothing is known of it beyond; where that holds an optimum, the study
-is asked again with a limit that is told.
+problem has every switch end within `horizon`, as nothing is known of it beyond. If that bound is active at an optimum,
+the study is solved again with an explicit limit, which is reported.
 """
 
 from __future__ import annotations

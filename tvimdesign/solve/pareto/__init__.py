@@ -1,1 +1,1 @@
-"""Fronts: designs none of which is better in all of two or three outputs."""
+"""Pareto fronts: designs that no other one beats in all of two or three outputs."""

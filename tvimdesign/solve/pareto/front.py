@@ -1,4 +1,4 @@
-"""Fronts of two or three outputs: designs none of which is better in all of them, from end to end.
+"""Pareto fronts of two or three outputs, from end to end: no design beats another in all of them.
 
 The ends come first: the least of each output. Between them points are sought on lines along which every output falls
 alike, spread evenly over the chord or the plane of the ends (`front_shape`); each line is one or two bounds on one
@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Front:
-    """Designs none of which is better in all outputs, by the first of them."""
+    """Pareto front, sorted by the first output."""
 
     outputs: tuple[str, ...]
     points: tuple[Point, ...]

@@ -98,7 +98,7 @@ def neighbours(shares: Array) -> list[tuple[int, int, float]]:
 
 
 def little_traded(numbers: Array) -> list[int]:
-    """Columns of the outputs (SI, a row a point) that hardly change over a front; nothing is said of a single point."""
+    """Return the columns of outputs (SI, a row a point) that hardly change over a front; none for a single point."""
     if len(numbers) < 2:
         return []
     least = np.min(np.abs(numbers), axis=0)

@@ -1,6 +1,6 @@
 """Sensitivity of two modules' response times, and of their ratio, to an input of both or one of them.
 
-Their derivatives are those of the engine's steps; tests hold them against the implicit function theorem on the
+Their derivatives are those of the engine's steps; tests compare them with the implicit function theorem on the
 collocated heat equation.
 """
 

@@ -23,7 +23,7 @@ from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, before_meas
 Array = NDArray[np.float64]
 
 DRAWS = 1 << 9
-"""Modules drawn from the ranges of what nobody has measured."""
+"""Modules drawn from the ranges of unmeasured inputs."""
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class DesignUncertainty:
     """Spread and, separately, effect of unmeasured inputs at one design."""
 
     together: spread.Yield | None
-    """Modules that keep every limit, parts within their tolerances and all else as assumed; None where no limit depends
+    """Yield of modules with parts within their tolerances and all else as assumed; None if no limit depends
     on what spreads."""
     limits: int
-    """How many limits that is said of."""
+    """Number of limits that the yield covers."""
     left_out: tuple[str, ...]
     """Limits on outputs that never happen, or depend on a current that follows a profile."""
     intervals: dict[str, Interval]

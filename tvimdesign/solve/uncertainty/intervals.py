@@ -25,7 +25,7 @@ _BINS = 8
 _QUARTER = 0.25
 """Share of the variance that is left of an interval of half the width."""
 _LEAST = 0.02
-"""Share of a variance that is told from none with some hundred draws."""
+"""Least share of a variance that some hundred draws separate from none."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ def draw(inputs: Sequence[UnmeasuredInput], count: int, seed: int) -> Array:
     """Return a Latin hypercube over all ranges, one input a row; a seed gives the same points.
 
     Every input is as even as in Sobol points, and no two go together: some pairs of the fiftieth coordinates of a few
-    hundred Sobol points do, and one input would be told to carry what is another's.
+    hundred Sobol points do, and one input would carry the share of another.
     """
     (rng,) = np.random.default_rng(seed).spawn(1)  # as scipy's, half a second of import
     within = rng.uniform(size=(count, len(inputs))).T  # of each of `count` equal parts of a range, which is drawn once

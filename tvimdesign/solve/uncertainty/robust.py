@@ -74,7 +74,7 @@ def _worth_trying(candidates: Sequence[Candidate]) -> list[int]:
 
 def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None = None) -> Run:
     """Seek the optimum `within` ends again until limits on what the cycle supplies are kept as robustly as the others,
-    or, where a yield is asked for, until so many modules keep every limit.
+    or, if a yield is requested, until that share of modules is feasible.
 
     Returns the last run, converged or not; without such limits, the run as it is.
     """
@@ -125,7 +125,7 @@ def _again(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective
 
 
 def _report_unmargined(optimizer: Optimizer, margins: dict[str, float]) -> None:
-    """Name the limits whose spread is not known: they are kept as drawn, no more."""
+    """Report the limits whose spread is unknown: they are satisfied as drawn, without a margin."""
     timed = (limit for limit in optimizer.problem.limits if on_cycle(optimizer.table, limit.output))
     names = [limit.name for limit in timed if limit.name not in margins]
     if names:

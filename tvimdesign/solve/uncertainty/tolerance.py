@@ -1,4 +1,4 @@
-"""A module whose parts and materials spread: what that does to its outputs, and how many modules keep the limits."""
+"""A module whose parts and materials spread: the effect on its outputs, and the yield."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Spread:
     total: Array
     kept: tuple[Kept, ...]
     together: spread.Yield
-    """Modules that keep every limit."""
+    """Yield of all limits together."""
     left_out: tuple[str, ...]
     """Outputs nothing can be said about: they never happen as drawn, or hang on a current that follows a profile."""
 
@@ -70,7 +70,7 @@ class Preload:
     """What is left where it can be adjusted [rad]."""
     over_stroke: float
     yield_as_bought: spread.Yield
-    """Modules that keep all limits that change with the free angle."""
+    """Yield of the limits that change with the free angle."""
     yield_adjusted: spread.Yield
     by_row: str
     """The output that gives the tolerance; empty where the study states it."""

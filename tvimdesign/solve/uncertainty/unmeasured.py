@@ -1,4 +1,4 @@
-"""Inputs known only within a range, which nobody has measured, or not exactly: of records, or the table's defaults."""
+"""Unmeasured inputs, known only within a range: of records, or the table's defaults."""
 
 from __future__ import annotations
 

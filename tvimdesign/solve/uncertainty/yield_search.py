@@ -1,4 +1,4 @@
-"""The best design of which so many modules keep every limit: margins from modules drawn at random, in rounds.
+"""Best design for a requested yield: margins from modules drawn at random, in rounds.
 
 At a design, modules are drawn from the tolerances. What they come to at a design nearby follows from the first order
 of both, so that few designs are drawn. Each limit that holds the design, or that too many modules break,
@@ -42,7 +42,7 @@ _AIM = 0.05
 
 @dataclass(frozen=True)
 class Robust:
-    """A converged design, the margins it was found with, and the share of the modules drawn that keep every limit."""
+    """A converged design, its margins, and its yield over the modules drawn."""
 
     run: Run
     margins: dict[str, float]
@@ -56,7 +56,7 @@ def reach_yield(
     optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None,
     halvings: int = HALVINGS,
 ) -> Robust:  # fmt: skip
-    """Seek the optimum `within` ends again from a converged run, until `share` of the modules keep every limit.
+    """Seek the optimum `within` ends again from a converged run, until `share` of the modules is feasible.
 
     Returns the best design that reaches it, else the one that most modules keep; its margins stay with the optimizer.
     Raises TimeOverError where the time is over before modules are drawn of the first.

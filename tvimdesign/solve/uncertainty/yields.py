@@ -39,16 +39,16 @@ class Drawn:
 
     @property
     def shares(self) -> dict[str, float]:
-        """Share of the modules that keep each limit, by its name."""
+        """Share of the modules that satisfies each limit, by its name."""
         return {limit.name: float(np.mean(row <= 0.0)) for limit, row in zip(self.limits, self.residuals, strict=True)}
 
     @property
     def together(self) -> spread.Yield:
-        """Modules that keep every limit."""
+        """Yield of all limits together."""
         return self.within(np.zeros(len(self.limits)))
 
     def within(self, shifts: Array) -> spread.Yield:
-        """Modules that would keep every limit if each limit's residuals fell by a shift."""
+        """Return the yield if each limit's residuals fell by a shift."""
         return spread.share_kept(np.all(self.residuals <= shifts[:, None], axis=0))
 
     def carriers(self, limit: str) -> dict[str, float]:
