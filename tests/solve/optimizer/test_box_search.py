@@ -1,4 +1,4 @@
-"""Searches in boxes lead from a design that keeps every limit to an optimum of the whole problem."""
+"""Searches in boxes lead from a feasible design to an optimum of the whole problem."""
 
 from __future__ import annotations
 

@@ -152,7 +152,7 @@ def _asked(module: ResolvedModule) -> list[str]:
     analysis = object.__new__(Tolerancing)
     analysis.resolved = module
     analysis.limits = constraints_of(module.study, module.table, module.values)
-    return analysis._asked()
+    return analysis._requested()
 
 
 @pytest.mark.parametrize(

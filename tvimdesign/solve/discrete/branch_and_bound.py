@@ -80,7 +80,7 @@ class BranchAndBound:
     """Combinations without a design so far, though it is not certain that they have none."""
     _open: list[Node] = field(default_factory=list)
     _made: int = 0
-    _told: int = 0
+    _reports: int = 0
     _tried_others: set[int] = field(default_factory=set)
     _bounded: list[NDArray[np.bool_]] = field(default_factory=list)
     _pseudo_costs: dict[int, PseudoCosts] = field(default_factory=dict)
@@ -186,15 +186,15 @@ class BranchAndBound:
         boxes = [box for box in division.halves(node.box) if not (values and sizes.hold(values, box))]
         return division, [Task(node.relaxation.place, box, node.run, "within") for box in boxes]
 
-    def _take(self, node: Node, division: Division, side: int, box: Box, found: Answer) -> None:
+    def _take(self, node: Node, division: Division, side: int, box: Box, solved: Answer) -> None:
         """Keep one half, and learn from how much worse it is."""
-        if found.run is None and not found.certain:
+        if solved.run is None and not solved.certain:
             self._add(node.relaxation, box, node.bound, node.run, node.depth + 1)
             return
         risen = None
-        if found.run is not None:
-            objective = found.run.start.objective
-            self._add(node.relaxation, box, objective, found.run, node.depth + 1)
+        if solved.run is not None:
+            objective = solved.run.start.objective
+            self._add(node.relaxation, box, objective, solved.run, node.depth + 1)
             risen = (objective - node.bound) / abs(node.bound)
         if math.isfinite(node.bound):
             self.inside = max(self.inside, -(risen or 0.0))
@@ -216,7 +216,7 @@ class BranchAndBound:
             if run is None and not certain:
                 self.unknown.add(key)
             if run is not None and (key not in self.found or order(run) < order(self.found[key])):
-                others += self._found(key, run)
+                others += self._record(key, run)
         if others:
             self._try(others)
 
@@ -228,7 +228,7 @@ class BranchAndBound:
         promised = task.near.start.objective
         return known.start.objective > promised + GAP * abs(promised)
 
-    def _found(self, key: tuple[int, Box], run: Run) -> list[Task]:
+    def _record(self, key: tuple[int, Box], run: Run) -> list[Task]:
         """Keep a combination's design; what is to be tried beside the first one of its tree."""
         relaxation = self.trees[key[0]]
         best = min((one.start.objective for one in self.found.values()), default=math.inf)
@@ -272,8 +272,8 @@ class BranchAndBound:
         return self._pseudo_costs.setdefault(node.relaxation.place, PseudoCosts())
 
     def _tell(self, relaxation: Relaxation) -> None:
-        self._told += 1
-        if self._told % _DATA == 1:
+        self._reports += 1
+        if self._reports % _DATA == 1:
             self._say(relaxation)
 
     def _say(self, relaxation: Relaxation) -> None:

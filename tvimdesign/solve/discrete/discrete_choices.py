@@ -69,12 +69,12 @@ class Sizes:
 
     def ends(self, box: Box) -> dict[str, Ends]:
         """Return the ends of all sizes, and the least and largest share of each record."""
-        found = self.numbers(box)
+        sizes = self.numbers(box)
         for mixture, (first, last) in zip(self.mixtures, self._places(box), strict=True):
             for place, name in enumerate(mixture.shares):
                 inside = first <= place <= last
-                found[name] = (float(inside and first == last), float(inside))
-        return found
+                sizes[name] = (float(inside and first == last), float(inside))
+        return sizes
 
     def records(self, box: Box) -> dict[str, str]:
         """Return the records chosen in a box of one combination."""

@@ -304,9 +304,9 @@ class Relaxation:
         """Inputs to start from, moved into the ends: those of the run nearby, of the optima, of the study's start."""
         known = (*self.optima, *self.ends)
         others = [run for run in known if near is None or not np.array_equal(run.unknowns, near.unknowns)]
-        found = [*(run.inputs for run in ([near] if near else []) + others), self.optimizer.model.start]
+        points = [*(run.inputs for run in ([near] if near else []) + others), self.optimizer.model.start]
         moved = []
-        for inputs in found:
+        for inputs in points:
             point = inputs.copy()
             for name, (low, high) in ends.items():
                 place = self.optimizer.model.index[name]

@@ -132,11 +132,11 @@ def refuse_contradictory(study: Study, start: Mapping[str, Any]) -> None:
 
 def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:
     """Raise InputError for what the study sets to no effect, as the module lacks what it is of."""
-    said: list[Choice | Input] = [*table.choices, *table.inputs]
-    said = [row for row in said if row.name in study.module or row.name in study.vary]
+    stated: list[Choice | Input] = [*table.choices, *table.inputs]
+    stated = [row for row in stated if row.name in study.module or row.name in study.vary]
     for choice in table.choices:
         lacking = Feature(choice.name, start[choice.name])
-        idle = [row.name for row in said if lacking in row.requires]
+        idle = [row.name for row in stated if lacking in row.requires]
         source = choice.record[0] if choice.record else choice.name
         if not idle or {choice.name, source} & study.vary.keys():
             continue

@@ -49,7 +49,7 @@ _ANYWHERE = {
 }
 _FEASIBLE = {
     **_ANYWHERE,
-    # The first point that keeps all limits is as good as any.
+    # The first point that satisfies the limits is as good as any.
     "acceptable_iter": 1,
     "acceptable_tol": 1e6,
     "acceptable_compl_inf_tol": 1e6,
@@ -128,8 +128,8 @@ class Solver:
 
     def stats(self) -> dict[str, Any]:
         """Return what nlpsol says of the last run."""
-        found: dict[str, Any] = self._nlp.stats()
-        return {**found, "return_status": TIME_OVER, "success": False} if self._stop.stopped else found
+        statistics: dict[str, Any] = self._nlp.stats()
+        return {**statistics, "return_status": TIME_OVER, "success": False} if self._stop.stopped else statistics
 
 
 class ProgrammeSolver:

@@ -285,13 +285,13 @@ class Problem:
 
     def tied(self, presses: Array, rows: Array) -> list[int]:
         """For each peak the row of the sample it is: the one that presses most, the highest where none does."""
-        first, found = self.row_count - self.sample_count, []
+        first, tied_rows = self.row_count - self.sample_count, []
         for peak in self.peaks:
             those = slice(first, first + self.samples(peak))
             weights = presses[those] if np.any(presses[those] > 0.0) else rows[those]
-            found.append(first + int(np.argmax(weights)))
+            tied_rows.append(first + int(np.argmax(weights)))
             first = those.stop
-        return found
+        return tied_rows
 
     def _latest(self, inputs: Array) -> float:
         return LATEST * float(inputs[self.model.index["horizon"]])
@@ -313,13 +313,13 @@ class Problem:
             for row in self.model.table.supplied
             if isinstance(row, Path) and row.name in needed
         }
-        found: list[str] = []
+        ordered: list[str] = []
         for phase in reversed(phases.values()):
             mine = [row.name for row in phase.events if row.name in needed | ending]
             if mine and phase.phase.after:
                 ending.add(phases[phase.phase.after].phase.ends)
-            found = mine + found
-        return found
+            ordered = mine + ordered
+        return ordered
 
     def simulated(self, inputs: Array) -> dict[str, float]:
         """Return the outputs of a cycle at some inputs that the problem needs, with constant currents.

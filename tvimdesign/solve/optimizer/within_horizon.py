@@ -26,5 +26,5 @@ def ending_in_time(study: Study, optimizer: Optimizer, run: Run) -> Study | None
     if not late or not run.start.converged:
         return None
     limits = [Requirement(output=event, sense="<=", limit=latest, text="within the horizon") for event in late]
-    kept = [limit for limit in study.require if limit.sense != "<=" or limit.output not in late]
-    return study.model_copy(update={"require": (*kept, *limits)})
+    others = [limit for limit in study.require if limit.sense != "<=" or limit.output not in late]
+    return study.model_copy(update={"require": (*others, *limits)})

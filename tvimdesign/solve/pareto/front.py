@@ -150,17 +150,17 @@ class _Tracer:
                 near = next((end for end in self.ends if end.where.startswith(f"least {name}")), None)
                 near = near or self.trade.ends.get(name)
                 guess = near.trace if near else None
-                found = self._sought(objective, f"least {name}, then {_and(others)}", near, guess)
-                if isinstance(found, Point):
-                    self.ends.append(replace(found, root=len(self.ends)))
-                    self.trade.ends.setdefault(name, found)
+                answer = self._sought(objective, f"least {name}, then {_and(others)}", near, guess)
+                if isinstance(answer, Point):
+                    self.ends.append(replace(answer, root=len(self.ends)))
+                    self.trade.ends.setdefault(name, answer)
 
     def _barely_conflicting(self) -> list[str]:
         """Which pairs of outputs are nearly at their least together."""
         return [
-            f"{one} and {other} barely conflict: at the least of one the other is within {100.0 * BARELY:g} % of it"
-            for one, other in itertools.combinations(self.outputs, 2)
-            if all(self._together(first, then) for first, then in ((one, other), (other, one)))
+            f"{name} and {other} barely conflict: at the least of one the other is within {100.0 * BARELY:g} % of it"
+            for name, other in itertools.combinations(self.outputs, 2)
+            if all(self._together(first, then) for first, then in ((name, other), (other, name)))
         ]
 
     def _together(self, first: str, then: str) -> bool:
@@ -186,10 +186,10 @@ class _Tracer:
             widest = max(gaps)[1]
             lost = self.lost
             if not self._seek(0.5 * (places[widest] + places[widest + 1])):
-                told_apart = self.lost == lost
+                separable = self.lost == lost
                 self.notes.append(
                     "it has a jump: between two of its points there is no design"
-                    if told_apart
+                    if separable
                     else f"more points than {len(self._all)} would be closer than the simulation tells designs apart"
                 )
                 break
@@ -268,10 +268,10 @@ class _Tracer:
         """Return the place of a point and an untried neighbour that descends from another end."""
         points, first = self._all, len(self.ends)
         for i, j, _ in shape.neighbours(np.array([self.frame.shares(point.values) for point in points])):
-            for one, other in ((i, j), (j, i)):
+            for place, other in ((i, j), (j, i)):
                 root = points[other].root
-                if one >= first and points[one].root != root and (one - first, root) not in tried:
-                    return one - first, points[other]
+                if place >= first and points[place].root != root and (place - first, root) not in tried:
+                    return place - first, points[other]
         return None
 
     # --- small things ---

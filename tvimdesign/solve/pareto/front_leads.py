@@ -64,9 +64,9 @@ def reached(curve: Curve, limit: float) -> float:
 def _intervals(curves: Mapping[str, Curve]) -> list[tuple[float, float]]:
     """Return intervals of limits in which every front is straight and none crosses another; the last is open."""
     marks = {limit for curve in curves.values() for limit, _ in curve}
-    for one, other in itertools.combinations(curves.values(), 2):
+    for lead, other in itertools.combinations(curves.values(), 2):
         for lower, upper in itertools.pairwise(sorted(marks)):
-            gaps = [reached(one, end) - reached(other, end) for end in (lower, upper)]
+            gaps = [reached(lead, end) - reached(other, end) for end in (lower, upper)]
             if all(math.isfinite(gap) for gap in gaps) and gaps[0] * gaps[1] < 0.0:
                 marks = marks | {lower + (upper - lower) * gaps[0] / (gaps[0] - gaps[1])}
     ordered = sorted(marks)

@@ -58,23 +58,23 @@ class Frame:
         The sums are in shares of the output's reference, so that they are as large as the solver's other rows.
         """
         sizes = self.ranges / np.array([reference[name] for name in self.names])
-        found = []
+        lines = []
         for i, name in enumerate(self.names[1:], start=1):
             scale = float(min(sizes[0], sizes[i]))
             factors = {name: scale / float(self.ranges[i]), self.names[0]: -scale / float(self.ranges[0])}
             limit = place[i] - place[0] + self.least[i] / self.ranges[i] - self.least[0] / self.ranges[0]
-            found.append(Bound(factors, scale * float(limit)))
-        return tuple(found)
+            lines.append(Bound(factors, scale * float(limit)))
+        return tuple(lines)
 
 
 def kept(rows: Array) -> list[int]:
     """Places of the rows that no other is as good as in every column (less is better); of equal ones the first."""
-    found = []
+    places = []
     for i, row in enumerate(rows):
         better = np.all(rows <= row, axis=1) & np.any(rows < row, axis=1)
         if not better.any() and not np.all(rows[:i] == row, axis=1).any():
-            found.append(i)
-    return found
+            places.append(i)
+    return places
 
 
 def spread(shares: Array) -> float:

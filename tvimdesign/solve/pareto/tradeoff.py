@@ -65,7 +65,7 @@ class Memory(Protocol):
     def recall(self, number: int, objective: Objective) -> Point | Failure | None:
         """Return the answer to a question, counted from 0; None if it is unknown."""
 
-    def keep(self, number: int, objective: Objective, found: Point | Failure) -> None:
+    def keep(self, number: int, objective: Objective, answer: Point | Failure) -> None:
         """Note an answer."""
 
 

@@ -39,25 +39,25 @@ def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
     what the study asks for, the one that comes nearest is returned. Raises TimeOverError where the time is over before
     any is known to come near.
     """
-    found: list[tuple[int, Robust]] = []
+    tried: list[tuple[int, Robust]] = []
     for halvings in (0, HALVINGS):
         for place in _worth_trying(candidates):
             optimizer, run, within = candidates[place]
-            if found and optimizer.deadline.passed:
+            if tried and optimizer.deadline.passed:
                 break
             optimizer.margins = {}
             try:
-                found.append((place, _robust(optimizer, run, within, None, halvings)))
+                tried.append((place, _robust(optimizer, run, within, None, halvings)))
             except TimeOverError:
-                if not found:
+                if not tried:
                     raise
                 optimizer.deadline.leave_out(MARGINS)
                 break
-            if found[-1][1].reached:
+            if tried[-1][1].reached:
                 break
-        if found[-1][1].reached:
+        if tried[-1][1].reached:
             break
-    best, robust = max(found, key=lambda pair: (pair[1].reached, pair[1].kept))
+    best, robust = max(tried, key=lambda pair: (pair[1].reached, pair[1].kept))
     candidates[best][0].margins = robust.margins
     return best, robust.run
 

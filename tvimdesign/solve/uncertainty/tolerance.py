@@ -121,7 +121,7 @@ class Tolerancing:
             for limit in constraints_of(resolved.study, resolved.table, resolved.values)
             if self._moves(limit.output, names)
         ]
-        wanted = dict.fromkeys([*self._asked(), *(limit.output for limit in self.limits)])
+        wanted = dict.fromkeys([*self._requested(), *(limit.output for limit in self.limits)])
         if not wanted:
             raise InputError(
                 f"{resolved.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
@@ -132,12 +132,12 @@ class Tolerancing:
         progress("recording the module for many designs")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
-        self.asked = tuple(name for name in dict.fromkeys(self._asked()) if name in self.outputs)
+        self.asked = tuple(name for name in dict.fromkeys(self._requested()) if name in self.outputs)
         self.limits = [limit for limit in self.limits if limit.output in self.outputs]
         self.many = BatchModel(resolved, names, self.outputs)
         self.horizon = float(resolved.values["horizon"])
 
-    def _asked(self) -> list[str]:
+    def _requested(self) -> list[str]:
         """Return the minimised and required outputs; without any, those that a summary shows up to the switch.
 
         What comes after the switch costs ten times as much, and is looked at where it is asked for.
@@ -211,13 +211,13 @@ class Tolerancing:
         results = spread.moments_of(self._draws(samples, seed)(self.whole))
         self.progress("sharing the variance out")
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
-        satisfied, together = self._kept(results)
+        satisfied, together = self._satisfied(results)
         return Spread(
             tuple(contributors), self.outputs, self.asked, self.nominal, derivatives, deviation, shares, worst, results,
             first, total, satisfied, together, self.left_out,
         )  # fmt: skip
 
-    def _kept(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
+    def _satisfied(self, drawn: spread.MonteCarlo) -> tuple[tuple[Kept, ...], spread.Yield]:
         """Return each limit, and all together."""
         shares = []
         every = np.ones(drawn.values.shape[1], dtype=bool)

@@ -59,11 +59,11 @@ class Drawn:
         ranks = rankdata(np.nan_to_num(row, nan=np.inf))
         if np.ptp(ranks) == 0.0:
             return {}
-        found = {
+        correlations = {
             name: float(np.corrcoef(rankdata(column), ranks)[0, 1] ** 2)
             for name, column in zip(self.inputs, self.columns, strict=True)
         }
-        return dict(sorted(found.items(), key=lambda item: -item[1]))
+        return dict(sorted(correlations.items(), key=lambda item: -item[1]))
 
 
 class Yields:
@@ -140,12 +140,12 @@ class Yields:
         places = [self._moving.index(contributor.name) for contributor in contributors]
         drawn = np.array([inputs[model.index[name]] for name in self._moving])
         many, pace = self._many, self._many.pace_at(inputs)
-        kept: list[Array] = []
+        columns_drawn: list[Array] = []
 
         def outputs(columns: Array) -> Array:
             every = np.repeat(drawn[:, None], columns.shape[1], axis=1)
             every[places] = columns
-            kept.append(columns)
+            columns_drawn.append(columns)
             return many(every, pace=pace, deadline=deadline)
 
         seed = self._study.solver.seed if seed is None else seed
@@ -153,7 +153,7 @@ class Yields:
         with np.errstate(invalid="ignore"):
             residuals = [limit.residual(values[self._outputs.index(limit.output)]) for limit in self.limits]
         names = tuple(contributor.name for contributor in contributors)
-        return Drawn(self.limits, np.array(residuals), names, np.concatenate(kept, axis=1))
+        return Drawn(self.limits, np.array(residuals), names, np.concatenate(columns_drawn, axis=1))
 
 
 def yields_of(optimizer: Optimizer) -> Yields:
