@@ -78,7 +78,7 @@ class Fitted:
         return Quantity(from_si(estimate.value, estimate.unit), estimate.unit)
 
     def table(self) -> pd.DataFrame:
-        """Parameters and what follows: value, low and high of 95 %, unit, meaning. An open end is not a number."""
+        """Return value, low and high of 95 %, unit and meaning of all parameters. An open end is not a number."""
         import pandas as pd
 
         rows = [
@@ -89,7 +89,7 @@ class Fitted:
         return pd.DataFrame(rows, index=pd.Index([estimate.name for estimate in self._estimates()], name="parameter"))
 
     def plot(self) -> Figure:
-        """Values, fitted curves and residuals."""
+        """Plot values, fitted curves and residuals."""
         from tvimdesign.report.figures.plot_process import Drawing
         from tvimdesign.report.fit.fit_data import figure_data
 
@@ -103,7 +103,7 @@ class Fitted:
         return write_record(self._measured, Path(catalog), name, based_on, overwrite=overwrite)
 
     def __repr__(self) -> str:
-        """Kind, files and parameters in a line."""
+        """Show kind, files and parameters in a line."""
         names = ", ".join(estimate.name for estimate in self._estimates())
         return f"<Fitted {self.kind}, {len(self._measured.blocks)} tables: {names}>"
 

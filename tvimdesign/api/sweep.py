@@ -19,11 +19,11 @@ from tvimdesign.report.run.answered_study import answer_study
 from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
-from tvimdesign.sweep.gather import Value, columns, told
+from tvimdesign.sweep.gather import Value, columns, status_values
 from tvimdesign.sweep.keys import CellKeys
 from tvimdesign.sweep.plan import SweepPlan, plan_of
 from tvimdesign.sweep.run_sweep import Executor
-from tvimdesign.sweep.shards import Kept, Shards
+from tvimdesign.sweep.shards import Shards, StoredCell
 from tvimdesign.sweep.work import Cell as AskedCell
 from tvimdesign.sweep.work import CellAnswer, SweptStudy
 
@@ -62,7 +62,7 @@ class Sweep(Generic[StudyT]):
     """Every cell in its order: of a grid the last axis changes fastest."""
 
     plan: SweepPlan
-    kept: Sequence[Kept]
+    kept: Sequence[StoredCell]
     """What each cell came to, in SI."""
     study_of: Callable[[StudyTree], StudyT]
     """Makes the study of a cell."""
@@ -97,7 +97,9 @@ class Sweep(Generic[StudyT]):
     def _row(self, number: int, heads: Sequence[str], wanted: Sequence[str], places: Mapping[str, int]) -> Any:
         answer = self.kept[number].answer
         values = tuple(answer.values[places[name]] for name in wanted)
-        values_shown = told(Kept(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted])
+        values_shown = status_values(
+            StoredCell(answer._replace(values=values), 0.0), [self.plan.unit(name) for name in wanted]
+        )
         axes = self.plan.axis_values(number)
         return dict(zip([*heads, *wanted], map(_or_nan, [*axes, *values_shown]), strict=True))
 
@@ -183,13 +185,13 @@ def swept(
         return Sweep(plan, list(Shards(Path(out), plan.columns).kept(every)), study_of, Path(out))
 
 
-def _here(plan: SweepPlan, say: Any) -> list[Kept]:
-    answers, cells = CellAnswers(SweptStudy.of(plan)), list[Kept]()
+def _here(plan: SweepPlan, say: Any) -> list[StoredCell]:
+    answers, cells = CellAnswers(SweptStudy.of(plan)), list[StoredCell]()
     known: dict[tuple[str, ...], CellAnswer] = {}
     for number in range(plan.count):
         say(f"cell {number + 1} of {plan.count}")
         texts = plan.points.texts(number)
         if texts not in known:
             known[texts] = answers.answer(AskedCell("", texts))
-        cells.append(Kept(known[texts], 0.0))
+        cells.append(StoredCell(known[texts], 0.0))
     return cells

@@ -69,7 +69,7 @@ def interval_table(intervals: Mapping[str, IntervalEntry]) -> pd.DataFrame:
 
 
 def _never(number: float | None) -> float:
-    """In JSON what never happens is null."""
+    """Return infinity for null: in JSON what never happens is null."""
     return float("inf") if number is None else number
 
 

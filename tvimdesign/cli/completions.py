@@ -9,7 +9,7 @@ _STUDIES = (".yaml", ".yml")
 
 
 def study_files(incomplete: str) -> list[str]:
-    """Study files and folders that begin so; hidden ones are left out."""
+    """Complete study files and folders that begin so; hidden ones are left out."""
     return _files(incomplete, _STUDIES)
 
 
@@ -19,28 +19,28 @@ def designs_and_studies(incomplete: str) -> list[str]:
 
 
 def tests(incomplete: str) -> list[str]:
-    """Virtual tests."""
+    """Complete virtual tests."""
     from tvimdesign.report.virtual_tests import TESTS
 
     return _beginning(TESTS, incomplete)
 
 
 def kinds(incomplete: str) -> list[str]:
-    """Kinds of measurement."""
+    """Complete kinds of measurement."""
     from tvimdesign.report.fit import kind_sheets
 
     return _beginning(kind_sheets(), incomplete)
 
 
 def examples(incomplete: str) -> list[str]:
-    """Shipped studies."""
+    """Complete shipped studies."""
     from tvimdesign.report.study_files import example_names
 
     return _beginning(example_names(), incomplete)
 
 
 def modes(incomplete: str) -> list[str]:
-    """Modes of a module."""
+    """Complete modes of a module."""
     from tvimdesign.report.rows import mode_names
 
     return _beginning(mode_names(), incomplete)
@@ -54,7 +54,7 @@ def rows(incomplete: str) -> list[str]:
 
 
 def settings(incomplete: str) -> list[str]:
-    """Inputs and choices, and outputs after `require.`, each with the `=` of a setting."""
+    """Complete inputs and choices, and outputs after `require.`, each with the `=` of a setting."""
     from tvimdesign.report.rows import setting_names
 
     return _beginning(setting_names(), incomplete)

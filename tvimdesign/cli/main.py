@@ -54,7 +54,7 @@ def _guarded(command: Callable[[], Any]) -> int:
         raise_pending()
         return code if isinstance(code, int) else 0
     except TvimError as error:
-        return _told(error)
+        return _report_error(error)
     except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write(_STOPPED)
         _forget_interrupt()
@@ -63,7 +63,7 @@ def _guarded(command: Callable[[], Any]) -> int:
         sys.stderr.close()
         return 0
     except (OSError, MemoryError) as error:
-        return _told(OutputError(_of_the_machine(error)))
+        return _report_error(OutputError(_of_the_machine(error)))
     except Exception as error:
         # Typer's usage errors can show themselves; their common base has no public name.
         show = getattr(error, "show", None)
@@ -81,7 +81,7 @@ def _forget_interrupt() -> None:
     eval("None")
 
 
-def _told(error: TvimError) -> int:
+def _report_error(error: TvimError) -> int:
     sys.stderr.write(f"{error}\n")
     if "--json" in sys.argv and error.exit_code == InputError.exit_code:
         _print_error(error)

@@ -61,7 +61,7 @@ Resume = Annotated[
 
 
 def default_folder(source: Path) -> Path:
-    """results/<study>; for a design a folder of its own beside the run's, with -cad after the design's name."""
+    """Return results/<study>; for a design a folder beside the run's, with -cad after the design's name."""
     if source.suffix != ".json":
         return Path("results") / source.stem
     folder = source.resolve().parent

@@ -24,7 +24,7 @@ from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 
 MOST_KEPT = 8
 """Compiled modules, and problems, that are kept: cells of one kind mostly follow one another."""
-_SAID = 300
+_LONGEST_REASON = 300
 """Letters of a reason at most."""
 
 
@@ -70,7 +70,7 @@ class CellAnswers:
         inputs = np.array([float(numbers[name]) for name in model.names])
         values = model.values(inputs, simulator.run_to_show(inputs, given_profiles(study)).values)
         stated = {name: float(inputs[i]) for name, i in model.index.items()}
-        return self._told("evaluated", study, {**stated, **values}, {**numbers, **model.words})
+        return self._answer_of("evaluated", study, {**stated, **values}, {**numbers, **model.words})
 
     def _simulator(self, study: Study, numbers: dict[str, Any]) -> Simulator:
         """Return the compiled module: one of the same words and conditions serves every number."""
@@ -93,13 +93,13 @@ class CellAnswers:
         above, _ = sorted_by_acceptance([limit.output for limit in exceeded(values, study.table)], study.accept)
         status = ABOVE_RATING if above and solution.status in {OPTIMAL, BELOW_YIELD} else solution.status
         word = status.partition(":")[0].partition(",")[0].replace(" ", "_")
-        answer = self._told(word, study, values, {**given(study), **stated, **model.words})
+        answer = self._answer_of(word, study, values, {**given(study), **stated, **model.words})
         reasons = [f"beyond a rating: {', '.join(above)}"] if above else []
         reasons += [] if word == status else [status]
         reasons += [f"the search ended at its time limit of {solution.out_of_time:g} s"] if solution.out_of_time else []
         return answer._replace(reason=_short("; ".join([*reasons, *filter(None, [answer.reason])])), warm=warm)
 
-    def _told(self, status: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> CellAnswer:
+    def _answer_of(self, status: str, study: Study, values: dict[str, float], chosen: dict[str, Any]) -> CellAnswer:
         limits = constraints_of(study, study.table, chosen)
         broken = [limit for limit in limits if not kept(limit, values[limit.output], study.table)]
         margins = [-float(limit.residual(values[limit.output])) for limit in limits]
@@ -127,7 +127,7 @@ def _number(value: float) -> float | None:
 
 def _short(text: str) -> str:
     text = " ".join(text.split())
-    return text if len(text) <= _SAID else text[: _SAID - 3] + "..."
+    return text if len(text) <= _LONGEST_REASON else text[: _LONGEST_REASON - 3] + "..."
 
 
 def _forget_oldest(kept_ones: OrderedDict[Any, Any]) -> None:

@@ -48,7 +48,7 @@ class CellQueue:
             self._groups.setdefault(self._kind(cell), deque()).append(cell)
 
     def __len__(self) -> int:
-        """Cells that are left."""
+        """Return how many cells are left."""
         return sum(map(len, self._groups.values()))
 
     def next(self, worker: int) -> list[Cell]:

@@ -22,7 +22,7 @@ from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-Told = list[tuple[str, CellAnswer, float]]
+Answers = list[tuple[str, CellAnswer, float]]
 AT_ONCE = 3
 """Chunks for each thread of the cluster: one is worked at, the others wait beside it."""
 LOOK = 0.05

@@ -16,10 +16,10 @@ from tvimdesign.base.units import from_si
 from tvimdesign.study.sections.sweep_block import SweptAxis
 from tvimdesign.sweep.plan import SweepPlan
 from tvimdesign.sweep.points import is_words, rounded, senses
-from tvimdesign.sweep.shards import Kept, Shards
+from tvimdesign.sweep.shards import Shards, StoredCell
 
 Value = float | int | str | None
-_TOLD = ("status", "broken", "margin", "reason")
+_STATUS_COLUMNS = ("status", "broken", "margin", "reason")
 
 
 class Column(NamedTuple):
@@ -42,7 +42,9 @@ def columns(plan: SweepPlan) -> list[Column]:
         "margin": "the least margin over all limits, as a share of the limit",
         "reason": "why there is no design, or what it breaks",
     }
-    status_columns = [Column(name, "1" if name in {"broken", "margin"} else "", "told", about[name]) for name in _TOLD]
+    status_columns = [
+        Column(name, "1" if name in {"broken", "margin"} else "", "told", about[name]) for name in _STATUS_COLUMNS
+    ]
     outputs = [Column(_apart(name, plan), plan.unit(name), "output", _about(plan, name)) for name in plan.columns]
     return [Column("cell", "1", "cell", "number of the cell, from 1"), *axes, *status_columns, *outputs]
 
@@ -66,10 +68,10 @@ def rows(plan: SweepPlan, keys: Iterable[str], shards: Shards) -> Iterator[list[
     """Yield every cell as a row of the table, in order, numbers in the units of the columns."""
     units = [plan.unit(name) for name in plan.columns]
     for number, cell in enumerate(shards.kept(iter(keys))):
-        yield [number + 1, *plan.axis_values(number), *told(cell, units)]
+        yield [number + 1, *plan.axis_values(number), *status_values(cell, units)]
 
 
-def told(cell: Kept, units: Sequence[str]) -> list[Value]:
+def status_values(cell: StoredCell, units: Sequence[str]) -> list[Value]:
     """Return what a cell came to, in the units of the columns."""
     answer = cell.answer
     values = [_in_unit(value, unit) for value, unit in zip(answer.values, units, strict=True)]
@@ -143,7 +145,7 @@ def write_parquet(plan: SweepPlan, folder: Path) -> None:
 
 
 def parquet_library() -> Any:
-    """PyArrow; raises InputError where it is not installed, so that it is known before the work."""
+    """Return PyArrow; raises InputError where it is not installed, so that it is known before the work."""
     require_extra("parquet", "--parquet (cells.csv and cells.sqlite hold the same table)")
     import pyarrow
 

@@ -123,7 +123,7 @@ def records_hash(study: Study) -> str:
     records: dict[tuple[str, str], Record] = {}
     for single in _one_by_one(study):
         records |= {(r.category, r.name): r for r in given(single).values() if isinstance(r, Record)}
-    return key_of([_said(records[key]) for key in sorted(records)])
+    return key_of([_record_content(records[key]) for key in sorted(records)])
 
 
 def _one_by_one(study: Study) -> Iterator[Study]:
@@ -136,10 +136,10 @@ def _one_by_one(study: Study) -> Iterator[Study]:
                 yield study.model_copy(update={"vary": vary})
 
 
-def _said(record: Record) -> Any:
+def _record_content(record: Record) -> Any:
     """Return all of a record but its file's path, which differs from machine to machine."""
     entries = {name: astuple(entry) for name, entry in record.entries.items()}
     tables = {name: [dict(table.columns), table.rows, table.source, table.status, table.range]
               for name, table in record.tables.items()}  # fmt: skip
-    base = _said(record.based_on) if record.based_on else None
+    base = _record_content(record.based_on) if record.based_on else None
     return [record.category, record.name, record.title, entries, tables, dict(record.words), base]

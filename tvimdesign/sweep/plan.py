@@ -85,7 +85,7 @@ class SweepPlan:
         return tuple(dict.fromkeys([*study.minimize, *limits, *ALWAYS, *study.vary]))
 
     def unit(self, column: str) -> str:
-        """Unit of a column; empty for words."""
+        """Return the unit of a column; empty for words."""
         row = self.study.table.by_name.get(column.partition("@")[0])
         return "" if row is None or isinstance(row, Choice) else str(row.unit)
 

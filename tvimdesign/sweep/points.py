@@ -38,14 +38,14 @@ def is_words(axis: SweptAxis) -> bool:
 
 
 def senses(axis: SweptAxis) -> set[str]:
-    """`<=` and `>=`, as far as an axis has them."""
+    """Return `<=` and `>=`, as far as an axis has them."""
     if axis.range:
         return {axis.sense} if axis.sense else set()
     return {text.value.strip()[:2] for text in axis.values} & {"<=", ">="}
 
 
 def rounded(value: float) -> float:
-    """Twelve digits: a conversion of units adds noise in the sixteenth."""
+    """Round to twelve digits: a conversion of units adds noise in the sixteenth."""
     return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else value
 
 

@@ -60,9 +60,9 @@ class Pool:
     """Some worker processes on one job, which keep their cells in shards of a folder."""
 
     def __init__(self, job: SweptStudy, folder: Path, workers: int) -> None:
-        """No process is started yet."""
+        """Start with no process."""
         self._job, self._folder, self._count = job, folder, workers
-        self._said: queue.Queue[tuple[int, str | None]] = queue.Queue()
+        self._lines: queue.Queue[tuple[int, str | None]] = queue.Queue()
         self._workers: dict[int, _Worker] = {}
         self._started = 0
         self._deaths: Counter[str] = Counter()
@@ -80,7 +80,7 @@ class Pool:
             for _ in range(processes):
                 self._start(left)
             while self._workers:
-                number, line = self._said.get()
+                number, line = self._lines.get()
                 worker = self._workers[number]
                 if line is None:
                     self._handle_dead_worker(worker, left, spent)
@@ -106,7 +106,7 @@ class Pool:
             "tvimdesign.sweep.worker", stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True,
             encoding="utf-8",
         )  # fmt: skip
-        read_lines(process, lambda line: self._said.put((number, line)))
+        read_lines(process, lambda line: self._lines.put((number, line)))
         worker = self._workers[number] = _Worker(number, process)
         self._tell(worker, packed(self._job, self._folder))
         self._feed(worker, left)

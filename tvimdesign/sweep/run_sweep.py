@@ -40,7 +40,7 @@ class Executor:
 
     @classmethod
     def of(cls, workers: int, scheduler: str, shard: str) -> Executor:
-        """From the words of the command line; raises InputError for a shard that is none."""
+        """Read the words of the command line; raises InputError for a shard that is none."""
         first, slash, last = shard.partition("/")
         if not shard:
             return cls(workers, scheduler)

@@ -91,7 +91,7 @@ class ShardWriter:
         self._digest = digest
 
 
-class Kept(NamedTuple):
+class StoredCell(NamedTuple):
     """One cell as a shard has it."""
 
     answer: CellAnswer
@@ -116,14 +116,14 @@ class Shards:
         """Count of cells."""
         return len(self._places)
 
-    def kept(self, keys: Iterator[str]) -> Iterator[Kept]:
+    def kept(self, keys: Iterator[str]) -> Iterator[StoredCell]:
         """Yield the cells of some keys, in their order. Raises KeyError for one that is not there."""
         opened = [path.open("rb") for path, _ in self._files]
         try:
             for key in keys:
                 file, place = self._places[key]
                 opened[file].seek(place)
-                yield _kept(json.loads(opened[file].readline()), self._files[file][1])
+                yield _stored_cell(json.loads(opened[file].readline()), self._files[file][1])
         finally:
             for stream in opened:
                 stream.close()
@@ -156,6 +156,6 @@ def _columns_of(head: bytes) -> list[str] | None:
     return header.get("columns") if isinstance(header, dict) else None
 
 
-def _kept(line: list[Any], places: Sequence[int]) -> Kept:
+def _stored_cell(line: list[Any], places: Sequence[int]) -> StoredCell:
     _, status, reason, broken, margin, values, warm, seconds = line
-    return Kept(CellAnswer(status, reason, broken, margin, tuple(values[i] for i in places), bool(warm)), seconds)
+    return StoredCell(CellAnswer(status, reason, broken, margin, tuple(values[i] for i in places), bool(warm)), seconds)

@@ -76,7 +76,7 @@ def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
     assert "5 OF 6 CELLS EVALUATED" in text
     assert "<code>pcl_thickness</code> from 0.6 mm to 2 mm, 3 values; <code>rate_model</code>: smi, bending" in text
     assert "grid; each cell is evaluated" in text
-    assert "3 g in cell 5, among the cells that keep every limit" in text
+    assert "3 g in cell 5, among the feasible cells" in text
     failed = text[text.index('<section id="failed"') :]
     assert "no such &lt;module&gt;" in failed[: failed.index("</section>")]
     assert "every cell as CSV" in text

@@ -18,14 +18,14 @@ from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
 
 COMPARISONS = {"optimised": "each optimised for itself", "drawn": "as drawn"}
-_SAID_FIRST = ("envelope_diameter", "module_mass", "cycle_time", "response_time")
+_DEFAULT_OUTPUTS = ("envelope_diameter", "module_mass", "cycle_time", "response_time")
 
 
 class Outcome:
     """All studies' answers under their labels; the others are compared with the first study."""
 
     def __init__(self, entrants: Mapping[str, Case], found: Mapping[str, dict[str, Any]]) -> None:
-        """`found` holds what each child process wrote."""
+        """Take what each child process wrote as `found`."""
         self.entrants, self.found = dict(entrants), dict(found)
         self.tables = {label: entrant.study.table for label, entrant in entrants.items()}
         self.seconds: dict[str, float] = {}
@@ -79,7 +79,7 @@ class Outcome:
         return fronts_by_pair
 
     def unit(self, name: str) -> str:
-        """Unit of a row that any of the studies has."""
+        """Return the unit of a row that any of the studies has."""
         return next(table.unit(name) for table in self.tables.values() if name.partition("@")[0] in table.by_name)
 
     @cached_property
@@ -170,9 +170,9 @@ class Outcome:
 
     def _without_design(self) -> list[str]:
         return [
-            f"no design was found for {label} that keeps every limit, so that the modules are compared as drawn"
+            f"no feasible design was found for {label}, so that the modules are compared as drawn"
             if self.which == "drawn"
-            else f"no design was found for {label} that keeps every limit"
+            else f"no feasible design was found for {label}"
             for label, trouble in self.troubles
             if trouble["step"] == "optimised"
         ]
@@ -180,11 +180,11 @@ class Outcome:
     def _against(self, which: str) -> list[str]:
         labels = list(self.designs[which])
         rows = self.rows.get(which, [])
-        return [against(label, labels[0], rows, self._names_said()) for label in labels[1:]]
+        return [against(label, labels[0], rows, self._names_reported()) for label in labels[1:]]
 
-    def _names_said(self) -> list[str]:
+    def _names_reported(self) -> list[str]:
         minimized = next(iter(self.entrants.values())).study.minimize
-        return list(minimized) or list(_SAID_FIRST)
+        return list(minimized) or list(_DEFAULT_OUTPUTS)
 
     def plain(self) -> dict[str, Any]:
         """Return everything a script wants to know."""

@@ -159,7 +159,7 @@ class ComparisonJob:
         return {**findings(trial), "x_label": panels[0]["x_label"], "y_label": panels[0]["y_label"], "lines": lines}
 
     def _heat(self, of: StudyResult) -> dict[str, Any]:
-        """Temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
+        """Return temperatures [degC] through the polymer while it heats: a row for each depth [mm]."""
         history = of.histories["softening"]
         cells = [name for name in history if name.startswith("cell_")]
         depth = from_si(self.table.evaluate(of.design.values, ["pcl_depth"])["pcl_depth"], "mm")

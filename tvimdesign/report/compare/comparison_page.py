@@ -8,7 +8,7 @@ from typing import Any
 from tvimdesign.base.units import from_si
 from tvimdesign.page.blocks import Block, Drawn, Folded, Listing, Page, Points, Section, Warned, Words
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
-from tvimdesign.report.compare.comparison_summary import side_by_side, told_rows, warnings_of
+from tvimdesign.report.compare.comparison_summary import reported_rows, side_by_side, warnings_of
 from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.output.page_sections import made_by_words, there, tone_of, versions_section
@@ -74,7 +74,7 @@ def _release(outcome: Outcome) -> dict[str, Any]:
 
 
 def _from_where_it_moves(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Lines of a panel from the time on at which the first of them has left where it began by a thousandth."""
+    """Cut lines of a panel to the time from which the first of them has left where it began by a thousandth."""
     start = min(_begins_to_move(line["x"], line["y"]) for line in lines)
     moved = []
     for line in lines:
@@ -134,15 +134,15 @@ def comparison_page(folder: ResultsFolder, outcome: Outcome, texts: Mapping[str,
 
 
 def _side_by_side(outcome: Outcome) -> Section:
-    """Headlines and what is asked; then everything that all studies have."""
-    lines = told_rows(outcome)
+    """Show headlines and requirements; then everything that all studies have."""
+    lines = reported_rows(outcome)
     every = [side_by_side(COMPARISONS[which], rows) for which, rows in outcome.rows.items()]
     blocks: list[Block] = [*lines, *([Folded("Every output that all studies have", every)] if every else [])]
     return Section("side-by-side", "Side by side", blocks)
 
 
 def _figures(outcome: Outcome) -> list[Section]:
-    """Fronts and curves, where there are any."""
+    """Return fronts and curves, where there are any."""
     drawn: list[Block] = [
         Drawn(drawing.file, "lines.js", _LINES[drawing.file], _panels(drawing.data), libraries=["echarts"])
         for drawing in drawings(outcome)
@@ -152,7 +152,7 @@ def _figures(outcome: Outcome) -> list[Section]:
 
 
 def _panels(data: dict[str, Any]) -> dict[str, Any]:
-    """Panels as the page draws them: a front's points are marked."""
+    """Return panels as the page draws them: a front's points are marked."""
     return {
         "panels": [
             {**panel, "lines": [{**line, "points": "optimum" in line} for line in panel["lines"]]}

@@ -26,7 +26,7 @@ def print_comparison(outcome: Outcome, console: Console) -> None:
     for sentence in outcome.conclusions:
         console.print(f"- {escape(sentence)}")
     console.print()
-    for table in told_rows(outcome):
+    for table in reported_rows(outcome):
         print_grid(table, console)
     for which, alone in outcome.alone.items():
         shown = [f"{label}: {row.name} {_value(row, label, with_unit=True)}" for label, row in alone if row.headline]
@@ -49,8 +49,8 @@ def summary_text(outcome: Outcome) -> str:
     return stream.getvalue()
 
 
-def told_rows(outcome: Outcome) -> list[Grid]:
-    """Headlines and what is asked, side by side, a table for each comparison."""
+def reported_rows(outcome: Outcome) -> list[Grid]:
+    """Tabulate headlines and requirements side by side, a table for each comparison."""
     required = {r.output for entrant in outcome.entrants.values() for r in entrant.study.require}
     return [
         side_by_side(COMPARISONS[which].capitalize(), [row for row in rows if row.headline or row.name in required])
@@ -59,7 +59,7 @@ def told_rows(outcome: Outcome) -> list[Grid]:
 
 
 def side_by_side(title: str, rows: Sequence[Row]) -> Grid:
-    """Outputs of all studies beside one another, with what each is over the first."""
+    """Tabulate outputs of all studies beside one another, with each one's ratio to the first."""
     labels = list(rows[0].values) if rows else []
     heads = ["", *labels, "unit"]
     heads += [head for label in labels[1:] for head in (f"{label} / {labels[0]}", f"{label} is")]
@@ -118,7 +118,7 @@ def _print_warnings(outcome: Outcome, console: Console) -> None:
 
 
 def accepted(outcome: Outcome) -> Iterator[tuple[str, list[str]]]:
-    """(study, ratings) of what is beyond its rating, as its study accepts."""
+    """Return (study, ratings) of what is beyond its rating, as its study accepts."""
     for label, answer in outcome.found.items():
         if names := answer.get(outcome.which, {}).get("accepting"):
             yield label, names

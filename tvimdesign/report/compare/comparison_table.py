@@ -74,7 +74,7 @@ def common_rows(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> l
 
 
 def lone_values(designs: Mapping[str, Design], tables: Mapping[str, Table]) -> list[tuple[str, Row]]:
-    """(study, output) of what some study has and not all of them have."""
+    """Return (study, output) of what some study has and not all of them have."""
     shared = {row.name for row in common_rows(designs, tables)}
     return [
         (label, _row(name, {label: design}, tables[label]))

@@ -33,7 +33,7 @@ class ParetoComparison:
     leads: tuple[Lead, ...]
 
     def plain(self) -> dict[str, Any]:
-        """As plain data, limits in the unit; null as an upper limit is no end."""
+        """Return plain data, limits in the unit; null as an upper limit is no end."""
         return {
             "gained": self.gained, "limited": self.limited, "unit": pretty(self.limited_unit),
             "leads": [
@@ -85,7 +85,7 @@ def _difference(row: Row, label: str) -> str:
 
 
 def _factor(factor: float, less: bool) -> str:
-    """`2.1 times `, or as a share of the first one's: `8 % `."""
+    """Return `2.1 times `, or as a share of the first one's: `8 % `."""
     if math.isinf(factor):
         return ""
     if factor >= _TIMES_FROM:
@@ -123,7 +123,7 @@ def _span(lead: Lead) -> str:
 
 
 def wins(label: str, contests: Sequence[ParetoComparison]) -> str:
-    """For which requirements a study wins, from the fronts."""
+    """Say for which requirements a study wins, from the fronts."""
     every = [(contest, lead) for contest in contests for lead in contest.leads]
     mine = [(contest, lead) for contest, lead in every if lead.best == label]
     if len(mine) == len(every):
@@ -139,7 +139,7 @@ def wins(label: str, contests: Sequence[ParetoComparison]) -> str:
 
 
 def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
-    """In which of the outputs that stand in a summary either does better, with the ratio."""
+    """Say in which outputs of a summary either does better, with the ratio."""
     clauses = []
     for verdict, who in (("better", label), ("worse", first)):
         leads = [

@@ -33,7 +33,7 @@ _ACROSS = 3
 
 
 def spread(data: dict[str, Any]) -> Figure:
-    """Bars of contributors above, histograms with limits below."""
+    """Draw bars of contributors above, histograms with limits below."""
     panels, outputs = data["panels"], data["outputs"]
     down = -(-len(panels) // _ACROSS)
     bars_high, row = 0.17 * len(outputs) + 0.1, 1.85
@@ -80,7 +80,7 @@ _LONGEST = 84  # letters of the titles in a row
 
 
 def fit(data: dict[str, Any]) -> Figure:
-    """Two panels in a row at most."""
+    """Draw two panels in a row at most."""
     panels = data["panels"]
     down, across = -(-len(panels) // _PANELS_ACROSS), min(len(panels), _PANELS_ACROSS)
     row = _HIGH + _LOW + _ABOVE + _BELOW + 0.08

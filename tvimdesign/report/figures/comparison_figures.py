@@ -14,7 +14,7 @@ _LEFT, _GAP = 0.62, 0.65  # inches
 
 
 def fronts(data: dict[str, Any]) -> Figure:
-    """Fronts of all studies, a panel for each pair of outputs; the optimum of each study is filled."""
+    """Draw fronts of all studies, a panel for each pair of outputs; the optimum of each study is filled."""
     figure = new_figure(3.25)
     caption(figure, data["title"])
     wide = _width(len(data["panels"]), _GAP, 0.15)
@@ -31,12 +31,12 @@ def fronts(data: dict[str, Any]) -> Figure:
 
 
 def _width(count: int, gap: float, right: float) -> float:
-    """Width [inches] of so many panels side by side."""
+    """Return the width [inches] of so many panels side by side."""
     return (WIDTH - _LEFT - right - gap * (count - 1)) / count
 
 
 def heat(data: dict[str, Any]) -> Figure:
-    """Temperature through the polymer over time while it heats, every study on the same scale of colours."""
+    """Draw the polymer's temperature over time while it heats, every study on one scale of colours."""
     studies, gap = data["studies"], 0.5
     figure = new_figure(3.0)
     caption(figure, data["title"])

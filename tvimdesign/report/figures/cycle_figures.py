@@ -62,7 +62,7 @@ def cycle(data: dict[str, Any]) -> Figure:
 
 
 def stiffness_and_damping(data: dict[str, Any]) -> Figure:
-    """Stiffness and damping of the joint through the cycle, at the frequency of where each phase leads."""
+    """Draw stiffness and damping of the joint through the cycle, at the frequency of where each phase leads."""
     figure = new_figure(4.75)
     caption(figure, data["title"])
     stiffness = place(figure, _LEFT, 2.42, 6.1, 1.72)
@@ -104,7 +104,7 @@ def _share_time(panels: tuple[Any, ...], soft: dict[str, Any]) -> None:
 
 
 def _joined(soft: dict[str, Any], stiff: dict[str, Any] | None, name: str) -> tuple[list[float], list[float]]:
-    """Times and values of a column over both phases."""
+    """Return times and values of a column over both phases."""
     if not stiff:
         return soft["time"], soft[name]
     end = soft["time"][-1]

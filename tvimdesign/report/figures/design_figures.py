@@ -118,7 +118,7 @@ _LEFT, _BELOW = 2.3, 1.4  # inches
 
 
 def sensitivities(data: dict[str, Any]) -> Figure:
-    """Outputs down, variables across; red rises with the variable, blue falls, and the number says which."""
+    """Draw outputs down, variables across; red rises with the variable, blue falls, and the number says which."""
     values = np.array(data["values"])
     down, across = values.shape
     width, high = max(WIDTH, _LEFT + 0.35 * across + 0.2), 0.18 * down
@@ -138,7 +138,7 @@ def sensitivities(data: dict[str, Any]) -> Figure:
 
 
 def front(data: dict[str, Any]) -> Figure:
-    """Points of a front, the knee and the weighted optimum; of three outputs the first is the colour of the points."""
+    """Draw a front's points, the knee and the weighted optimum; of three outputs the first colours the points."""
     labels, points = data["labels"], data["points"]
     pairs = list(itertools.combinations(range(len(labels)), 2))
     key = 0.62 if len(labels) > 2 else 0.0  # inches below the panels: the scale of colours

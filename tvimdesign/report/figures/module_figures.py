@@ -24,7 +24,7 @@ from tvimdesign.report.figures.theme import (
 
 
 def impedance(data: dict[str, Any]) -> Figure:
-    """Stiffness and damping against temperature, of the layer alone and of the joint; bands: what history leaves."""
+    """Draw stiffness and damping against temperature, of layer and joint; bands: what history leaves."""
     sweep = data["sweep"]
     figure = new_figure(3.4)
     caption(figure, f"At {data['frequency']:g} Hz; pale areas: what the layer's history leaves open")
@@ -47,7 +47,7 @@ def impedance(data: dict[str, Any]) -> Figure:
 
 
 def torque(data: dict[str, Any]) -> Figure:
-    """Torque that turns the joint as a sine through its stroke, a panel for each operating point."""
+    """Draw the torque that turns the joint as a sine through its stroke, a panel for each operating point."""
     loops = data["loops"]
     figure = new_figure(2.6)
     caption(figure, data["title"])
@@ -67,7 +67,7 @@ def torque(data: dict[str, Any]) -> Figure:
 
 
 def mass(data: dict[str, Any]) -> Figure:
-    """Mass of each part the module has."""
+    """Draw the mass of each part the module has."""
     parts = sorted(((name, value) for name, value in data["parts"].items() if value > 0.0), key=lambda item: item[1])
     figure = new_figure(1.0 + 0.2 * len(parts))
     axes = place(figure, 1.1, 0.42, 5.6, 0.2 * len(parts))

@@ -31,7 +31,7 @@ _PLACES = {"near_face_time": "near face at its target", "mean_time": "mean at it
 
 
 def level_sets(data: dict[str, Any]) -> Figure:
-    """Thickness that gives one response time against other parameters, a line for each place of the sensor."""
+    """Draw the thickness of one response time against other parameters, a line for each place of the sensor."""
     figure = new_figure(3.2)
     low, high = data["range"]
     caption(figure, f"What gives {data['wanted']:g} s: thickness from {low:g} to {high:g} mm")
@@ -58,7 +58,7 @@ def level_sets(data: dict[str, Any]) -> Figure:
 
 
 def tornado(data: dict[str, Any]) -> Figure:
-    """Ratio of compression to shear time: a bar for each input through its range, a mark for each other choice."""
+    """Draw the ratio of the times: a bar for each input through its range, a mark for each other choice."""
     bars, choices, middle = data["bars"][::-1], data["choices"][::-1], data["ratio"]
     rows = len(bars) + len(choices)
     figure = new_figure(1.3 + 0.2 * rows)

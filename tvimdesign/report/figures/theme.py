@@ -83,7 +83,7 @@ _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def log_ticks(axis: Any) -> None:
-    """Few ticks with plain numbers on an axis made logarithmic, at least two whatever it spans, none between them."""
+    """Set few plain numbers as ticks of a logarithmic axis, at least two whatever it spans, none between them."""
     low, high = sorted(axis.get_view_interval())
     inside = [value for value in _log_values(low, high) if low <= value <= high]
     if len(inside) < 2:
@@ -94,7 +94,7 @@ def log_ticks(axis: Any) -> None:
 
 
 def _log_values(low: float, high: float) -> list[float]:
-    """Powers of ten, with their doubles and fives where the axis spans less than three of them."""
+    """Return powers of ten, with their doubles and fives where the axis spans less than three of them."""
     decades = math.log10(high / low)
     steps = (1.0, 2.0, 5.0) if decades < 2.5 else (1.0,)
     every = max(1, math.ceil(decades / TICKS))
@@ -127,7 +127,7 @@ def legend_beside(axes: Any, title: str) -> None:
 
 
 def row_texts(axes: Any, left: Sequence[str], right: Sequence[str]) -> None:
-    """Texts to both sides of rows, from the lowest up: as ticks they would be five things to draw each."""
+    """Draw texts to both sides of rows, from the lowest up: as ticks they would be five things to draw each."""
     axes.set_yticks([])
     for texts, x, side in ((left, -0.015, "right"), (right, 1.015, "left")):
         for i, text in enumerate(texts):
@@ -153,7 +153,7 @@ def new_figure(height: float, width: float = WIDTH) -> Figure:
 
 
 def place(figure: Figure, left: float, bottom: float, width: float, height: float, **more: Any) -> Axes:
-    """Axes of a size in inches, at a place in inches from the lower left corner of the figure."""
+    """Place axes of a size in inches, at a place in inches from the lower left corner of the figure."""
     across, up = figure.get_size_inches()
     return figure.add_axes((left / across, bottom / up, width / across, height / up), **more)
 

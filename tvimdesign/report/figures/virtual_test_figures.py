@@ -56,7 +56,7 @@ def drawn(x: Array, y: Array) -> Drawn:
 
 
 def _turns(y: Array) -> NDArray[np.int64]:
-    """Samples at which a curve turns back by more than rounding, alternately highs and lows."""
+    """Return samples at which a curve turns back by more than rounding, alternately highs and lows."""
     least = _ROUNDING * (float(np.max(y)) - float(np.min(y)))
     steps = np.diff(y)
     candidates = np.flatnonzero(steps[:-1] * steps[1:] < 0.0) + 1

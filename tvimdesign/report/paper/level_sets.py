@@ -75,7 +75,7 @@ def print_level_sets(out: Path, overwrite: bool, as_json: bool) -> None:
 
 
 def _figure_data(sets: list[LevelSet], model: DeviceFunctions, wanted: float) -> dict[str, Any]:
-    """Plain data for the process that draws, in the units people read."""
+    """Return plain data for the process that draws, in the units people read."""
     ends = [1e3 * float(end) for end in (THICKNESSES[0], THICKNESSES[-1])]
     return {"wanted": wanted, "range": ends, "panels": [_panel(each, model) for each in sets]}
 

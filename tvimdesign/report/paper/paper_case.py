@@ -52,7 +52,7 @@ def _model(mode: str, **choices: str) -> DeviceFunctions:
 
 @cache
 def pair(**choices: str) -> Pair:
-    """Shear and compression module, compiled; `choices` changes words of both."""
+    """Return the shear and the compression module, compiled; `choices` changes words of both."""
     return Pair(_model("shear", **choices), _model("compression", **choices))
 
 
@@ -80,7 +80,7 @@ def ranges() -> dict[str, Entry]:
 
 
 def _entry(record: dict[str, Any]) -> dict[str, Any]:
-    """Fields of a range in SI."""
+    """Return the fields of a range in SI."""
     ends = {end: to_si(float(record[end]), record["unit"]) for end in ("low", "high")}
     return {"unit": record["unit"], "source": record["source"], "status": record["status"], **ends}
 
@@ -169,7 +169,7 @@ def alternative_rows() -> Iterator[dict[str, str | float]]:
 
 
 def figure_data() -> dict[str, Any]:
-    """Plain data of the tornado: a bar for each input and each choice that moves the ratio."""
+    """Return plain data of the tornado: a bar for each input and each choice that moves the ratio."""
     nominal = ratio(pair().times(case()["event"]))
     bars = [_bar(influence) for influence in influences() if influence.reach - 1.0 > SHOWN]
     choices = [{"label": alternative.label, "ratio": ratio(alternative.times)} for alternative in alternatives()]

@@ -25,7 +25,7 @@ def claims() -> dict[str, Any]:
 
 
 def from_paper(name: str) -> float:
-    """SI value of a number the paper states."""
+    """Return the SI value of a number the paper states."""
     entry = claims()["numbers"][name]
     return to_si(float(entry["value"]), entry["unit"])
 
@@ -74,7 +74,7 @@ def published_module() -> ResolvedModule:
 
 @cache
 def published_values() -> dict[str, float]:
-    """Values of the module [SI], one working cycle simulated."""
+    """Return the values of the module [SI], one working cycle simulated."""
     from tvimdesign.solve.result import answer
 
     return answer(_study()).design.values

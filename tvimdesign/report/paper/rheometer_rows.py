@@ -21,29 +21,29 @@ _SURE = 0.1
 
 
 def _modes(temperature: float, fraction: float) -> list[tuple[float, float]]:
-    """Relaxation spectrum of the paper's polymer at a temperature [K] and a solid fraction."""
+    """Return the relaxation spectrum of the paper's polymer at a temperature [K] and a solid fraction."""
     spectrum = polymer.spectrum(temperature, fraction, published_module().quantity("pcl_rheology"))
     return [(float(time), float(modulus)) for time, modulus in spectrum]
 
 
 def _complex_modulus(temperature: float, fraction: float, frequency: float) -> float:
-    """|G*| [Pa] at an angular frequency [rad/s]."""
+    """Return |G*| [Pa] at an angular frequency [rad/s]."""
     storage, loss = polymer.maxwell_moduli(frequency, _modes(temperature, fraction))
     return math.hypot(float(storage), float(loss))
 
 
 def plate_torque(stress: float) -> float:
-    """Torque [N*m] of a shear stress [Pa] at the plates' rim that falls linearly to the axis: pi R^3/2 tau."""
+    """Return the torque [N*m] of a shear stress [Pa] at the plates' rim, linear to the axis: pi R^3/2 tau."""
     return 0.5 * math.pi * (0.5 * from_paper("plate_diameter")) ** 3 * stress
 
 
 def plate_stiffness(modulus: float) -> float:
-    """Torsional stiffness [N*m/rad] of a specimen between the plates: pi R^4 G/(2 h)."""
+    """Return the torsional stiffness [N*m/rad] of a specimen between the plates: pi R^4 G/(2 h)."""
     return 0.5 * math.pi * (0.5 * from_paper("plate_diameter")) ** 4 * modulus / from_paper("plate_gap")
 
 
 def _share(device: Instrument, unit: str) -> str:
-    """`125 mN·m (100 to 230, assumed)`."""
+    """Return a text such as `125 mN·m (100 to 230, assumed)`."""
     value, low, high = (from_si(number, unit) for number in (device.value, device.low, device.high))
     return f"{value:g} {unit.replace('*', '·').replace('uN', 'µN')} ({low:g} to {high:g}, {device.status})"
 

@@ -41,7 +41,7 @@ def _output_stiffness() -> str:
 
 
 def _by_unity(rate: float) -> float:
-    """Output stiffness of the paper's springs with its ratio of one [N*m/rad]."""
+    """Return the output stiffness of the paper's springs with its ratio of one [N*m/rad]."""
     return float(transmission.output_stiffness(from_paper("springs"), rate, 0.0, 1.0, 0.0))
 
 

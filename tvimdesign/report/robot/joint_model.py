@@ -37,7 +37,7 @@ class RigidBody:
     """File in metres, relative to the folder of the model."""
 
     def about_axis(self) -> float:
-        """Moment of inertia about the rotor's axis [kg*m^2], by the parallel axes."""
+        """Return the moment of inertia about the rotor's axis [kg*m^2], by the parallel axes."""
         return self.inertia[2][2] + self.mass * (self.centre[0] ** 2 + self.centre[1] ** 2)
 
 

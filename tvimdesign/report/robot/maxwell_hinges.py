@@ -96,7 +96,7 @@ def maxwell_hinges(state: JointState, count: int, step: float) -> MaxwellHinges:
 def _elements(
     modes: Modes, count: int, step: float, armature: float, to: tuple[str, str, float]
 ) -> tuple[list[Hinge], list[Spring], float, int]:
-    """Hinges and springs of elements behind a hinge, what is merged as damping of it, and how many that are."""
+    """Return hinges and springs of elements behind a hinge, what is merged as its damping, and how many that are."""
     carrier, name, sense = to
     hinges, springs, damping, merged = [], [], 0.0, 0
     for index in range(count):
@@ -112,7 +112,7 @@ def _elements(
 
 
 def without_spring(modes: Modes, spring: float) -> Modes:
-    """Maxwell elements that in series with a spring [N*m/rad] are the given ones; it must be stiffer than they are.
+    """Return Maxwell elements that in series with a stiffer spring [N*m/rad] are the given ones.
 
     With b = 1/(1 - sum k/S) and u = sqrt(k/tau) the rates are the eigenvalues x of diag(1/tau) + b/S u u^T, and an
     element has the stiffness b^2 (u.v)^2/x with its eigenvector v.
@@ -128,14 +128,14 @@ def without_spring(modes: Modes, spring: float) -> Modes:
 
 
 def held_angles(state: JointState, made: MaxwellHinges, angle: float) -> dict[str, float]:
-    """Angles of all hinges [rad] after the link was turned to a positive angle at once and held there for `hold`."""
+    """Return all hinges' angles [rad] after the link was turned to a positive angle at once and held for `hold`."""
     if not state.one_sided:
         return _relaxed(made, JOINT, "pcl", angle, state.hold)
     return {**{hinge.name: 0.0 for hinge in made.hinges}, **_pressed(made, angle, state.hold), JOINT: angle}
 
 
 def _relaxed(made: MaxwellHinges, carrier: str, name: str, angle: float, hold: float) -> dict[str, float]:
-    """Hinges of elements whose carrier is held: q = phi (1 - exp(-t/tau))."""
+    """Return hinge angles of elements whose carrier is held: q = phi (1 - exp(-t/tau))."""
     damping = {hinge.name: hinge.damping for hinge in made.hinges}
     own = [spring for spring in made.springs if spring.name.startswith(f"{name}_")]
     return {
@@ -147,7 +147,7 @@ def _relaxed(made: MaxwellHinges, carrier: str, name: str, angle: float, hold: f
 
 
 def _pressed(made: MaxwellHinges, angle: float, hold: float) -> dict[str, float]:
-    """Face and hinges of the block ahead, behind its contact spring."""
+    """Return face and hinges of the block ahead, behind its contact spring."""
     from scipy.linalg import expm
 
     damping = {hinge.name: hinge.damping for hinge in made.hinges}

@@ -12,12 +12,12 @@ from tvimdesign.report.robot.maxwell_hinges import JOINT, Hinge, MaxwellHinges, 
 
 
 def numbers(*values: float) -> str:
-    """Numbers as an attribute has them, to ten digits."""
+    """Format numbers for an attribute, to ten digits."""
     return " ".join(f"{value:.10g}" for value in values)
 
 
 def comment(lines: Sequence[str]) -> Xml.Element[Any]:
-    """Lines as a comment; two hyphens, which XML does not allow in one, become one."""
+    """Format lines as a comment; two hyphens, which XML does not allow in one, become one."""
     text = "\n".join(lines)
     while "--" in text:
         text = text.replace("--", "-")

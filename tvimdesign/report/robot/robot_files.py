@@ -33,7 +33,7 @@ UNITS = {
 
 
 def unit_of(column: str) -> str:
-    """Unit of a column, also of the least and the largest value of one."""
+    """Return the unit of a column, also of its least and largest value."""
     return UNITS.get(column.removesuffix("_low").removesuffix("_high"), "1")
 
 
@@ -61,7 +61,7 @@ def elements(model: JointModel) -> Columns:
 
 
 def over_temperature(resolved: ResolvedModule, model: JointModel) -> Columns:
-    """Stiffness and damping of the joint against temperature, at the hot point's frequency, as heated.
+    """Tabulate the joint's stiffness and damping against temperature, at the hot point's frequency, as heated.
 
     `..._low` and `..._high` are the least and the largest over what the PCL's history allows.
     """

@@ -21,7 +21,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
     solution = answer.solution
     conflict_set = solution.conflict_set if solution else None
     is_feasible = solution is not None and solution.feasible and meaning(FEASIBLE).words in answer.design.status
-    missed = "no design known to be the best one" if is_feasible else "no design found that keeps every limit"
+    missed = "no design known to be the best one" if is_feasible else "no feasible design found"
     late = solution is not None and solution.out_of_time is not None and not conflict_set
     missed += " before the time limit ended the search" if late else ""
     lines = [f"{answer.design.name}: {missed} ({answer.design.status})."]

@@ -15,7 +15,7 @@ from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts
 from tvimdesign.study.design import Design, write_design
 
-_ASKED = ".design.json.part"
+_DESIGN_COPY = ".design.json.part"
 """The design as the parts are asked for, beside them: it is removed once they are made."""
 
 
@@ -53,12 +53,12 @@ class BackgroundPartsJob:
     def stop(self) -> None:
         """End the process if it has not ended: nothing more is written into the folder."""
         self._stack.close()
-        (self._out / _ASKED).unlink(missing_ok=True)
+        (self._out / _DESIGN_COPY).unlink(missing_ok=True)
 
     def begin(self, design: Design, out: Path) -> None:
         """Let the parts be made into a folder, and come back at once."""
         make_folder(out)
-        design_file = out / _ASKED
+        design_file = out / _DESIGN_COPY
         self.begin_with(write_design(design, design_file), out)
 
     def begin_with(self, design: Path, out: Path) -> None:

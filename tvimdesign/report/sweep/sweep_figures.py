@@ -16,7 +16,7 @@ MOST_LINES = 6
 
 
 def figure_data(plan: SweepPlan, seen: CellTable, rows: list[dict[str, Value]] | None = None) -> dict[str, Any]:
-    """Panels of an output each: lines over the first number that is swept, or points over the first two.
+    """Return a panel for each output: lines over the first swept number, or points over the first two.
 
     `rows` are the cells that are drawn: those of the picture unless given.
     """
@@ -75,7 +75,7 @@ CELL_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}
 
 
 def figures(plan: SweepPlan, seen: CellTable, data: dict[str, Any]) -> tuple[Drawn | None, Drawn | None]:
-    """Lines over what is swept, and the cells of a sweep over two or more numbers to be brushed."""
+    """Return lines over what is swept, and the cells of a sweep over two or more numbers to be brushed."""
     axes = [column for column in columns(plan) if column.kind == "axis" and column.unit]
     return _lines(data), _brushed(plan, seen) if len(axes) > 1 else None
 

@@ -204,7 +204,7 @@ def _glance(plan: SweepPlan, seen: CellTable) -> Facts:
     rows += [("Every limit kept", f"in {seen.keeping} of {plan.count} cells")]
     for name, best in seen.best.items():
         value = f"{number(best['value'])} {pretty(best['unit'])}".strip()
-        rows += [(f"Least {name}", f"{value} in cell {best['cell']}, among the cells that keep every limit")]
+        rows += [(f"Least {name}", f"{value} in cell {best['cell']}, among the feasible cells")]
     return Facts(rows)
 
 

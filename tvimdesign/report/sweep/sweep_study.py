@@ -48,7 +48,7 @@ def print_sweep(summary: dict[str, Any], plan: SweepPlan, console: Console) -> N
     for name, best in summary["best"].items():
         console.print(f"  least {name}: {_best(best, plan)}", soft_wrap=True)
     if not summary["best"]:
-        console.print("  no cell keeps every limit: `reason` in the table says which limits each breaks")
+        console.print("  no cell is feasible: `reason` in the table says which limits each breaks")
 
 
 def _work(run: dict[str, Any]) -> str:

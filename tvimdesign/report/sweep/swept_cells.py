@@ -22,12 +22,12 @@ from tvimdesign.sweep.shards import SHARDS
 _OF_SEARCHES = ("robust", "profile")
 _DIGITS = 12
 """Of a number in a sweep's table."""
-_TOLD, _TABLE = "sweep.json", "cells.sqlite"
+_SUMMARY, _TABLE = "sweep.json", "cells.sqlite"
 
 
 def is_sweep(path: Path) -> bool:
     """Return whether a path is the folder of a sweep, finished or not."""
-    return (path / _TOLD).is_file() or (path / SHARDS).is_dir()
+    return (path / _SUMMARY).is_file() or (path / SHARDS).is_dir()
 
 
 @dataclass(frozen=True)
@@ -88,12 +88,12 @@ class SweptCells:
 def open_cells(folder: Path) -> SweptCells:
     """Open the cells of a sweep's folder. Raises InputError where it has not ended, or its files are not a sweep's."""
     try:
-        summary = json.loads((folder / _TOLD).read_bytes())
+        summary = json.loads((folder / _SUMMARY).read_bytes())
         least, records, count = list(summary["best"].values()), summary.get("catalog", ""), summary["cells"]
     except FileNotFoundError:
         raise InputError(f"{folder}: its sweep has not ended; `tvimdesign sweep ... --resume` goes on") from None
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"{folder / _TOLD}: not written by `tvimdesign sweep`: {error!r}") from error
+        raise InputError(f"{folder / _SUMMARY}: not written by `tvimdesign sweep`: {error!r}") from error
     tree = replace(tree_of_file(folder / "study.yaml"), folder=Path())
     plan = plan_of(set_in(tree, ["catalog"], [records]) if records else tree)
     if plan.count != count:

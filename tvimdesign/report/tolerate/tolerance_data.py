@@ -79,7 +79,7 @@ def contributor_rows(spread: Spread, table: Table, study: Study) -> Iterator[Row
 
 
 def as_csv(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows of one kind as CSV."""
+    """Format rows of one kind as CSV."""
     stream = io.StringIO()
     writer = csv.DictWriter(stream, list(rows[0]) if rows else [], lineterminator="\n")
     writer.writeheader()
@@ -128,7 +128,7 @@ def _preload(preload: Preload) -> dict[str, float]:
 
 
 def _finite(value: float) -> float | None:
-    """JSON has no infinity: what never happens is null."""
+    """Return null for what never happens: JSON has no infinity."""
     return value if math.isfinite(value) else None
 
 
@@ -137,12 +137,12 @@ _FEWEST = 4
 
 
 def epistemic_uncertainty(resolved: ResolvedModule, spread: Spread, workers: int) -> DesignUncertainty:
-    """Intervals of what is asked of a module, and how far its limits hold, parts as drawn."""
+    """Return intervals of a module's outputs, and how far its limits hold, parts as drawn."""
     return UncertaintyModel(resolved, spread.asked).at(resolved, _FEWEST, workers=workers)
 
 
 def unknown_data(unknown: DesignUncertainty, table: Table) -> dict[str, Any]:
-    """That as plain data."""
+    """Return the epistemic uncertainty as plain data."""
     holds = unknown.holds
     return {
         "holds": None if holds is None else {"share": holds.share, "low": holds.low, "high": holds.high},
@@ -174,7 +174,7 @@ def unknown_sentences(unknown: DesignUncertainty, spread: Spread) -> list[str]:
     if unknown.holds is None:
         return []
     sentence = (
-        f"What nobody knows: with parts as drawn every limit holds in {100.0 * unknown.holds.share:.3g} % of the "
+        f"Unmeasured inputs: with parts as drawn every limit holds in {100.0 * unknown.holds.share:.3g} % of the "
         f"ranges of {len(unknown.unmeasured)} unmeasured values. The yield of {100.0 * spread.together.share:.3g} % "
         "counts none of that: it is of the parts, with these values as assumed."
     )
@@ -192,7 +192,7 @@ _REACH = 5.0
 
 
 def figure_data(spread: Spread, table: Table) -> dict[str, Any]:
-    """Shares of the contributors for what is asked and minimised, and histograms of what is kept least."""
+    """Return contributors' shares of requirements and minimised outputs, and histograms of the least satisfied."""
     shown = [i for i, name in enumerate(spread.outputs) if name in spread.asked and spreads(spread, i)]
     order = np.argsort(-np.sum(spread.shares[shown], axis=0), kind="stable")
     parts = [

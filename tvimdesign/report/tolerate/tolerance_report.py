@@ -45,7 +45,7 @@ def spread_table(spread: Spread, data: Mapping[str, Any]) -> Grid:
 
 
 def concern_table(spread: Spread, table: Table) -> Grid:
-    """Limits that too many modules break, and what carries their spread."""
+    """Tabulate limits that too many modules violate, and what carries their spread."""
     rows = [
         (in_words(limit.limit, table), f"{100.0 * limit.share.share:.4g} %", f"{limit.capability:.2f}",
          _most_by(spread, spread.outputs.index(limit.limit.output)))
@@ -55,7 +55,7 @@ def concern_table(spread: Spread, table: Table) -> Grid:
 
 
 def robustness_table(data: Mapping[str, Any]) -> Grid:
-    """Minimised outputs without and with the robustness that a study asks for."""
+    """Tabulate minimised outputs without and with the robustness that a study asks for."""
     rows = [
         (row["output"], number(row["nominal"]), number(row["robust"]), row["unit"])
         for row in data.get("cost_of_robustness", ())
@@ -80,7 +80,7 @@ def unknown_table(data: Mapping[str, Any]) -> Grid:
         cells = (str(row["output"]), _shown(row["as_drawn"]), alone, _span(row["low"], row["high"]))
         rows.append((*cells, str(row["unit"]), first))
     heads = ("", "as drawn", "one at a time", "all together, 95 %", "unit", "measure first")
-    return grid("What nobody knows", heads, rows, right=(1, 2, 3), code=(0, 5))
+    return grid("Unmeasured inputs", heads, rows, right=(1, 2, 3), code=(0, 5))
 
 
 def _shown(value: float | None) -> str:
@@ -93,7 +93,7 @@ def _span(low: float | None, high: float | None) -> str:
 
 _FILES = {
     "outputs.csv": "spread of every output", "limits.csv": "yield of every limit",
-    "contributors.csv": "who contributes", "not_known.csv": "what nobody knows",
+    "contributors.csv": "who contributes", "not_known.csv": "unmeasured inputs",
 }  # fmt: skip
 _FIGURE = "spread.png"
 
@@ -104,7 +104,7 @@ def tolerance_page(
     """Return the page of one module's tolerances; `data` is that of tolerances.json."""
     share = data["yield"]
     low, high = (f"{100.0 * share[end]:.3g}" for end in ("low", "high"))
-    verdict = f"{100.0 * share['share']:.3g} % OF MODULES KEEP ALL LIMITS ({low} to {high})"
+    verdict = f"{100.0 * share['share']:.3g} % OF MODULES SATISFY ALL LIMITS ({low} to {high})"
     varies: list[Block] = [spread_table(spread, data)]
     varies += [
         shown_table for shown_table in (concern_table(spread, table), robustness_table(data)) if shown_table.rows
@@ -117,7 +117,7 @@ def tolerance_page(
     unknown = unknown_table(data["not_known"])
     sections = [
         Section("parts", "From part to part", varies),
-        *([Section("assumptions", "What nobody knows", [unknown])] if unknown.rows else []),
+        *([Section("assumptions", "Unmeasured inputs", [unknown])] if unknown.rows else []),
         study_section(study),
         versions_section(folder),
     ]

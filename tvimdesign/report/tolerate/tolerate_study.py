@@ -71,7 +71,7 @@ def tolerate_study(
         spread, preload = _analysed(analyses[0], count)
         table, study = subject.resolved.table, subject.resolved.study
         data = reported(spread, preload, table, study, count)
-        progress("moving what nobody has measured")
+        progress("moving unmeasured inputs")
         unknown = epistemic_uncertainty(subject.resolved, spread, threads)
         data["not_known"] = unknown_data(unknown, table)
         data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]

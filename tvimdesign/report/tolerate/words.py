@@ -28,7 +28,7 @@ def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str
     worst = [limit_yield for limit_yield in spread.kept if _broken_at_worst(spread, limit_yield)]
     corners = "no limit is broken" if not worst else f"{len(worst)} of {len(spread.kept)} limits are broken"
     lines = [
-        f"What varies from part to part: {_percent(spread.together)} of the modules keep every limit; in the worst "
+        f"What varies from part to part: {_percent(spread.together)} of the modules satisfy every limit; in the worst "
         f"case {corners}."
     ]
     lines += _what_first(spread, table)
@@ -49,7 +49,7 @@ def _broken_at_worst(spread: Spread, limit_yield: Kept) -> bool:
 
 
 def of_concern(spread: Spread) -> list[Kept]:
-    """Limits that too many modules break, the worst first."""
+    """Return limits that too many modules violate, the worst first."""
     return sorted(
         (limit_yield for limit_yield in spread.kept if limit_yield.share.share < _GOOD),
         key=lambda limit_yield: limit_yield.share.share,

@@ -59,7 +59,7 @@ def compared(module: ResolvedModule, solved: Mapping[str, Solved], times: Mappin
 
 
 def at_loads(module: ResolvedModule, rows: Mapping[str, float]) -> dict[str, float]:
-    """Rows with stresses at full winding of the springs and at the torque the joint holds, not at one newton metre."""
+    """Scale rows with stresses to full winding of the springs and the torque the joint holds, from one newton metre."""
     names = ("held_spring_rate", "spring_winding", "holding_torque")
     rate, winding, held = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
     torques = {"coil_stress": rate * winding, "tang_stress": rate * winding}
@@ -146,7 +146,7 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
 
 
 def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
-    """Von Mises of the plate at one newton metre [Pa], a mean over its thickness and a millimetre beside the core.
+    """Return the plate's von Mises stress at 1 N*m [Pa], a mean over its thickness and 1 mm beside the core.
 
     All torque shears it; vanes that hang from it cup it besides (`wedge.foot_bending`, over the plain core's stress).
     The core's fillet bears with it, and its holes turn the torque aside.
@@ -189,12 +189,12 @@ def fe_values(module: ResolvedModule, fe_results: Mapping[str, Mapping[str, floa
 
 
 def spring_rows(spring: Mapping[str, float]) -> dict[str, float]:
-    """Rows of what FE finds of a spring."""
+    """Return the rows that FE gives of a spring."""
     return {"spring_rate": spring["rate"], "coil_stress": spring["fibre_max"], "tang_stress": spring["bend_mises"]}
 
 
 def joint_rows(joint: Mapping[str, float]) -> dict[str, float]:
-    """Rows of what FE finds of the frozen joint: vanes with what they stand on, the core where it is stressed most."""
+    """Return the rows that FE gives of the frozen joint: vanes on their base, the core at its highest stress."""
     rows = {"hub": joint["hub"], "core": joint["core"], "core_stress": max(joint["core_mises"], joint["foot_highest"])}
     rows |= {"plate_stress": joint["plate_mises"]} if "plate_mises" in joint else {}
     plate, floor = joint["plate"], joint["housing"]

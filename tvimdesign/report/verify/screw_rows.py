@@ -39,13 +39,13 @@ class _Tightened(NamedTuple):
     twist: float
 
     def stress(self, along: float, across: float) -> float:
-        """Equivalent stress [MPa] with forces along and across it [N]."""
+        """Return the equivalent stress [MPa] with forces along and across it [N]."""
         combined = fasteners.combined_stress(self.force + along, across, self.twist, self.diameter, self.pitch)
         return float(combined) * _MPA
 
 
 def screw_rows(module: ResolvedModule, carried: Carried) -> dict[str, float]:
-    """Stresses [MPa] by row; none of pins or feet that the module has not, or of pins that friction relieves."""
+    """Return stresses [MPa] by row; none of missing pins or feet, or of pins that friction relieves."""
     names = ("holding_torque", "link_bolt_circle_radius", "link_dowel_circle_radius")
     values = {name: float(value) for name, value in module.table.evaluate(module.values, names).items()}
     friction = float(module.values["link_friction"])

@@ -37,11 +37,11 @@ def verified(rows: Sequence[Compared], solved: dict[str, Solved]) -> dict[str, A
              "mesh_change": row.mesh_change, "meaning": row.meaning}
             for row in rows
         ],
-        "solved": {name: {"fine": _told(parts.found), "coarse": _told(parts.coarse)} for name, parts in solved.items()},
+        "solved": {name: {"fine": _finite(fe.found), "coarse": _finite(fe.coarse)} for name, fe in solved.items()},
     }  # fmt: skip
 
 
-def _told(values: Mapping[str, float]) -> dict[str, float | None]:
+def _finite(values: Mapping[str, float]) -> dict[str, float | None]:
     """Return what a solver found; None for a time that did not come, which JSON has no number for."""
     return {name: value if math.isfinite(value) else None for name, value in values.items()}
 

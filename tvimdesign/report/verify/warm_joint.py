@@ -43,7 +43,7 @@ class WarmJoint:
         return np.asarray(np.clip(share, 0.0, 1.0))
 
     def parts(self, core: float, edge: float, plate: Array, hot: float, cold: float) -> PartTemperatures:
-        """Temperatures of the structure's parts [K] by those of core, plate beside the polymer, what lies on the
+        """Return temperatures of the structure's parts [K] by those of core, plate beside the polymer, what lies on the
         polymer in slices, and the pads' sides [degC]."""
         kelvin, beside = 273.15, core + WAY_OUT * (edge - core)
         walls = 0.5 * (hot + cold) + kelvin
@@ -71,7 +71,7 @@ class WarmJoint:
 
 
 def softening_time(joint: WarmJoint, course: Mapping[str, Array]) -> float:
-    """When the joint is soft [s], by a course of temperatures that the solver of heat wrote; infinite where it is not.
+    """Return when the joint is soft [s], by the heat solver's course of temperatures; infinite where it is not.
 
     Between two moments the stiffness falls as an exponential.
     """

@@ -159,7 +159,7 @@ def amplitude(resolved: ResolvedModule, temperatures: Sequence[float] | None = N
 
 
 def _linear_limit(storage: Array) -> float:
-    """Strain at which the storage modulus has fallen from that at the smallest strain, between two samples."""
+    """Return the strain at which the storage modulus has fallen from that at the least strain, between two samples."""
     drop = 1.0 - storage / storage[0]
     return float(np.exp(np.interp(LINEAR_DROP, drop, np.log(STRAINS))))
 

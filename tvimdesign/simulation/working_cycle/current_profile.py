@@ -27,8 +27,8 @@ class CurrentProfile:
 
     @classmethod
     def in_pieces(cls, ramp: float, duration: float, currents: Sequence[float]) -> CurrentProfile:
-        """From zero in a ramp of some seconds to the first of `currents`, which follow evenly spaced over `duration`
-        seconds; without a ramp that is there from the start."""
+        """Ramp from zero in some seconds to the first of `currents`, which follow evenly spaced over `duration`
+        seconds; without a ramp the first is there from the start."""
         evenly = ramp + np.linspace(0.0, duration, len(currents))
         if ramp == 0.0:
             return cls(tuple(evenly.tolist()), tuple(currents))
@@ -40,11 +40,11 @@ class CurrentProfile:
         return cls(*(tuple(float(number) for number in data[name]) for name in ("moments", "currents")))
 
     def plain(self) -> dict[str, Any]:
-        """As plain data, SI."""
+        """Return plain data, SI."""
         return {"moments": list(self.moments), "currents": list(self.currents)}
 
     def at(self, times: Array) -> Array:
-        """Current at some times."""
+        """Return the current at some times."""
         return np.asarray(np.interp(times, self.moments, self.currents))
 
     def next_corner(self, time: float) -> float:
@@ -66,7 +66,7 @@ class CurrentProfile:
 
 
 def ramp_time(size: Any, slew: Any) -> Any:
-    """Time [s] a supply needs to a current of some size [A]; floats and symbols.
+    """Return the time [s] a supply needs to a current of some size [A]; floats and symbols.
 
     A current is cut at once, and its direction changed while there is none: every phase begins at zero.
     """

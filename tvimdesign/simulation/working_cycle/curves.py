@@ -59,7 +59,7 @@ def temperature_names(model: DeviceFunctions, inputs: Array, compiled: PhaseFunc
 
 
 def torque_loop(stiffness: float, damping: float, frequency: float, amplitude: float) -> tuple[Array, Array]:
-    """Angles [rad] and torques [N*m] of one period in which a joint is turned as a sine.
+    """Return angles [rad] and torques [N*m] of one period in which a joint is turned as a sine.
 
     T = K phi + b dphi/dt with phi = amplitude sin(2 pi f t): stiffness [N*m/rad], damping [N*m*s/rad], frequency [Hz].
     """
@@ -69,7 +69,7 @@ def torque_loop(stiffness: float, damping: float, frequency: float, amplitude: f
 
 
 def impedance_sweep(resolved: ResolvedModule) -> Curves:
-    """Stiffness and damping of layer and joint against the layer's temperature [degC], at the hot point's frequency.
+    """Return layer's and joint's stiffness and damping against the layer's temperature [degC] at the hot frequency.
 
     Each with its least and largest value over what history allows, `..._low` and `..._high`; the middle one is the
     equilibrium curve on heating. `rig` holds the design's numbers.

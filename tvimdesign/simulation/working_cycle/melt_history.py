@@ -37,13 +37,13 @@ class Fractions(NamedTuple):
 
 
 def melting_range(resolved: ResolvedModule) -> tuple[float, float]:
-    """Temperatures [K] between which the solid fraction depends on history: earliest start and latest end."""
+    """Return temperatures [K] between which the solid fraction depends on history: earliest start and latest end."""
     melting: polymer.Melting = resolved.quantity("pcl_melting")
     return melting.start + _off(resolved, "melting_start")[0], melting.end + _off(resolved, "melting_end")[1]
 
 
 def fractions_at(resolved: ResolvedModule, temperature: float) -> Fractions:
-    """Least, nominal and largest solid fraction at a temperature [K]; outside the melting range all are the same."""
+    """Return least, nominal and largest solid fraction at a temperature [K]; the same outside the melting range."""
     melting: polymer.Melting = resolved.quantity("pcl_melting")
     nominal = _on_heating(temperature, melting)
     first, last = melting_range(resolved)
@@ -61,7 +61,7 @@ def fractions_at(resolved: ResolvedModule, temperature: float) -> Fractions:
 
 
 def frozen_on_cooling(resolved: ResolvedModule, rate: float) -> Callable[[float], float]:
-    """Solid fraction [1] at a temperature [K] that a melt comes down to at a steady rate [K/s]: Nakamura's integral.
+    """Return a melt's solid fraction [1] by temperature [K], cooled at a rate [K/s]: Nakamura's integral.
 
     What has no kinetics freezes as it melts, at any rate.
     """
@@ -88,7 +88,7 @@ def intervals(
     cycle: Mapping[str, float],
     current_profiles: Mapping[str, CurrentProfile] | None = None,
 ) -> dict[str, tuple[float, float]]:
-    """Least and largest value (SI) of every output that a point inside the melting range leaves open, by full name.
+    """Return every output's least and largest value (SI) that a point in the melting range leaves open, by name.
 
     Damping peaks between the least and the largest solid fraction, so fractions between are tried too. Where the point
     says what soft or stiff means, the cycle is simulated for each of them.

@@ -186,7 +186,7 @@ class PhaseEngine:
 
 
 def _heating_time(stack: heat.Stack, current: Any) -> Any:
-    """About the time [s] in which the pads at their power would heat the layer: the unit of the steps."""
+    """Estimate the time [s] in which the pads at their power would heat the layer: the unit of the steps."""
     melting = stack.melting
     heated = melting.latent_heat + melting.specific_heat_melt * (melting.end - stack.ambient)
     power = current * stack.peltier.seebeck * 330.0 + 0.5 * current**2 * stack.peltier.resistance

@@ -23,8 +23,10 @@ class PhaseFunctions:
     def __init__(
         self, table: Table, phase: Phase, inputs: Any, known: dict[str, Any], cells: int, input_names: Sequence[str]
     ) -> None:
-        """`known` holds every given quantity, numbers as entries of the symbol `inputs`; `cells` divides the
-        polymer."""
+        """Build the functions. `known` holds every given quantity, numbers as entries of the symbol `inputs`.
+
+        `cells` divides the polymer.
+        """
         self.table = table
         self.input_names = input_names
         self.phase = phase
@@ -129,7 +131,7 @@ class PhaseFunctions:
         return self._watched[key]
 
     def _instant_with(self, wanted: Sequence[str], **held: Any) -> list[Any]:
-        """Quantities of an instant with some others held at symbols of their own."""
+        """Return quantities of an instant with some others held at symbols of their own."""
         changed = held.keys()
         known = {name: value for name, value in self._written.items() if not changed & self._behind(name)}
         return list(self.table.resolve_instant({**known, **held}, wanted).values())

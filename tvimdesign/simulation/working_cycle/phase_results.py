@@ -73,7 +73,7 @@ class PhaseResults:
         return [*self.run.instants[: end.step + 1], end] if end.step >= 0 else [end]
 
     def sampled(self, end: Instant, least: int) -> tuple[Array, Array, Array]:
-        """Times, states (a column each) and currents up to an instant, no fewer than so many: cubics between steps."""
+        """Return times, states (columns) and currents up to an instant, at least so many: cubics between steps."""
         passed = self.passed(end)
         each = max(-(-least // max(len(passed) - 1, 1)), 1)
         shares = np.arange(each) / each
@@ -111,7 +111,7 @@ class PhaseResults:
         )  # fmt: skip
 
     def _moving(self, now: Instant) -> tuple[Array, Array]:
-        """Rates at an instant, and their tangents."""
+        """Return rates at an instant, and their tangents."""
         (pair,) = self.run.motion.rates.tangents(
             (now.state, np.array([now.current]), self.run.constants),
             (now.of_state, now.of_current[None], self._of_constants),
@@ -133,7 +133,7 @@ class PhaseResults:
             found.add(name, *self.of.slopes(name, standing, self.inputs, self.along))
 
     def standing(self, end: Instant) -> Instant | None:
-        """State and current that stay, with their tangents; None where there are none.
+        """Return state and current that stay, with their tangents; None where there are none.
 
         The current is sought at which the event that ends the phase stays due; at each, the state that stays. Newton's
         method is kept between currents that are too small and too large, and their middle is taken where it gains

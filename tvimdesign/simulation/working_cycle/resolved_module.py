@@ -37,7 +37,7 @@ class ResolvedModule:
         return {self.table.phase(phase).current_input for phase in self.current_profiles}
 
     def quantity(self, name: str) -> Any:
-        """Value of one quantity by full name; hidden quantities too."""
+        """Return the value of one quantity by full name; hidden quantities too."""
         return self.table.evaluate(self.values, [name])[name]
 
 

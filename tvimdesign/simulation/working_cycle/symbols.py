@@ -42,17 +42,17 @@ class Symbols(ca.ArrayInterfaceSX):
         return _quick(super().__array_ufunc__(ufunc, method, *inputs, **kwargs))
 
     def __array_function__(self, *call: Any) -> Any:
-        """Any other function of numpy."""
+        """Apply any other function of numpy."""
         return _quick(super().__array_function__(*call))
 
     def __getitem__(self, place: Any) -> Any:
-        """Entries, by any index that numpy takes."""
+        """Return entries, by any index that numpy takes."""
         if self._ndim == 1 and isinstance(place, int):
             return _of(self._v[place], 0)
         return _quick(super().__getitem__(place))
 
     def __neg__(self) -> Any:
-        """Less itself."""
+        """Negate each entry."""
         return _of(ca.SX.unary(ca.OP_NEG, self._v), self._ndim)
 
 
@@ -84,7 +84,7 @@ def _binary(code: int, *operands: Any) -> Any:
 
 
 def _of(matrix: Any, dimensions: int) -> Symbols:
-    """Symbols of what CasADi computed: a quantity where there is a dimension."""
+    """Return symbols of what CasADi computed: a quantity where there is a dimension."""
     found: Symbols = object.__new__(Symbols)
     found._v, found._ndim = matrix, dimensions
     return found

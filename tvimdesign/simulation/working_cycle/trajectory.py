@@ -19,7 +19,7 @@ class Trajectory:
     currents: Array
 
     def at(self, fractions: Array) -> Array:
-        """States at fractions of the last time, linearly between the samples."""
+        """Interpolate states at fractions of the last time, linearly between the samples."""
         wanted = fractions * self.times[-1]
         return np.array([np.interp(wanted, self.times, row) for row in self.states])
 

@@ -107,13 +107,13 @@ def source_files(equations: JointEquations, variables: tuple[Variable, ...], bes
 
 
 def binary_place() -> tuple[str, str]:
-    """FMI's name of this platform, and the ending of its binaries."""
+    """Return FMI's name of this platform, and the ending of its binaries."""
     name, suffix = _PLATFORMS.get(platform.system(), ("linux", ".so"))
     return f"{name}{64 if sys.maxsize > 2**32 else 32}", suffix
 
 
 def compiler() -> list[str]:
-    """Command of the C compiler: what CC says, or the first that is there; nothing where none is."""
+    """Return the command of the C compiler: what CC says, or the first that is there; nothing where none is."""
     named = os.environ.get("CC", "")
     if named:
         return shlex.split(named) if shutil.which(shlex.split(named)[0]) else []

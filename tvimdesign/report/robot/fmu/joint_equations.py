@@ -99,7 +99,7 @@ def joint_equations(resolved: ResolvedModule) -> JointEquations:
 
 
 def _element_times(frequency: float) -> tuple[float, ...]:
-    """Of elements that follow a constant loss factor over the decades around a frequency [Hz], the quickest last."""
+    """Return times of elements with a constant loss factor around a frequency [Hz], the quickest last."""
     count = round(2 * DECADES * PER_DECADE) + 1
     decades = np.linspace(DECADES, -DECADES, count)
     return tuple((10.0**decades / (2.0 * np.pi * frequency)).tolist())
@@ -118,7 +118,7 @@ def _slices(
     support: tuple[Any, Any],
     springs: Any,
 ) -> list[Any]:
-    """Stiffness [N*m/rad] of each element of each slice, slice after slice; their times [s]; structure; springs."""
+    """Return each slice's elements' stiffness [N*m/rad], slice after slice; their times [s]; structure; springs."""
     count = len(profile.cells)
     stiffnesses, times = [], []
     for cell in range(count):

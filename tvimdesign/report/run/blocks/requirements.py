@@ -59,7 +59,7 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
         behind = {name, *table.output(name).least_of, *table.output(name).also_limited}
         checks = [check for check in answer.checks if check.origin == "require" and check.output in behind]
         assumed = next(iter(uncertainty.get("assumptions", {}).get(name, ())), None)
-        row = _requirement(answer, table, name, _asked(limits, table.unit(name)), checks)
+        row = _requirement(answer, table, name, _limit_text(limits, table.unit(name)), checks)
         depends_on = assumption(assumed) if assumed else ""
         rows.append(replace(row, range=range_text(_interval(name, table, intervals)), depends_on=depends_on))
     violated = [check for check in answer.checks if check.origin != "require" and not check.kept]
@@ -81,7 +81,7 @@ def requirements_grid(rows: Sequence[Requirement]) -> Grid:
     return Grid("Requirements, asked against got", heads, cells)
 
 
-def _asked(limits: Sequence[Mapping[str, Any]], unit: str) -> str:
+def _limit_text(limits: Sequence[Mapping[str, Any]], unit: str) -> str:
     """Return `5.2 to 5.8 N·m/rad` for two ends, else each end with its sense."""
     ends = {limit["sense"]: number(from_si(limit["limit"], unit), 6) for limit in limits}
     if len(limits) == 2 and len(ends) == 2:

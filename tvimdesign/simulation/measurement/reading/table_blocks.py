@@ -40,7 +40,7 @@ def blocks_of(sheet: Sheet, file: str, ending: str, *, by_place: bool = False) -
     rows = sheet.rows
     while begin < len(rows):
         if not _begins(sheet, begin):
-            setting_text = _said(rows[begin], settings)
+            setting_text = _setting_text(rows[begin], settings)
             titles += [(rows[begin].line, setting_text)] if setting_text else []
             begin += 1
             continue
@@ -93,7 +93,7 @@ def _heads(row: Row, sheet: Sheet) -> bool:
     return not row.empty and sheet.numbers(row) == 0
 
 
-def _said(row: Row, settings: dict[str, str]) -> str:
+def _setting_text(row: Row, settings: dict[str, str]) -> str:
     """Note what a line says of the tables below it; returns the title in it, if it is one."""
     cells = [cell for cell in row.cells if cell]
     text = " ".join(cells)
