@@ -1,4 +1,4 @@
-"""An optimum beyond a rating is none unless its study accepts that: status, names, and what is told where."""
+"""An optimum beyond a rating is none unless its study accepts that: status, names, and reports."""
 
 from __future__ import annotations
 

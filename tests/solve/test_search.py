@@ -1,4 +1,4 @@
-"""The optimum: the same from anywhere, held by what is said to hold it, and as good as an enumeration."""
+"""The optimum: equal from all starts, with the reported active constraints, and as good as an enumeration."""
 
 from __future__ import annotations
 

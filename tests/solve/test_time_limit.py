@@ -43,7 +43,7 @@ FOLLOWING = 0.97 * LIMIT
 
 
 class Clock:
-    """A clock that stands until a certain thing is said, and a deadline by it."""
+    """A clock that stands until a certain progress message, and a deadline by it."""
 
     def __init__(self, word: str, then: float = FOLLOWING) -> None:
         self.word, self.then, self.now, self.said = word, then, 0.0, list[str]()

@@ -1,4 +1,4 @@
-"""A design is handed on as soon as it is there: its parts are begun before all is computed that is told of it."""
+"""A design is passed on as soon as it exists: its parts start before its account is complete."""
 
 from __future__ import annotations
 

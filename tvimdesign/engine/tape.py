@@ -46,7 +46,7 @@ class Tape:
     @classmethod
     def of(cls, arguments: Sequence[Any], results: Sequence[Any], *, inverses: bool = False) -> Tape:
         """Record expressions (SX) of symbols."""
-        values = [ca.SX(one) for one in results]
+        values = [ca.SX(result) for result in results]
         return cls.of_function(ca.Function("tape", list(arguments), values, {"live_variables": False}), inverses)
 
     @classmethod
@@ -133,27 +133,27 @@ def _with_inverses(operations: list[tuple[int, int, int]]) -> tuple[list[tuple[i
     Then the place of the value of each that was given.
     """
     uses = Counter(other for op, _, other in operations if op == interpreter.DIV)
-    found: list[tuple[int, int, int]] = []
+    replaced: list[tuple[int, int, int]] = []
     at: list[int] = []
     inverse: dict[int, int] = {}
     for op, *operands in operations:
-        one, other = (at[-1 - operand] if operand < 0 else operand for operand in operands)
+        first, other = (at[-1 - operand] if operand < 0 else operand for operand in operands)
         if op == interpreter.DIV and uses[operands[1]] > 1:
             if other not in inverse:
-                found.append((interpreter.INV, other, other))
-                inverse[other] = -len(found)
-            found.append((interpreter.MUL, one, inverse[other]))
+                replaced.append((interpreter.INV, other, other))
+                inverse[other] = -len(replaced)
+            replaced.append((interpreter.MUL, first, inverse[other]))
         else:
-            found.append((op, one, other))
-        at.append(-len(found))
-    return found, at
+            replaced.append((op, first, other))
+        at.append(-len(replaced))
+    return replaced, at
 
 
 def _levels(operations: list[tuple[int, int, int]]) -> Integers:
     """Return how many operations come one after the other up to each."""
     level: list[int] = []
-    for _, one, other in operations:
-        level.append(1 + max(level[-1 - one] if one < 0 else 0, level[-1 - other] if other < 0 else 0))
+    for _, first, other in operations:
+        level.append(1 + max(level[-1 - first] if first < 0 else 0, level[-1 - other] if other < 0 else 0))
     return np.array(level, dtype=np.int64)
 
 

@@ -1,4 +1,4 @@
-"""Records whose own start comes to no design are begun at the best design with other records."""
+"""Records whose own start reaches no design start at the best design with other records."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Boxes that the search leaves as without a design, held against every combination solved alone from several starts.
+"""Boxes that the search leaves as infeasible, compared with every combination solved alone from several starts.
 
-All combinations are to be told, so that no box is left for its bound.
+All combinations are requested, so that no box is left for its bound.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ operating_points:
   hot: {temperature: 80 degC, frequency: 1 Hz}
 solver: {starts: 2, seed: 1, cells: 6, fineness: 0.67, alternatives: 32}
 """
-"""`benchmarks/shelf.yaml` with four of its heaters, two of which are too large for three arcs."""
+"""`benchmarks/shelf.yaml` with four of its heaters; two are too large for three arcs."""
 COMPRESSION = """
 mode: compression
 module: {response_criterion: mean, core_radius: 8 mm, link_dowel: iso_8734_2, rotor_rim: 8 mm, pcl_inner_radius: 13 mm,

@@ -1,4 +1,4 @@
-"""Listed choices: the answer is that of solving every combination, and what is told of the search is so."""
+"""Listed choices: the answer is that of solving every combination, and the account of the search is right."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def _chosen(solution: Solution) -> Choosing:
 
 
 def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], float] | None = None) -> None:
-    """Hold the best combinations against each solved `alone` from three starts, and the tally against itself."""
+    """Compare the best combinations with each solved `alone` from three starts, and check the tally."""
     choosing = _chosen(solution)
     alone = alone or by_brute_force(study, solution.reference, 3)
     expected = sorted(alone.items(), key=lambda one: one[1])

@@ -69,7 +69,7 @@ solver: {starts: 2, cells: 6, fineness: 0.67, max_iterations: 100, alternatives:
 
 
 def _as_enumerated(study: Study, solution: Solution) -> None:
-    """Hold the best combinations against each solved alone, cold, from as many starts as the search has."""
+    """Compare the best combinations with each solved alone, cold, from as many starts as the search has."""
     choosing = solution.choosing
     assert choosing is not None
     assert choosing.bound is not None

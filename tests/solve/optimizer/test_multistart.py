@@ -23,7 +23,7 @@ def searches(
     takes: Callable[[float], float] = lambda size: size,
     mass: Callable[[float], float] = lambda size: size,
 ) -> tuple[Multistart, list[str]]:
-    """Starts for a number from 1 to 100 that is `own` in the study, and what is said meanwhile."""
+    """Return starts for a number from 1 to 100 that is `own` in the study, and the progress messages."""
     said: list[str] = []
     table = SimpleNamespace(outputs=(), behind_supplied={"time"})
     model: Any = SimpleNamespace(

@@ -1,4 +1,4 @@
-"""Intervals over what nobody has measured, against plain loops over the table and the simulation, and closed forms."""
+"""Intervals over unmeasured inputs, against plain loops over the table and the simulation, and closed forms."""
 
 from __future__ import annotations
 

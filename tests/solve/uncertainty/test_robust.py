@@ -70,7 +70,7 @@ def test_a_limit_is_kept_by_as_many_modules_as_asked_for_at_a_price() -> None:
 
 
 def _together(study: str, seed: int) -> float:
-    """Share of modules, drawn apart from those a search draws, that keep every limit of a study's optimum."""
+    """Return the yield of a study's optimum over modules drawn apart from those of the search."""
     found = answer(read_study_text(study, "a test"))
     return Tolerancing(resolve_design(found.design), lambda _: None).analyse(1 << 13, seed).together.share
 
