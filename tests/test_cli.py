@@ -40,7 +40,7 @@ assert not found, found
     assert "Commands:" in done.stdout
 
 
-def test_an_interrupt_while_the_interpreter_takes_itself_down_does_not_change_the_exit_code(tmp_path: Path) -> None:
+def test_an_interrupt_at_shutdown_keeps_the_exit_code(tmp_path: Path) -> None:
     text = """
 import atexit, os, signal
 from tvimdesign.cli import main
@@ -58,7 +58,7 @@ main.main()
     assert (done.returncode, done.stderr) == (3, "")
 
 
-def test_an_interrupt_while_the_interpreter_runs_a_string_ends_with_the_code_of_its_signal(tmp_path: Path) -> None:
+def test_an_interrupt_of_a_string_ends_with_its_signal_s_code(tmp_path: Path) -> None:
     text = """
 from tvimdesign.cli import main
 def command():
@@ -289,7 +289,7 @@ def test_results_are_not_replaced_without_being_asked(tvimdesign: Command, tmp_p
     ("number", "after"),
     [(signal.SIGINT, 0.5), (signal.SIGTERM, 0.5), pytest.param(signal.SIGINT, 1.0, marks=pytest.mark.slow)],
 )
-def test_an_interrupt_ends_the_run_with_its_code_and_a_folder_that_can_be_used_again(
+def test_an_interrupt_ends_with_its_code_and_a_reusable_folder(
     tvimdesign: Command, tmp_path: Path, number: signal.Signals, after: float
 ) -> None:
     out = tmp_path / "out"

@@ -33,7 +33,7 @@ WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.
     ],
     ids=lambda words: " ".join(words[:2]),
 )
-def test_every_command_that_reads_a_study_takes_settings_and_names_them_as_the_place(
+def test_commands_that_read_a_study_take_settings_and_name_their_place(
     tvimdesign: Command, command: list[str], tmp_path: Path
 ) -> None:
     out = [] if command[0] == "check" else ["--out", tmp_path / "out"]

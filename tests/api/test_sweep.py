@@ -121,7 +121,7 @@ def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid: tvim.Sweep[
     assert axes.get_ylabel() == "spring stiffness (N·m/rad)"
 
 
-def test_the_study_s_own_section_is_swept_and_a_sample_lies_between_its_ends() -> None:
+def test_the_study_s_section_is_swept_and_samples_lie_between_its_ends() -> None:
     study = tvim.example("paper_as_published")
     own = study.set({"sweep.over": {"wire_diameter": {"from": "2 mm", "to": "2.4 mm"}}})
     sweep = own.sweep(method="latin_hypercube", count=4, seed=3, progress=False)

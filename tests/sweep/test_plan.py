@@ -95,7 +95,7 @@ def test_what_a_key_is_made_of_is_the_cell_s_resolved_study(tmp_path: Path, swee
     assert len({keys.key(found.points.texts(number)) for number in range(found.count)}) == found.count
 
 
-def test_a_key_changes_with_the_study_and_with_a_record_and_not_with_the_other_cells(tmp_path: Path) -> None:
+def test_a_key_changes_with_study_and_record_not_with_other_cells(tmp_path: Path) -> None:
     def key(sweep: str = "{over: {current: [1 A, 2 A]}}", study: str = "mode: shear\n") -> str:
         found = plan_over(tmp_path, sweep, study)
         return CellKeys(found).key(found.points.texts(0))

@@ -39,7 +39,7 @@ def test_what_is_kept_comes_back_to_the_last_digit(tmp_path: Path) -> None:
     assert len(list((tmp_path / "shards").iterdir())) == 2
 
 
-def test_a_line_without_an_end_is_no_cell_and_the_next_writer_begins_a_shard_of_its_own(tmp_path: Path) -> None:
+def test_an_unfinished_line_is_no_cell_and_the_next_shard_is_new(tmp_path: Path) -> None:
     written(tmp_path, KEYS)
     (path,) = (tmp_path / "shards").iterdir()
     whole = path.read_bytes()

@@ -44,7 +44,7 @@ def test_the_ledger_s_module_is_the_shipped_study_s(mode: str) -> None:
     ) | {name: value for name, value in resolved(shipped(mode)).items() if name.endswith("@melting")}  # fmt: skip
 
 
-def test_both_modules_are_given_the_same_but_for_the_geometry_of_their_mode() -> None:
+def test_both_modules_differ_by_the_geometry_of_their_mode_alone() -> None:
     shear, compression = (resolved(shipped(mode)) for mode in MODES)
     different = {name for name in shear.keys() & compression.keys() if shear[name] != compression[name]}
     assert different == OF_ONE_MODE

@@ -28,7 +28,7 @@ def seen(asked: SweepPlan, masses: list[float | None]) -> CellTable:
     return table
 
 
-def test_a_grid_has_a_line_for_each_word_and_cells_without_a_number_are_left_out() -> None:
+def test_a_grid_has_a_line_for_each_word_and_no_cells_without_numbers() -> None:
     asked = plan(over={"pcl_thickness": {**THICKNESS, "count": 3}, "rate_model": ["smi", "bending"]})
     table = seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0])
     data = figure_data(asked, table)

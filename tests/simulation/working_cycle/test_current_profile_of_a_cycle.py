@@ -31,7 +31,7 @@ def test_a_profile_begins_with_a_ramp_from_zero() -> None:
     assert profile.mean == pytest.approx((-1.0 - 3.75 - 2.5) / 12.0)
 
 
-def test_a_profile_is_straight_between_its_nodes_and_its_last_current_lasts() -> None:
+def test_a_profile_is_straight_between_nodes_and_its_last_current_lasts() -> None:
     profile = evenly(120.0, (2.0, 1.0, 1.5))
     assert profile.at(np.array([0.0, 30.0, 60.0, 90.0, 120.0, 500.0])) == pytest.approx([2.0, 1.5, 1.0, 1.25, 1.5, 1.5])
     assert profile.mean == pytest.approx((60.0 * 1.5 + 60.0 * 1.25) / 120.0)
@@ -113,7 +113,7 @@ def test_a_profile_that_is_flat_is_the_constant_current(build: Callable[..., Dev
         assert flat[name] == pytest.approx(constant[name], rel=1e-6), name
 
 
-def test_the_end_of_a_switch_within_a_profile_does_not_depend_on_what_comes_later(
+def test_a_switch_s_end_does_not_depend_on_later_currents(
     build: Callable[..., DeviceFunctions],
 ) -> None:
     model = build()

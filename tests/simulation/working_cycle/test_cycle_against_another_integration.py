@@ -69,7 +69,7 @@ def test_switch_agrees_with_the_independent_integration(pair: tuple[Cycle, dict[
 
 @pytest.mark.gate
 @pytest.mark.parametrize("pair", ["thin"], indirect=True)
-def test_switch_at_the_cells_a_run_has_is_within_the_percent_that_is_promised(
+def test_switch_at_the_usual_cells_is_within_the_promised_percent(
     pair: tuple[Cycle, dict[str, float]], switch_of: Callable[[str], Cycle]
 ) -> None:
     for name in ("near_face_time", "mean_time", "far_face_time", "switch_energy", "peak_power", "peak_pcl_temperature"):

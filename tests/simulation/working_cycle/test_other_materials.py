@@ -101,7 +101,7 @@ def resolved(module: str) -> ResolvedModule:
     return resolve_study(read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test"))
 
 
-def test_a_wax_in_its_range_is_known_to_its_record_s_kelvin_not_to_its_history() -> None:
+def test_a_wax_in_its_range_is_known_to_kelvins_not_to_history() -> None:
     # 53 to 62 degC, each one kelvin either way: at 57 degC 5/9 is frozen, 4/9 to 6/9.
     found = fractions_at(resolved(WAX), 57.0 + 273.15)
     assert found == pytest.approx((4.0 / 9.0, 5.0 / 9.0, 6.0 / 9.0), abs=0.01)

@@ -119,7 +119,7 @@ def test_what_holds_the_layer_does_not_depend_on_how_fast_it_was_heated(
 
 
 @pytest.mark.gate
-def test_a_steady_state_does_not_hang_on_the_last_digits_of_where_the_switch_ended() -> None:
+def test_a_steady_state_ignores_last_digits_of_the_switch_s_end() -> None:
     # The optimum of studies/compare_shear.yaml, where Newton's method with shortened steps stopped dead now and then.
     study = read_study(ROOT / "studies/compare_shear.yaml")
     sizes = {

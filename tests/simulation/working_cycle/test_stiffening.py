@@ -83,7 +83,7 @@ def another_cycle(model: DeviceFunctions) -> AnotherCycle:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("design", DESIGNS)
-def test_stiffening_agrees_with_the_independent_integration_on_ten_times_the_cells(
+def test_stiffening_agrees_with_integration_on_ten_times_the_cells(
     design: str, build: Callable[..., DeviceFunctions]
 ) -> None:
     # Eight cells in the rotor leave 1.05 % in the sooner time of the thin layer, 16 leave 0.29 %, 32 leave 0.10 %;
@@ -137,7 +137,7 @@ def test_a_joint_that_is_half_as_stiff_is_as_sure(
 
 @settings(max_examples=15, deadline=None)
 @given(heating=st.floats(1.3, 3.0), cooling=st.floats(0.0, 1.5), design=st.sampled_from(["as it is", "sink"]))
-def test_a_layer_with_kinetics_never_stiffens_sooner_than_its_melting_curve_claims(
+def test_kinetics_never_stiffen_sooner_than_the_melting_curve(
     heating: float, cooling: float, design: str, simulators: dict[str, Simulator]
 ) -> None:
     simulator = simulators[design]
@@ -186,7 +186,7 @@ def simulators(build: Callable[..., DeviceFunctions]) -> dict[str, Simulator]:
 
 
 @pytest.mark.parametrize("cooling", [1.0, 3.0, 20.0])
-def test_a_current_that_heats_the_module_never_stiffens_it_and_breaks_nothing(
+def test_a_heating_current_never_stiffens_and_breaks_nothing(
     cooling: float,
     simulators: dict[str, Simulator],
     switch_of: Callable[[str], Cycle],
@@ -212,7 +212,7 @@ def test_a_switch_that_never_ends_has_no_stiffening(simulators: dict[str, Simula
     assert cycle.balances == {}
 
 
-def test_only_the_stages_that_are_asked_for_and_those_before_them_are_simulated(
+def test_only_requested_stages_and_those_before_are_simulated(
     simulators: dict[str, Simulator], switch_of: Callable[[str], Cycle]
 ) -> None:
     simulator = simulators["as it is"]
@@ -222,7 +222,7 @@ def test_only_the_stages_that_are_asked_for_and_those_before_them_are_simulated(
     assert cycle.values["equilibrium_stiffening_time"] == np.inf
 
 
-def test_with_a_sink_more_current_stiffens_sooner_and_in_free_air_it_does_not(simulators: dict[str, Simulator]) -> None:
+def test_more_current_stiffens_sooner_with_a_sink_not_in_free_air(simulators: dict[str, Simulator]) -> None:
     times = {}
     for design, simulator in simulators.items():
         for cooling in (0.2, 0.8):

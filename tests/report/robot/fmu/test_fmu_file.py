@@ -74,9 +74,7 @@ time.sleep(600)
 
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="Windows has no process groups, by which these end")
-def test_an_interrupt_ends_all_that_a_compiler_started_and_its_files_are_beside_the_fmu(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_ends_the_compiler_s_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     told = tmp_path / "told"
     (tmp_path / "cc.py").write_text(COMPILER)
     monkeypatch.setenv("CC", f"{sys.executable} {tmp_path / 'cc.py'}")
