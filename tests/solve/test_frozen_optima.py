@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from support import ROOT
 
-from tvimdesign.solve.nlp.labels import row_names
+from tvimdesign.solve.infeasibility.inspection import row_names
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study

@@ -10,7 +10,7 @@ from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
 from support import fine
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.solve.nlp.labels import row_names, unknown_names
+from tvimdesign.solve.infeasibility.inspection import row_names, unknown_names
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.problem_parts import Parameters

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, is_constant
-from tvimdesign.solve.nlp.labels import row_names, unknown_names
 from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -185,3 +185,22 @@ class Inspection:
             idle=tuple(name for i, name in enumerate(free) if i not in used),
             unchangeable=tuple(in_words(limit, table) for limit in fixed),
         )
+
+
+def unknown_names(problem: Problem) -> list[str]:
+    """Return a name for every unknown."""
+    names = [free.name for free in problem.free]
+    for current in problem.free_currents:
+        names += [f"{current.row} during {current.phase}"] * current.nodes + [f"length of {current.phase}"]
+    return names + [peak.row.name for peak in problem.peaks]
+
+
+def row_names(problem: Problem) -> list[str]:
+    """Return a name for every row."""
+    names = [f"end of {current.phase}" for current in problem.free_currents]
+    names += [f"shares of {mixture.name}" for mixture in problem.mixtures]
+    names += [limit.name for limit in problem.limits]
+    names += [f"bound {i + 1} on what is traded" for i in range(len(problem.objectives))]
+    names += ["slew of the supply"] * problem.slope_count
+    names += [f"{event} within the horizon" for event in problem.unlimited]
+    return names + ["samples below their peak"] * problem.sample_count
