@@ -152,7 +152,7 @@ def test_no_design_is_an_error_that_has_the_closest_one() -> None:
         minimize="module_mass",
         solver={"starts": 1, "max_iterations": 60},
     )
-    with pytest.raises(tvim.NoDesignError, match="no design found") as caught:
+    with pytest.raises(tvim.NoDesignError, match="no feasible design found") as caught:
         study.run(progress=False)
     assert isinstance(caught.value, tvim.InfeasibleError)
     closest = caught.value.result

@@ -50,4 +50,6 @@ def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
     assert not found.found
     assert found.solution is not None
     assert found.solution.feasible
-    assert complaint(found, study.table).startswith("test: no design known to be the best one (not converged: a design")
+    assert complaint(found, study.table).startswith(
+        "test: no design known to be the best one (not converged: a feasible design"
+    )
