@@ -132,7 +132,7 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: C
 
     A limit that holds the design, or has a margin, gives back what it has too much; no margin falls below zero.
     """
-    ordered = np.sort(np.nan_to_num(drawn.residuals, nan=np.inf), axis=1)
+    ordered = np.sort(np.where(np.isnan(drawn.residuals), np.inf, drawn.residuals), axis=1)
     before = np.array([margins.get(limit.name, 0.0) for limit in drawn.limits])
     may_give = np.array([limit.name in pressing for limit in drawn.limits]) | (before > 0.0)
     first, last = 0, drawn.residuals.shape[1] - 1
