@@ -176,7 +176,7 @@ def _of_kind(kind: str, dims: Dimensions) -> dict[str, Any]:
 
 
 def _clearance_hole(reported: Mapping[str, Any], dims: Dimensions, is_milled: bool) -> ClearanceHole:
-    """Return a hole for a screw to pass, told by its depth from others of its diameter where it has to be."""
+    """Return a hole for a screw to pass, distinguished by its depth from others of its diameter where it has to be."""
     depth = getattr(dims, reported["depth"]) - getattr(dims, reported["less"]) if "depth" in reported else 0.0
     diameter = getattr(dims, reported["hole"])
     return ClearanceHole(reported["about"], diameter, depth, _place(reported, dims, is_milled))

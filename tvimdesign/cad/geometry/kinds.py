@@ -105,7 +105,7 @@ class Production:
     why: str
     """Why that side, or where it is bought."""
     drawn: bool = False
-    """Whether a workshop gets a drawing of it, or who cuts what is bought."""
+    """True if a workshop, or whoever cuts bought stock, gets a drawing of it."""
 
 
 PRODUCTION = {

@@ -104,7 +104,7 @@ def spring_reach(coil: Coil) -> float:
 
 
 _IN = {"peltier_pad": "housing", "spreader": "housing", "liner": "rotor"}
-"""What lies in a pocket, and the part that has it."""
+"""Parts that lie in a pocket, and the part that has it."""
 _ROUNDING = 1e-3
 """By which a measured gap may be short [mm]: a twentieth of the least clearance of any process."""
 

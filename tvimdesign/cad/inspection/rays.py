@@ -132,7 +132,7 @@ class Samples:
     """Out of the part."""
     triangle: Index
     area: Array
-    """What of the surface each stands for [mm^2]."""
+    """Area of the surface that each stands for [mm^2]."""
 
     def of(self, wanted: NDArray[np.bool_] | Index) -> Samples:
         """Return some of them."""

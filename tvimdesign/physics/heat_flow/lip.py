@@ -88,7 +88,7 @@ class Arm(NamedTuple):
     ends: tuple[tuple[Place, Any], ...]
     """Places and their weights, which sum to the `share`."""
     share: Any = 1.0
-    """Of the body's temperature that the mean is held against."""
+    """Of the body's temperature that the mean is compared with."""
 
 
 def arm_mean(arm: Arm, at: Callable[[Place], Any]) -> Any:

@@ -63,7 +63,7 @@ SETTINGS: Any = {
     "svg.fonttype": "path",  # the same look wherever it is opened
     "svg.hashsalt": "tvimdesign",  # the same bytes from the same data
 }
-"""What matplotlib is set to."""
+"""Settings of matplotlib."""
 
 
 def style_of(number: int) -> dict[str, Any]:

@@ -124,7 +124,7 @@ _NEAR = 0.25
 """Margin below which a rule of the machine is worth a bar."""
 _SHARE = "%"
 _ENDLESS = 1e9
-"""What stands for a margin that is infinite: a bar ends long before."""
+"""Stand-in for an infinite margin: a bar ends long before."""
 
 
 def free_rows(answer: StudyResult, table: Table) -> list[dict[str, Any]]:

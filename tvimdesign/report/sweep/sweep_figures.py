@@ -71,7 +71,7 @@ _HOLLOW = "Hollow: a limit is broken."
 _MOST_OUTPUTS = 6
 """Outputs that are axes of the figure to brush."""
 CELL_WORDS = {"title": "Cells", "one": "cell", "many": "cells"}
-"""What `front.js` calls the points of a sweep."""
+"""Name of the points of a sweep in `front.js`."""
 
 
 def figures(plan: SweepPlan, seen: CellTable, data: dict[str, Any]) -> tuple[Drawn | None, Drawn | None]:

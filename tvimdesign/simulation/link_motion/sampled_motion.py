@@ -52,7 +52,7 @@ class ContactEvent:
     side: int
     """0: the first block, 1: the second."""
     touching: bool
-    """Whether it touches from here on."""
+    """True if it touches from here on."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class OneSided:
     motion: Motion
     """`internal` has the rows of the first block, then those of the second."""
     touching: NDArray[np.bool_]
-    """Whether each block touches from a sample to the next; one row a block."""
+    """True where a block touches from a sample to the next; one row a block."""
     events: tuple[ContactEvent, ...]
     rest: float | None = None
     """Angle at which friction holds the link for good [rad]; None where it is free, or still moves."""

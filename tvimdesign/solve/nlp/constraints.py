@@ -30,7 +30,7 @@ class Constraint:
     step: str = "1 %"
     """What a hundredth of the scale is, in words."""
     absolute: bool = False
-    """Whether the limit has no size of its own, so that distances from it are in its unit."""
+    """True if the limit has no size of its own, so that distances from it are in its unit."""
     part_of: str = ""
     """The output a requirement names that is put on several at once, which move together: `spring_stiffness`, which is
     limited over the stroke, or `holding_torque`, the least of several."""

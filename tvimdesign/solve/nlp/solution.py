@@ -33,7 +33,7 @@ class Start:
     relaxed: bool = False
     """Whether listed sizes were free to lie between one another: where to begin, not an answer."""
     second_try: bool = False
-    """Whether it converged only from a feasible design, which was sought from its beginning."""
+    """True if it converged only from a feasible design, which was sought first."""
     by_neighbor: bool = False
     """Whether it ended a period of a number, such as a turn of the coils, beside where the solver came to first."""
     crossed: bool = False

@@ -68,7 +68,7 @@ class MeltTest(NamedTuple):
     sizes: Array
     """Modulus at each of them [Pa], roughly."""
     note: str = ""
-    """What was left out of it."""
+    """Parts that were left out."""
 
 
 class Melt(NamedTuple):
