@@ -20,7 +20,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from tvimdesign.base.process_tree import end_process_tree
+from tvimdesign.base.processes import end_process_tree
 
 ROOT = Path(__file__).resolve().parents[1]
 SWEEP = [

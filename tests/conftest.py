@@ -14,7 +14,7 @@ from hypothesis import settings
 from shell_signals import follow_signals
 from support import ROOT, Command, called, environment, run_process
 
-from tvimdesign.base.processor_time import LIMIT
+from tvimdesign.base.processes import LIMIT
 
 pytest_plugins = ["shared_models", "shear_designs"]
 

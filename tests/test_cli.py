@@ -15,7 +15,7 @@ import pytest
 from cad_designs import shipped_design
 from support import ROOT, Command, wait_until
 
-from tvimdesign.base.processor_time import communicate
+from tvimdesign.base.processes import communicate
 from tvimdesign.cli.options import default_folder, name_of
 from tvimdesign.report.virtual_tests import TESTS
 from tvimdesign.study.design import design_json

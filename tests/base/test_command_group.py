@@ -8,8 +8,7 @@ from threading import Thread
 import pytest
 from support import are_gone
 
-from tvimdesign.base.command_group import CommandGroup
-from tvimdesign.base.processor_time import ProcessorTimeError
+from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
 
 STARTS_ANOTHER = """
 import os, subprocess, sys, time

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from support import ROOT, Command
 
-from tvimdesign.base import extras
+from tvimdesign.base import environment
 from tvimdesign.base.errors import InputError
 from tvimdesign.cad import make_cad
 
@@ -20,7 +20,7 @@ def without_cad(monkeypatch: pytest.MonkeyPatch) -> None:
     def found(name: str) -> Any:
         return None if name == "cadquery" else find_spec(name)
 
-    monkeypatch.setattr(extras, "find_spec", found)
+    monkeypatch.setattr(environment, "find_spec", found)
 
 
 @pytest.mark.slow
@@ -46,4 +46,4 @@ def test_parts_without_cad_are_refused_by_the_name_of_the_extra(tmp_path: Path) 
 
 
 def test_what_is_there_is_not_missed() -> None:
-    assert [extras.how_to_install(extra) for extra in extras.MODULES] == ["", "", ""]
+    assert [environment.how_to_install(extra) for extra in environment.MODULES] == ["", "", ""]

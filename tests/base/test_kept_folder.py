@@ -10,9 +10,7 @@ from typing import Any
 
 import pytest
 
-from tvimdesign.base.cache_folder import cache_folder
-from tvimdesign.base.compile_cache import find_code, keep_code
-from tvimdesign.base.file_owner import is_own_folder
+from tvimdesign.base.user_cache import cache_folder, find_code, is_own_folder, keep_code
 
 
 def test_things_are_kept_where_the_user_says_and_nowhere_if_that_cannot_be(

@@ -6,7 +6,7 @@ import sys
 import psutil
 from support import are_gone, is_at_work
 
-from tvimdesign.base.process_tree import Niceness, end_process_tree, set_low_priority, set_lower_priority
+from tvimdesign.base.processes import Niceness, end_process_tree, set_low_priority, set_lower_priority
 
 CHILD = "import time; time.sleep(600)"
 PARENT = f"""

@@ -10,8 +10,8 @@ from contextlib import contextmanager
 
 import pytest
 
-from tvimdesign.base import processor_time
-from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError, communicate
+from tvimdesign.base import processes
+from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError, communicate
 
 BURN = "while True: pass"
 FORKED = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {BURN!r}])"
@@ -24,7 +24,7 @@ def _running(code: str) -> Iterator[subprocess.Popen[bytes]]:
     try:
         yield child
     finally:
-        for item in processor_time.psutil.Process(child.pid).children():
+        for item in processes.psutil.Process(child.pid).children():
             item.kill()
         child.kill()
         child.communicate()
@@ -32,7 +32,7 @@ def _running(code: str) -> Iterator[subprocess.Popen[bytes]]:
 
 @pytest.fixture(autouse=True)
 def _checks_often(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.05)
+    monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
 
 
 @pytest.mark.parametrize("code", [BURN, FORKED])
@@ -61,8 +61,8 @@ def _check(limit: ProcessorLimit, times: int) -> None:
 
 def test_time_without_checks_is_no_idle_time(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
-    monkeypatch.setattr(processor_time.time, "monotonic", lambda: now[0])
-    monkeypatch.setattr(processor_time, "processor_time", lambda _process: 1.0)
+    monkeypatch.setattr(processes.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(processes, "processor_time", lambda _process: 1.0)
     limit = ProcessorLimit(1, idle_limit=1.0)
     for _ in range(8):  # the computer sleeps for an hour between two checks, each of which counts 0.1 s
         now[0] += 3600.0
@@ -71,8 +71,8 @@ def test_time_without_checks_is_no_idle_time(monkeypatch: pytest.MonkeyPatch) ->
 
 def test_the_count_starts_again_with_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     used = [0.0]
-    monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.0)
-    monkeypatch.setattr(processor_time, "processor_time", lambda _process: used[0])
+    monkeypatch.setattr(processes, "CHECK_EVERY", 0.0)
+    monkeypatch.setattr(processes, "processor_time", lambda _process: used[0])
     limit = ProcessorLimit(1, 5.0)
     for _ in range(4):
         limit.check()

@@ -10,7 +10,7 @@ import pytest
 import quick_parts
 from cad_designs import BLOCKS, CASES, Made, design_of, whole
 
-from tvimdesign.base.cache_folder import FOLDER_VARIABLE
+from tvimdesign.base.user_cache import FOLDER_VARIABLE
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.make import JOB, LIMIT
 from tvimdesign.study.design import Design, write_design

@@ -16,10 +16,10 @@ import pytest
 import trimesh
 from cad_designs import Made
 
-from tvimdesign.base import processor_time
+from tvimdesign.base import processes
 from tvimdesign.base.child_process import read_lines
 from tvimdesign.base.errors import GeometryError, InputError
-from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError
+from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.assembly.assembly_data import _linear
 from tvimdesign.cad.assembly.module_parts import MODULES
@@ -203,7 +203,7 @@ def test_a_part_the_model_has_wrong_is_written_and_reported(job: Callable[..., C
 def test_a_process_that_reports_no_progress_is_an_error(
     job: Callable[..., CadReport], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.05)
+    monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
     with pytest.raises(GeometryError, match=r"the CAD process failed: it was stopped after 0.05 s of processor time"):
         job(limit=0.05)
 
@@ -211,7 +211,7 @@ def test_a_process_that_reports_no_progress_is_an_error(
 def test_a_child_that_reports_progress_gets_more_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(processor_time, "CHECK_EVERY", 0.05)
+    monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
     burn = "    end = time.process_time() + 0.4\n    while time.process_time() < end: pass\n"
     says = f"import json, time\nfor step in range(8):\n    print(json.dumps({{'progress': step}}), flush=True)\n{burn}"
     for more, ends in (("", True), ("while True: pass", False)):

@@ -8,7 +8,7 @@ from pathlib import Path
 import folders
 import pytest
 
-from tvimdesign.base import journal
+from tvimdesign.base import atomic_files
 from tvimdesign.report.output import replace_results
 
 WRITTEN = {
@@ -39,12 +39,12 @@ def test_no_byte_of_the_user_s_is_changed_or_removed(tmp_path: Path) -> None:
 @pytest.mark.parametrize("broken", ["digest", "rename", "links"])
 def test_the_campaign_sees_what_is_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, broken: str) -> None:
     if broken == "digest":  # as if a file's name were enough to make it ours
-        usual = journal.is_as_written
-        ours = {journal.ANY}
+        usual = atomic_files.is_as_written
+        ours = {atomic_files.ANY}
         monkeypatch.setattr(replace_results, "is_as_written", lambda folder, name, _: usual(folder, name, ours))
     elif broken == "rename":
         monkeypatch.setattr(Path, "rename", lambda self, _: self.unlink() if self.is_file() else None)
     else:
-        for module in (journal, replace_results):
+        for module in (atomic_files, replace_results):
             monkeypatch.setattr(module, "link_on_the_way", lambda *_: None)
     assert next(losses(tmp_path, 200), "")

@@ -374,8 +374,8 @@ def test_another_user_s_folder_is_reported_and_refused_where_anybody_writes_it(
     (tmp_path / folder).chmod(0o777)
     Catalog(tmp_path)  # one's own stays one's own
     theirs = (tmp_path / folder).stat().st_uid
-    monkeypatch.setattr("tvimdesign.base.file_owner.os.getuid", lambda: theirs + 1)
-    monkeypatch.setattr("tvimdesign.base.file_owner.ROOT", -1)  # who runs this may be root
+    monkeypatch.setattr("tvimdesign.base.user_cache.os.getuid", lambda: theirs + 1)
+    monkeypatch.setattr("tvimdesign.base.user_cache.ROOT", -1)  # who runs this may be root
     refused = pytest.raises(CatalogError, match=r"belongs to another user, .*anybody may write to it; copy it")
     with pytest.warns(FolderWarning) if folder == "peltiers" else nullcontext(), refused as result:
         Catalog(tmp_path)
@@ -383,7 +383,7 @@ def test_another_user_s_folder_is_reported_and_refused_where_anybody_writes_it(
     (tmp_path / folder).chmod(0o755)
     with pytest.warns(FolderWarning, match="belongs to another user, "):
         Catalog(tmp_path)
-    monkeypatch.setattr("tvimdesign.base.file_owner.ROOT", theirs)
+    monkeypatch.setattr("tvimdesign.base.user_cache.ROOT", theirs)
     Catalog(tmp_path)  # what is the machine's is as good as the program
 
 

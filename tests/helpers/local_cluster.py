@@ -11,7 +11,7 @@ from types import TracebackType
 
 from support import ROOT, environment
 
-from tvimdesign.base.process_tree import end_process_tree
+from tvimdesign.base.processes import end_process_tree
 
 
 class LocalCluster:

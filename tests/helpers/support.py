@@ -19,8 +19,7 @@ from unittest import mock
 import psutil
 from cvodes_cycle import CvodesSimulator
 
-from tvimdesign.base.process_tree import end_process_tree
-from tvimdesign.base.processor_time import LIMIT, communicate
+from tvimdesign.base.processes import LIMIT, communicate, end_process_tree
 from tvimdesign.cli.main import main
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

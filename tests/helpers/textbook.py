@@ -9,12 +9,12 @@ import numpy as np
 
 from tvimdesign.physics.heat_flow.peltier import PeltierModule
 from tvimdesign.physics.motions import motion
-from tvimdesign.physics.polymers import crystallization
+from tvimdesign.physics.polymers import transitions
 
 
-def half_time(temperature_kelvin: Any, kinetics: crystallization.Kinetics) -> Any:
+def half_time(temperature_kelvin: Any, kinetics: transitions.Kinetics) -> Any:
     """Time in which half of a melt freezes at a constant temperature [s]: (ln 2)^(1/n)/K (Avrami)."""
-    return np.log(2.0) ** (1.0 / kinetics.avrami_exponent) / crystallization.rate_constant(temperature_kelvin, kinetics)
+    return np.log(2.0) ** (1.0 / kinetics.avrami_exponent) / transitions.rate_constant(temperature_kelvin, kinetics)
 
 
 def dissipation(angle: Any, internal: Sequence[Any], joint: motion.Joint, modes: motion.Modes) -> Any:

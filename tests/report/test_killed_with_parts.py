@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from cad_designs import design_of, whole
 
+from tvimdesign.base.atomic_files import UNFINISHED
 from tvimdesign.base.errors import SimulationError
-from tvimdesign.base.journal import UNFINISHED
 from tvimdesign.report.run import parts_of_design
 from tvimdesign.report.verify import verify_design
 from tvimdesign.study.design import read_design, write_design

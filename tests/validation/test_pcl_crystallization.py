@@ -14,7 +14,7 @@ from scipy.integrate import cumulative_trapezoid, solve_ivp
 from scipy.optimize import least_squares
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 
 Array = NDArray[np.float64]
 CELSIUS = 273.15
@@ -25,21 +25,21 @@ MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.
 NAMES = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
          "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
 RECORD = Catalog().record("polymers", "pcl_80k")
-PCL = crystallization.Kinetics(*(RECORD.value(name) for name in NAMES), 0.5)
+PCL = transitions.Kinetics(*(RECORD.value(name) for name in NAMES), 0.5)
 
 
-def cooled(rate: float, kinetics: crystallization.Kinetics) -> tuple[Array, Array]:
+def cooled(rate: float, kinetics: transitions.Kinetics) -> tuple[Array, Array]:
     """Celsius and solid fraction of a melt cooled from the melting window to -10 degC at a constant rate [K/min].
 
     Below the window nothing melts, so psi is the integral of the rate constant (Nakamura).
     """
     celsius = np.linspace(50.0, -10.0, 6001)
-    constants = crystallization.rate_constant(CELSIUS + celsius, kinetics)
+    constants = transitions.rate_constant(CELSIUS + celsius, kinetics)
     psi = cumulative_trapezoid(constants, -celsius * 60.0 / rate, initial=0.0)
-    return celsius, crystallization.solid_fraction(psi, kinetics)
+    return celsius, transitions.solid_fraction(psi, kinetics)
 
 
-def exotherm(rate: float, kinetics: crystallization.Kinetics) -> tuple[float, float]:
+def exotherm(rate: float, kinetics: transitions.Kinetics) -> tuple[float, float]:
     """Peak [degC] of the exotherm and its width at half its height [K]."""
     celsius, fraction = cooled(rate, kinetics)
     heat = np.gradient(fraction, -celsius)
@@ -47,7 +47,7 @@ def exotherm(rate: float, kinetics: crystallization.Kinetics) -> tuple[float, fl
     return float(celsius[np.argmax(heat)]), float(above[0] - above[-1])
 
 
-def from_onset(kinetics: crystallization.Kinetics) -> float:
+def from_onset(kinetics: transitions.Kinetics) -> float:
     """Minutes from the onset to half at the rate of `cooling_half_time`."""
     data = DATA["cooling_half_time"]
     celsius, fraction = cooled(data["rate"], kinetics)
@@ -141,10 +141,10 @@ def test_equilibrium_melting_and_nucleation_constant_are_one_fact(melting: float
 def test_cooling_by_integral_is_the_products_own_rate_integrated_in_time() -> None:
     celsius, fraction = cooled(10.0, PCL)
     found = solve_ivp(
-        lambda t, psi: crystallization.rate(CELSIUS + 50.0 - t / 6.0, psi, PCL, MELTING),
+        lambda t, psi: transitions.rate(CELSIUS + 50.0 - t / 6.0, psi, PCL, MELTING),
         (0.0, 300.0), [0.0], method="LSODA", t_eval=[60.0, 120.0, 180.0], rtol=1e-9, atol=1e-11,
     )  # fmt: skip
-    by_time = crystallization.solid_fraction(found.y[0], PCL)
+    by_time = transitions.solid_fraction(found.y[0], PCL)
     assert by_time == pytest.approx(np.interp([-40.0, -30.0, -20.0], -celsius, fraction), abs=1e-3)
 
 

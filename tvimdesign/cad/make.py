@@ -16,10 +16,9 @@ from typing import IO, Any
 
 from tvimdesign.base.atomic_files import make_folder
 from tvimdesign.base.child_process import read_lines, start_child
+from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import GeometryError, InputError
-from tvimdesign.base.extras import require_extra
-from tvimdesign.base.process_tree import end_process_tree
-from tvimdesign.base.processor_time import ProcessorLimit, ProcessorTimeError, wait_for
+from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError, end_process_tree, wait_for
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 
 LIMIT = 3600.0

@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 
-from tvimdesign.base import file_owner
+from tvimdesign.base import user_cache
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.base.record import Record
 from tvimdesign.catalog.category import CATEGORIES
@@ -185,14 +185,14 @@ def _check_owner(folder: Path, categories: Sequence[str]) -> None:
 def _other_owner(folder: Path) -> str:
     """Return the owner of a folder; empty for this user and root. Raises CatalogError if anybody may write to it."""
     status = folder.stat()
-    if file_owner.is_own(status):
+    if user_cache.is_own(status):
         return ""
     if status.st_mode & stat.S_IWOTH:
         raise CatalogError(
             f"{str(folder)[:200]}: the folder of records belongs to another user, {_owner_name(folder)}, and anybody "
             "may write to it; copy it, or have its owner run chmod o-w on it"
         )
-    return "" if status.st_uid == file_owner.ROOT else _owner_name(folder)
+    return "" if status.st_uid == user_cache.ROOT else _owner_name(folder)
 
 
 def _owner_name(folder: Path) -> str:

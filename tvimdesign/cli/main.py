@@ -12,9 +12,9 @@ from typing import Any
 import typer
 
 from tvimdesign.base import interrupts
+from tvimdesign.base.environment import ask_for_one_thread
 from tvimdesign.base.errors import FolderWarning, InputError, OutputError, TvimError
 from tvimdesign.base.interrupts import ignore_interrupts, interrupt_handler, raise_pending
-from tvimdesign.base.one_thread import ask_for_one_thread
 from tvimdesign.cli.commands import app
 from tvimdesign.cli.output_streams import drop_what_cannot_be_written, flush_output, speak_plainly
 

@@ -9,9 +9,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.atomic_files import atomic_write, make_folder
+from tvimdesign.base.atomic_files import atomic_write, digest_of, is_as_written, make_folder
 from tvimdesign.base.errors import InputError, TvimError
-from tvimdesign.base.journal import digest_of, is_as_written
 from tvimdesign.base.units import pretty
 from tvimdesign.explore.answers.engine import Stage
 from tvimdesign.explore.answers.shown import value_names

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tvimdesign.base.child_process import start_child
-from tvimdesign.base.process_tree import set_low_priority
+from tvimdesign.base.processes import set_low_priority
 
 Reply = dict[str, Any]
 _STARTS = 2

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign import __version__
+from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import InputError, TvimError
-from tvimdesign.base.extras import require_extra
 from tvimdesign.sweep.chunks import CellQueue, ChunkAnswers
 from tvimdesign.sweep.pool import Heard, Usage
 from tvimdesign.sweep.shards import ShardWriter

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tvimdesign.base.atomic_files import TABLE_ENCODING, whole_file
+from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import OutputError
-from tvimdesign.base.extras import require_extra
 from tvimdesign.base.units import from_si
 from tvimdesign.study.sections.sweep_block import SweptAxis
 from tvimdesign.sweep.plan import SweepPlan

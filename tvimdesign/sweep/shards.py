@@ -15,9 +15,8 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from tvimdesign import __version__
-from tvimdesign.base.atomic_files import make_folder
+from tvimdesign.base.atomic_files import make_folder, record
 from tvimdesign.base.errors import OutputError
-from tvimdesign.base.journal import record
 from tvimdesign.sweep.work import CellAnswer
 
 SHARDS = "shards"

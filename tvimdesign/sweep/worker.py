@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.child_process import follow_parent
+from tvimdesign.base.environment import NAMES
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.one_thread import NAMES
 
 
 def packed(job: Any, folder: Path) -> str:

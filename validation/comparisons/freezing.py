@@ -10,7 +10,7 @@ from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from comparisons.numbers import Array
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 
 Values = Mapping[str, Any]
 CELSIUS = 273.15
@@ -20,20 +20,20 @@ _MELTING = ("specific_heat_solid", "specific_heat_melt", "latent_heat", "melting
 _LAG = 0.5  # s, of melting behind heating; nothing melts in these cases
 
 
-def _kinetics(inputs: Values, polymer_name: str = "") -> crystallization.Kinetics:
+def _kinetics(inputs: Values, polymer_name: str = "") -> transitions.Kinetics:
     """Of a record, with what the case gives instead."""
     record = Catalog().record("polymers", polymer_name or inputs["polymer"])
-    kinetics = crystallization.Kinetics(*(record.value(name) for name in _KINETICS), _LAG)
+    kinetics = transitions.Kinetics(*(record.value(name) for name in _KINETICS), _LAG)
     return kinetics._replace(**inputs.get("instead", {}))
 
 
-def _half_time(celsius: float, kinetics: crystallization.Kinetics) -> float:
+def _half_time(celsius: float, kinetics: transitions.Kinetics) -> float:
     """Time [s] after which half of a melt is frozen, from its rate integrated in time."""
     kelvin = CELSIUS + celsius
-    guess = 1.0 / float(crystallization.rate_constant(kelvin, kinetics))
+    guess = 1.0 / float(transitions.rate_constant(kelvin, kinetics))
     times = np.linspace(0.0, 2.0 * guess, 2001)
-    psi = times * float(crystallization.rate_constant(kelvin, kinetics))
-    return float(np.interp(0.5, crystallization.solid_fraction(psi, kinetics), times))
+    psi = times * float(transitions.rate_constant(kelvin, kinetics))
+    return float(np.interp(0.5, transitions.solid_fraction(psi, kinetics), times))
 
 
 def half_times(inputs: Values) -> Values:
@@ -47,18 +47,18 @@ def isothermal_curve(inputs: Values) -> Values:
     kinetics = _kinetics(inputs)
     window = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
     results = solve_ivp(
-        lambda _, psi: crystallization.rate(CELSIUS + inputs["celsius"], psi, kinetics, window),
+        lambda _, psi: transitions.rate(CELSIUS + inputs["celsius"], psi, kinetics, window),
         (0.0, inputs["time"][-1]), [0.0], t_eval=inputs["time"], rtol=1e-10, atol=1e-12,
     )  # fmt: skip
-    return {"fraction": crystallization.solid_fraction(results.y[0], kinetics)}
+    return {"fraction": transitions.solid_fraction(results.y[0], kinetics)}
 
 
-def _cooled(rate: float, kinetics: crystallization.Kinetics) -> tuple[Array, Array]:
+def _cooled(rate: float, kinetics: transitions.Kinetics) -> tuple[Array, Array]:
     """Temperature [degC] and solid fraction of a melt cooled from 50 to -10 degC at a rate [K/min]."""
     celsius = np.linspace(50.0, -10.0, 6001)
-    constants = crystallization.rate_constant(CELSIUS + celsius, kinetics)
+    constants = transitions.rate_constant(CELSIUS + celsius, kinetics)
     psi = cumulative_trapezoid(constants, -celsius * 60.0 / rate, initial=0.0)
-    return celsius, crystallization.solid_fraction(psi, kinetics)
+    return celsius, transitions.solid_fraction(psi, kinetics)
 
 
 def cooled_fraction(inputs: Values) -> Values:

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from comparisons.numbers import si
-from tvimdesign.physics.layers import block, hold, layer, shear_lag
+from tvimdesign.physics.layers import block, lasting_load, layer, shear_lag
 from tvimdesign.physics.motions import motion
-from tvimdesign.physics.polymers import creep, melt, shrinkage
+from tvimdesign.physics.polymers import melt, plastics, transitions
 from tvimdesign.physics.solids import structure
 
 Values = Mapping[str, Any]
@@ -88,7 +88,7 @@ def held_link(inputs: Values) -> Values:
     """Angle [rad] of a link under a lasting torque over time, and the angle at which its polymer is free of stress."""
     modes = [tuple(map(float, mode)) for mode in inputs["modes"]]
     results = [
-        hold.held(inputs["torque"], float(time), inputs["springs"], inputs["structure"], modes)
+        lasting_load.held(inputs["torque"], float(time), inputs["springs"], inputs["structure"], modes)
         for time in inputs["time"]
     ]
     return {"angle": [each.angle for each in results], "set_angle": [each.set_angle for each in results]}
@@ -98,7 +98,7 @@ def plates_on_a_layer(inputs: Values) -> Values:
     """Traction [Pa] where a layer that shrinks begins, over the span to the hub [m]."""
     return {
         "traction": [
-            shrinkage.edge_traction(
+            transitions.edge_traction(
                 inputs["shortened"], inputs["foundation"], inputs["rigidity"], inputs["shear"], span
             )
             for span in inputs["span"]
@@ -111,6 +111,6 @@ def gives_of_pegs(inputs: Values) -> Values:
     modulus, poisson = inputs["modulus"], inputs["poissons_ratio"]
     shear = structure.shear_modulus(modulus, poisson)
     return {
-        "pins": [creep.peg_give(modulus, poisson, pin["diameter"], pin["height"]) for pin in inputs["pins"]],
-        "holes": [creep.twisted_hole_give(shear, hole["diameter"], hole["length"]) for hole in inputs["holes"]],
+        "pins": [plastics.peg_give(modulus, poisson, pin["diameter"], pin["height"]) for pin in inputs["pins"]],
+        "holes": [plastics.twisted_hole_give(shear, hole["diameter"], hole["length"]) for hole in inputs["holes"]],
     }

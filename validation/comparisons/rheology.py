@@ -13,8 +13,8 @@ from judging.case import CASES
 from comparisons.numbers import Array
 from tvimdesign.catalog import Catalog
 from tvimdesign.device.core.impedance.joint_impedance import solid_modes
-from tvimdesign.physics.motions import laplace
-from tvimdesign.physics.polymers import glass, melt, polymer, viscoelasticity
+from tvimdesign.physics.motions import motion
+from tvimdesign.physics.polymers import melt, polymer, transitions, viscoelasticity
 from tvimdesign.physics.solids import structure
 from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
 
@@ -85,19 +85,19 @@ def back_from_laplace(inputs: Values) -> Values:
     def transforms(rate: Any) -> tuple[Any, ...]:
         return 1.0 / (rate + 1.0), 1.0 / rate - 1.0 / (rate + 0.2), 1.0 / rate**2
 
-    results = [laplace.inverse(transforms, float(time)) for time in inputs["time"]]
+    results = [motion.inverse(transforms, float(time)) for time in inputs["time"]]
     names = ("fading", "creeping", "flowing")
     return {name: [float(each[i]) for each in results] for i, name in enumerate(names)}
 
 
-def _glass(name: str) -> glass.Glass:
+def _glass(name: str) -> transitions.Glass:
     record = Catalog().record("polymers", name)
     value = record.value
-    transition = glass.GlassTransition(
+    transition = transitions.GlassTransition(
         *(value(field) for field in ("glass_transition", "wlf_c1", "wlf_c2", "glass_activation_energy"))
     )
     modulus = structure.shear_modulus(value("flexural_modulus"), value("poissons_ratio"))
-    return glass.Glass(modulus, value("reference_temperature"), transition, solid_modes(record))
+    return transitions.Glass(modulus, value("reference_temperature"), transition, solid_modes(record))
 
 
 def modulus_across_the_transition(inputs: Values) -> Values:

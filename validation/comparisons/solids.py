@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.bodies import shapes
-from tvimdesign.physics.polymers import creep, shrinkage
-from tvimdesign.physics.solids import structure, vane, warm
+from tvimdesign.physics.polymers import plastics, transitions
+from tvimdesign.physics.solids import shapes, structure, vane
 
 Values = Mapping[str, Any]
 _SOFTENING = ("modulus_slope", "softening_temperature", "softening_width", "softened_share", "loss_factor",
@@ -59,8 +58,8 @@ def elastic_constants(inputs: Values) -> Values:
     youngs, poisson = inputs["youngs_modulus"], inputs["poissons_ratio"]
     return {
         "shear_modulus": structure.shear_modulus(youngs, poisson),
-        "confined_modulus": shrinkage.confined_modulus(youngs, poisson),
-        "flexural_rigidity": shrinkage.flexural_rigidity(youngs, poisson, inputs["thickness"]),
+        "confined_modulus": transitions.confined_modulus(youngs, poisson),
+        "flexural_rigidity": transitions.flexural_rigidity(youngs, poisson, inputs["thickness"]),
     }
 
 
@@ -68,34 +67,34 @@ def warm_moduli(inputs: Values) -> Values:
     """Modulus [MPa] of materials at temperatures [degC], rows of material, temperature and modulus at 23 degC."""
     results = []
     for material, celsius, at_23 in inputs["rows"]:
-        results.append(at_23 * float(warm.modulus_share(celsius + 273.15, _law(material))))
+        results.append(at_23 * float(plastics.modulus_share(celsius + 273.15, _law(material))))
     return {"modulus": results}
 
 
 def modulus_over_that_at(inputs: Values) -> Values:
     """Modulus of a material over that at a reference temperature [degC], over the temperature."""
     law = _law(inputs["material"])
-    share = warm.modulus_share(np.array(inputs["celsius"], float) + 273.15, law)
-    return {"share": share / warm.modulus_share(inputs["reference"] + 273.15, law)}
+    share = plastics.modulus_share(np.array(inputs["celsius"], float) + 273.15, law)
+    return {"share": share / plastics.modulus_share(inputs["reference"] + 273.15, law)}
 
 
-def _law(material: str) -> warm.Softening:
+def _law(material: str) -> plastics.Softening:
     record = Catalog().record("structure_materials", material)
-    return warm.Softening(*(record.value(name) for name in _SOFTENING))
+    return plastics.Softening(*(record.value(name) for name in _SOFTENING))
 
 
 def creep_moduli(inputs: Values) -> Values:
     """Creep modulus [MPa] of a material over hours at 23 degC, and how much an hour at a temperature ages it."""
     record = Catalog().record("structure_materials", inputs["material"])
-    law = creep.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
+    law = plastics.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
     hours = np.array(inputs["hours"], float)
-    return {"modulus": inputs["tensile_modulus"] / (1.0 + creep.growth(3600.0 * hours, law))}
+    return {"modulus": inputs["tensile_modulus"] / (1.0 + plastics.growth(3600.0 * hours, law))}
 
 
 def ages(inputs: Values) -> Values:
     """Hours at 23 degC that age as one at a temperature [degC], of an activation energy [J/mol]."""
-    law = creep.Creep(0.1, 0.1, inputs["energy"])
-    return {"hours": [creep.aged(1.0, celsius + 273.15, law) for celsius in inputs["celsius"]]}
+    law = plastics.Creep(0.1, 0.1, inputs["energy"])
+    return {"hours": [plastics.aged(1.0, celsius + 273.15, law) for celsius in inputs["celsius"]]}
 
 
 def flat_shapes(inputs: Values) -> Values:

@@ -9,7 +9,7 @@ import numpy as np
 
 from comparisons.numbers import array, si
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.springs import spring, transmission
+from tvimdesign.physics.springs import spring
 
 Values = Mapping[str, Any]
 TURN = 2.0 * np.pi
@@ -105,11 +105,9 @@ def output_stiffness(inputs: Values) -> Values:
     place, preload = si(inputs["placement_radius"]), si(inputs["preload"])
     pin = 0.5 * place
     offset = 0.5 * sum(si(inputs[name]) for name in ("coil_diameter", "wire_diameter", "pin_diameter"))
-    unity = transmission.output_stiffness(inputs["springs"], rate, 0.0, 1.0, 0.0)
+    unity = spring.output_stiffness(inputs["springs"], rate, 0.0, 1.0, 0.0)
     pairs = inputs["springs"] // 2
-    drawn = [
-        pairs * rate * transmission.pair_turned(si(angle), preload, pin, place, offset)[1] for angle in inputs["angle"]
-    ]
+    drawn = [pairs * rate * spring.pair_turned(si(angle), preload, pin, place, offset)[1] for angle in inputs["angle"]]
     return {"by_the_papers_ratio": unity, "as_drawn": drawn}
 
 
@@ -118,7 +116,7 @@ def leg_on_its_pin(inputs: Values) -> Values:
     pin, place, offset = (si(inputs[name]) for name in ("pin_radius", "placement_radius", "offset"))
     angle = array(inputs["angle"])
     return {
-        "turned": transmission.leg_turned(pin, place, angle, offset),
-        "ratio": transmission.leg_ratio(pin, place, angle, offset),
-        "curvature": transmission.leg_curvature(pin, place, angle, offset),
+        "turned": spring.leg_turned(pin, place, angle, offset),
+        "ratio": spring.leg_ratio(pin, place, angle, offset),
+        "curvature": spring.leg_curvature(pin, place, angle, offset),
     }

@@ -13,7 +13,7 @@ from support import ROOT
 from tvimdesign.device import table_for
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.heat_flow.conduction import Conductivities, mean_conductivity
-from tvimdesign.physics.heat_flow.lip import warm_lip
+from tvimdesign.physics.heat_flow.layer_end import warm_lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, Place
 from tvimdesign.physics.polymers.polymer import fraction_at
 from tvimdesign.study import given, read_study, read_study_text

@@ -12,14 +12,14 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from tvimdesign.physics.heat_flow import heat, lumps, peltier
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 
 Array = NDArray[np.float64]
 STEFAN_BOLTZMANN = 5.670374419e-8
 AMBIENT = 295.15
 AREA = 1579.2e-6
 PCL = polymer.Melting(1850.0, 2100.0, 76.75e3, 323.15, 338.15, 500.0)
-FREEZING = crystallization.Kinetics(3.0, 170.0, 313.15, 6.08e4, 347.15, 213.15, 6270.0, 0.5)
+FREEZING = transitions.Kinetics(3.0, 170.0, 313.15, 6.08e4, 347.15, 213.15, 6270.0, 0.5)
 PADS = peltier.PeltierModule(0.025, 3.0, 0.12)
 SINK = lumps.Lump(5.0, 30.0, lumps.Surface(15e-3, 10.0, 0.85))
 STRIP = lumps.Lump(0.4, 12.0, lumps.Surface(4e-3, 6.0, 0.9))

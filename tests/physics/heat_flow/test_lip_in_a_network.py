@@ -13,7 +13,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq, root
 
 from tvimdesign.physics.heat_flow.conduction import Conductivities, shared
-from tvimdesign.physics.heat_flow.lip import Arm, Lip, warm_lip
+from tvimdesign.physics.heat_flow.layer_end import Arm, Lip, warm_lip
 from tvimdesign.physics.heat_flow.lumps import Place
 from tvimdesign.physics.polymers.polymer import Melting
 

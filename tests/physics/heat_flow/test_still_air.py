@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import spsolve
 
+from tvimdesign.physics.heat_flow.layer_end import below_lip, room
 from tvimdesign.physics.heat_flow.shape_factors import beyond_constriction, ledge_across, ledge_ways
-from tvimdesign.physics.heat_flow.walled_end import below_lip, room
 
 Array = NDArray[np.float64]
 N = 48

@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import spsolve
 
 from tvimdesign.device.shear.layer_end import AT_CORNER
-from tvimdesign.physics.heat_flow.walled_end import cooled_end, fallen, sheet_end, sheeted_end, walled_end
+from tvimdesign.physics.heat_flow.layer_end import cooled_end, fallen, sheet_end, sheeted_end, walled_end
 
 ACROSS, LONG = 120, 4.0
 """Cells over the layer's thickness; its length, beyond which the wall is not felt."""

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from tvimdesign.physics.bodies.shapes import sector
-from tvimdesign.physics.layers import hold, layer
-from tvimdesign.physics.motions import laplace
+from tvimdesign.physics.layers import lasting_load, layer
+from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.motion import Modes
+from tvimdesign.physics.solids.shapes import sector
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.symbols import symbols
 
@@ -68,14 +68,14 @@ WITHIN = 4e-4
 def test_weights_are_those_that_stehfest_printed() -> None:
     printed = [1 / 12, -385 / 12, 1279, -46871 / 3, 505465 / 6, -473915 / 2, 1127735 / 3, -1020215 / 3, 328125 / 2,
                -65625 / 2]  # fmt: skip
-    assert laplace.weights(10) == pytest.approx(printed, rel=1e-14)
+    assert motion.weights(10) == pytest.approx(printed, rel=1e-14)
 
 
 @pytest.mark.parametrize("time", [0.01, 1.0, 30.0])
 def test_known_transforms_come_back(time: float) -> None:
-    assert laplace.inverse(lambda s: (1.0 / s**2,), time)[0] == pytest.approx(time, rel=WITHIN)
-    assert laplace.inverse(lambda s: (s**-0.5,), time)[0] == pytest.approx(1.0 / np.sqrt(np.pi * time), rel=WITHIN)
-    assert laplace.inverse(lambda s: (1.0 / (s + 1.0 / time),), time)[0] == pytest.approx(np.exp(-1.0), rel=WITHIN)
+    assert motion.inverse(lambda s: (1.0 / s**2,), time)[0] == pytest.approx(time, rel=WITHIN)
+    assert motion.inverse(lambda s: (s**-0.5,), time)[0] == pytest.approx(1.0 / np.sqrt(np.pi * time), rel=WITHIN)
+    assert motion.inverse(lambda s: (1.0 / (s + 1.0 / time),), time)[0] == pytest.approx(np.exp(-1.0), rel=WITHIN)
 
 
 @pytest.mark.parametrize("time", [1e-3, 0.3, 4.0, 100.0])
@@ -84,7 +84,7 @@ def test_one_mode_beside_springs_creeps_as_zeners_solid(time: float) -> None:
     k, tau = 300.0, 0.1
     fading = np.exp(-time / (tau * (SPRINGS + k) / SPRINGS))
     angle = LOAD / SPRINGS * (1.0 - k / (SPRINGS + k) * fading)
-    found = hold.held(LOAD, time, SPRINGS, 1e14, [(tau, k)])
+    found = lasting_load.held(LOAD, time, SPRINGS, 1e14, [(tau, k)])
     assert found.angle == pytest.approx(angle, rel=WITHIN)
     # The one dashpot is where the mode is free of stress: theta less its torque over k.
     free = angle - (LOAD - SPRINGS * angle) / k
@@ -111,33 +111,33 @@ def by_radau(modes: Modes, time: float) -> tuple[float, float]:
 def test_angle_and_set_are_those_of_radau(spectrum: str, time: float) -> None:
     modes = SPECTRA[spectrum]
     angle, free = by_radau(modes, time)
-    assert hold.held(LOAD, time, SPRINGS, STRUCTURE, modes) == pytest.approx((angle, free), rel=WITHIN)
+    assert lasting_load.held(LOAD, time, SPRINGS, STRUCTURE, modes) == pytest.approx((angle, free), rel=WITHIN)
 
 
 def test_load_that_has_just_come_on_is_shared_by_springs_and_the_branch() -> None:
     # 450 behind 919 is 302.1 N*m/rad, beside 5.61.
-    borne = hold.first_torque(LOAD, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
+    borne = lasting_load.first_torque(LOAD, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
     assert borne == pytest.approx(0.583 * 302.09 / 307.70, rel=1e-4)
-    later = hold.held(LOAD, 1e-9, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)]).angle
+    later = lasting_load.held(LOAD, 1e-9, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)]).angle
     assert LOAD - SPRINGS * later == pytest.approx(borne, rel=1e-6)
 
 
 def test_set_of_spectra_that_relax_or_do_not() -> None:
-    assert hold.held(LOAD, 10.0, SPRINGS, STRUCTURE, [(1e16, 300.0)]).set_angle < 1e-15
-    assert hold.held(LOAD, 1e6, SPRINGS, STRUCTURE, MELT).set_angle == pytest.approx(LOAD / SPRINGS, rel=1e-9)
+    assert lasting_load.held(LOAD, 10.0, SPRINGS, STRUCTURE, [(1e16, 300.0)]).set_angle < 1e-15
+    assert lasting_load.held(LOAD, 1e6, SPRINGS, STRUCTURE, MELT).set_angle == pytest.approx(LOAD / SPRINGS, rel=1e-9)
 
 
 def test_gap_costs_the_branch_its_share_of_the_way() -> None:
     # To 0.1 rad 302.1 + 5.61 N*m/rad take 30.77 N*m; behind a gap of 0.04 rad the branch 18.13 and the springs 0.561.
-    loss = hold.impedance_loss(0.1, 0.04, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
+    loss = lasting_load.impedance_loss(0.1, 0.04, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
     assert loss == pytest.approx(1.0 - (18.13 + 0.561) / 30.77, rel=1e-3)
-    assert hold.impedance_loss(0.1, 0.0, SPRINGS, STRUCTURE, MELT) == 0.0
+    assert lasting_load.impedance_loss(0.1, 0.0, SPRINGS, STRUCTURE, MELT) == 0.0
 
 
 @given(st.floats(-3.0, 5.0), st.floats(0.1, 3.0))
 def test_longer_holds_creep_further_and_never_beyond_the_springs(time: float, more: float) -> None:
     for modes in SPECTRA.values():
-        shorter, longer = (hold.held(LOAD, 10.0**t, SPRINGS, STRUCTURE, modes) for t in (time, time + more))
+        shorter, longer = (lasting_load.held(LOAD, 10.0**t, SPRINGS, STRUCTURE, modes) for t in (time, time + more))
         assert 0.0 <= shorter.set_angle <= longer.set_angle * (1.0 + WITHIN)
         assert longer.set_angle <= longer.angle * (1.0 + WITHIN) <= LOAD / SPRINGS * (1.0 + 2.0 * WITHIN)
 
@@ -145,8 +145,8 @@ def test_longer_holds_creep_further_and_never_beyond_the_springs(time: float, mo
 def test_symbols_and_arrays_give_what_floats_give() -> None:
     def rows(load: Any, time: Any, springs: Any, stiffness: Any) -> list[Any]:
         modes = [(0.3, stiffness), (20.0, 2.0 * stiffness)]
-        angle, gap = hold.held(load, time, springs, STRUCTURE, modes)
-        return [angle, gap, hold.impedance_loss(angle, gap, springs, STRUCTURE, modes)]
+        angle, gap = lasting_load.held(load, time, springs, STRUCTURE, modes)
+        return [angle, gap, lasting_load.impedance_loss(angle, gap, springs, STRUCTURE, modes)]
 
     names = ca.SX.sym("load, time, springs, stiffness", 4)
     numbers = np.array([[0.583, 1.0], [3.0, 0.4], [5.61, 9.0], [150.0, 4e4]])

@@ -8,27 +8,27 @@ import yaml
 from scipy.integrate import quad
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.polymers import creep
+from tvimdesign.physics.polymers import plastics
 
 HOURS = 3600.0
 FE = yaml.safe_load((Path(__file__).parents[3] / "validation/fe_spring_holds/results.yaml").read_text())
 
 
-def law(material: str) -> creep.Creep:
+def law(material: str) -> plastics.Creep:
     record = Catalog().record("structure_materials", material)
-    return creep.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
+    return plastics.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
 
 
 def test_polycarbonate_has_the_creep_moduli_of_its_sheet() -> None:
     # Makrolon 2405, ISO 899-1: 2200 MPa after 1 h and 1900 MPa after 1000 h; tensile modulus 2400 MPa.
     for hours, sheet in ((1.0, 2200.0), (1000.0, 1900.0)):
-        assert 2400.0 / (1.0 + creep.growth(hours * HOURS, law("polycarbonate"))) == pytest.approx(sheet, rel=2e-3)
+        assert 2400.0 / (1.0 + plastics.growth(hours * HOURS, law("polycarbonate"))) == pytest.approx(sheet, rel=2e-3)
 
 
 def test_an_hour_hot_ages_as_arrhenius_says() -> None:
     # 150 kJ/mol from 23 to 60 degC: exp(150e3/8.314 (1/296.15 - 1/333.15)) = 868.
-    assert creep.aged(1.0, 333.15, law("petg")) == pytest.approx(868.0, rel=2e-3)
-    assert creep.aged(5.0, 296.15, law("petg")) == 5.0
+    assert plastics.aged(1.0, 333.15, law("petg")) == pytest.approx(868.0, rel=2e-3)
+    assert plastics.aged(5.0, 296.15, law("petg")) == 5.0
 
 
 @pytest.mark.parametrize("give", [0.02, 0.1])
@@ -39,7 +39,7 @@ def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None
     times = np.concatenate([[0.0], np.geomspace(1e-3, 1000.0, 4000)]) * HOURS
 
     def support(since: np.ndarray) -> np.ndarray:
-        return compliance * (1.0 + creep.growth(since, found))
+        return compliance * (1.0 + plastics.growth(since, found))
 
     steps = [1.0 / (1.0 / rate + compliance)]
     for i in range(1, len(times)):
@@ -49,8 +49,8 @@ def test_preload_that_is_left_is_that_of_volterras_equation(give: float) -> None
         last = 0.5 * (times[i] - times[i - 1])
         steps.append((1.0 - crept) / (1.0 / rate + float(support(np.array(last)))))
     left = float(np.sum(steps)) / rate
-    at_once = creep.winding_left(rate, (compliance, 0.0))
-    quick = creep.winding_left(rate, (compliance, creep.growth(times[-1], found)))
+    at_once = plastics.winding_left(rate, (compliance, 0.0))
+    quick = plastics.winding_left(rate, (compliance, plastics.growth(times[-1], found)))
     # The loss, not what is left, within 2 %.
     assert at_once - quick == pytest.approx(at_once - left, rel=0.02)
 
@@ -59,25 +59,25 @@ def test_wire_twisted_in_a_wide_body_is_rings_in_series() -> None:
     shear, radius, length = 0.76e9, 0.8e-3, 3.5e-3
     # A ring of radius r turns against the next by M/(2 pi r^2 L G) dr/r.
     angle, _ = quad(lambda r: 1.0 / (2.0 * np.pi * r**3 * length * shear), radius, np.inf)
-    assert creep.twisted_hole_give(shear, 2.0 * radius, length) == pytest.approx(angle, rel=1e-9)
+    assert plastics.twisted_hole_give(shear, 2.0 * radius, length) == pytest.approx(angle, rel=1e-9)
 
 
 def test_tall_peg_is_a_cantilever_and_a_short_one_gives_at_its_foot() -> None:
     modulus, poisson, radius = 2.1e9, 0.38, 2e-3
     tall = 0.5**3 / (3.0 * modulus * 0.25 * np.pi * radius**4)
-    assert creep.peg_give(modulus, poisson, 2.0 * radius, 0.5) == pytest.approx(tall, rel=0.01)
+    assert plastics.peg_give(modulus, poisson, 2.0 * radius, 0.5) == pytest.approx(tall, rel=0.01)
     # A rigid disc tilts on a half-space by 3 (1 - nu) M/(8 G r^3).
     shear = modulus / (2.0 * (1.0 + poisson))
     foot = 3.0 * (1.0 - poisson) * 4e-3**2 / (8.0 * shear * radius**3)
     whole = 4e-3**3 / (3.0 * modulus * 0.25 * np.pi * radius**4) + foot + 4e-3 / (0.9 * shear * np.pi * radius**2)
-    assert creep.peg_give(modulus, poisson, 2.0 * radius, 4e-3) == pytest.approx(whole, rel=1e-9)
+    assert plastics.peg_give(modulus, poisson, 2.0 * radius, 4e-3) == pytest.approx(whole, rel=1e-9)
 
 
 @pytest.mark.parametrize("study", FE["pins"])
 def test_pins_and_holes_give_as_fe_of_the_exported_parts_does(study: str) -> None:
     modulus, poisson = FE["modulus"], FE["poissons_ratio"]  # N/mm^2
     pin, hole = FE["pins"][study], FE["holes"][study]
-    peg = creep.peg_give(modulus, poisson, pin["diameter"], pin["height"])
-    twisted = creep.twisted_hole_give(modulus / (2.0 * (1.0 + poisson)), hole["diameter"], hole["length"])
+    peg = plastics.peg_give(modulus, poisson, pin["diameter"], pin["height"])
+    twisted = plastics.twisted_hole_give(modulus / (2.0 * (1.0 + poisson)), hole["diameter"], hole["length"])
     assert peg == pytest.approx(pin["give"], rel=0.05)
     assert twisted == pytest.approx(hole["give"], rel=0.05)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.integrate import quad, solve_ivp
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
 Array = NDArray[np.float64]
@@ -22,28 +22,28 @@ GRADES = ("pcl_50k", "pcl_80k")
 MELTING = polymer.Melting(1850.0, 2100.0, 76.75e3, CELSIUS + 50.0, CELSIUS + 65.0, 500.0)
 
 
-def kinetics_of(grade: str, **changes: float) -> crystallization.Kinetics:
+def kinetics_of(grade: str, **changes: float) -> transitions.Kinetics:
     names = ("avrami_exponent", "crystallization_half_time", "crystallization_reference", "nucleation_constant",
              "equilibrium_melting_temperature", "glass_transition", "transport_energy")  # fmt: skip
     record = Catalog().record("polymers", grade)
-    return crystallization.Kinetics(*(record.value(name) for name in names), 0.5)._replace(**changes)
+    return transitions.Kinetics(*(record.value(name) for name in names), 0.5)._replace(**changes)
 
 
 PCL = kinetics_of("pcl_80k")
 
 
-def calorimeter(rate: float, kinetics: crystallization.Kinetics) -> tuple[Array, Array]:
+def calorimeter(rate: float, kinetics: transitions.Kinetics) -> tuple[Array, Array]:
     """Celsius and solid fraction of a melt cooled from 100 degC at a constant rate [K/min]."""
     per_second = rate / 60.0
     times = np.linspace(0.0, 110.0 / per_second, 20001)
     found = solve_ivp(
-        lambda t, psi: crystallization.rate(CELSIUS + 100.0 - per_second * t, psi, kinetics, MELTING),
+        lambda t, psi: transitions.rate(CELSIUS + 100.0 - per_second * t, psi, kinetics, MELTING),
         (0.0, times[-1]), [0.0], method="LSODA", t_eval=times, rtol=1e-9, atol=1e-11,
     )  # fmt: skip
-    return 100.0 - per_second * times, crystallization.solid_fraction(found.y[0], kinetics)
+    return 100.0 - per_second * times, transitions.solid_fraction(found.y[0], kinetics)
 
 
-def peak(rate: float, kinetics: crystallization.Kinetics) -> float:
+def peak(rate: float, kinetics: transitions.Kinetics) -> float:
     celsius, fraction = calorimeter(rate, kinetics)
     return float(celsius[np.argmax(np.gradient(fraction))])
 
@@ -66,10 +66,10 @@ def test_avrami_plot_of_a_quenched_melt_is_straight_with_slope_n(celsius: float,
     half = float(textbook.half_time(CELSIUS + celsius, kinetics))
     times = half * np.array([0.2, 0.4, 0.7, 1.0, 1.3])
     found = solve_ivp(
-        lambda _, psi: crystallization.rate(CELSIUS + celsius, psi, kinetics, MELTING),
+        lambda _, psi: transitions.rate(CELSIUS + celsius, psi, kinetics, MELTING),
         (0.0, times[-1]), [0.0], t_eval=times, rtol=1e-10, atol=1e-12,
     )  # fmt: skip
-    fraction = crystallization.solid_fraction(found.y[0], kinetics)
+    fraction = transitions.solid_fraction(found.y[0], kinetics)
     assert fraction[3] == pytest.approx(0.5, abs=1e-3)
     slopes = np.diff(np.log(-np.log(1.0 - fraction))) / np.diff(np.log(times))
     assert slopes == pytest.approx(np.full(4, exponent), rel=5e-3)
@@ -102,33 +102,33 @@ def test_freezing_is_fastest_between_glass_transition_and_melting() -> None:
 
 @given(celsius=st.floats(74.5, 200.0))
 def test_nothing_freezes_above_the_equilibrium_melting_temperature(celsius: float) -> None:
-    assert 0.0 <= crystallization.rate_constant(CELSIUS + celsius, PCL) < 1e-30
+    assert 0.0 <= transitions.rate_constant(CELSIUS + celsius, PCL) < 1e-30
     assert 1e30 < textbook.half_time(CELSIUS + celsius, PCL) < np.inf
     times = (0.0, 600.0)
-    found = solve_ivp(lambda _, psi: crystallization.rate(CELSIUS + celsius, psi, PCL, MELTING), times, [0.0])
-    assert crystallization.solid_fraction(found.y[0, -1], PCL) < 1e-6
+    found = solve_ivp(lambda _, psi: transitions.rate(CELSIUS + celsius, psi, PCL, MELTING), times, [0.0])
+    assert transitions.solid_fraction(found.y[0, -1], PCL) < 1e-6
 
 
 @pytest.mark.parametrize("begin", [-0.01, 0.0, 0.05])
 def test_a_melt_without_a_crystal_is_no_stuck_point(begin: float) -> None:
-    psi = float(crystallization.extended(begin, PCL))
-    found = solve_ivp(lambda _, y: crystallization.rate(CELSIUS + 35.0, y, PCL, MELTING), (0.0, 600.0), [psi])
-    assert crystallization.solid_fraction(found.y[0, -1], PCL) > 0.99
+    psi = float(transitions.extended(begin, PCL))
+    found = solve_ivp(lambda _, y: transitions.rate(CELSIUS + 35.0, y, PCL, MELTING), (0.0, 600.0), [psi])
+    assert transitions.solid_fraction(found.y[0, -1], PCL) > 0.99
 
 
 @given(fraction=st.floats(0.01, 0.999))
 def test_psi_of_a_solid_fraction_gives_it_back(fraction: float) -> None:
-    psi = crystallization.extended(fraction, PCL)
+    psi = transitions.extended(fraction, PCL)
     assert psi == pytest.approx((-np.log(1.0 - fraction)) ** (1.0 / 3.0), rel=5e-3)
-    assert crystallization.solid_fraction(psi, PCL) == pytest.approx(fraction, abs=1e-4)
+    assert transitions.solid_fraction(psi, PCL) == pytest.approx(fraction, abs=1e-4)
 
 
 def test_psi_of_a_fraction_at_and_beyond_its_ends_is_finite() -> None:
-    assert crystallization.extended(0.0, PCL) == pytest.approx(0.0, abs=1e-5)
-    assert crystallization.extended(-0.02, PCL) == pytest.approx(0.0, abs=0.3)
-    assert crystallization.extended(1.0, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
-    assert crystallization.extended(1.02, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
-    assert crystallization.solid_fraction(-0.05, PCL) == pytest.approx(0.0, abs=1e-12)
+    assert transitions.extended(0.0, PCL) == pytest.approx(0.0, abs=1e-5)
+    assert transitions.extended(-0.02, PCL) == pytest.approx(0.0, abs=0.3)
+    assert transitions.extended(1.0, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
+    assert transitions.extended(1.02, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
+    assert transitions.solid_fraction(-0.05, PCL) == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0])
@@ -136,12 +136,12 @@ def test_heated_solid_melts_half_a_second_behind_equilibrium(speed: float) -> No
     # Equilibrium: straight from all solid at 50 degC to none at 65 degC. The lag is the melting time times the speed.
     start = CELSIUS + 48.0
     times = np.linspace(0.0, 20.0 / speed, 401)
-    psi = float(crystallization.extended(1.0, PCL))
+    psi = float(transitions.extended(1.0, PCL))
     found = solve_ivp(
-        lambda t, y: crystallization.rate(start + speed * t, y, PCL, MELTING), (0.0, times[-1]), [psi],
+        lambda t, y: transitions.rate(start + speed * t, y, PCL, MELTING), (0.0, times[-1]), [psi],
         method="LSODA", t_eval=times, rtol=1e-9, atol=1e-11,
     )  # fmt: skip
-    fraction = crystallization.solid_fraction(found.y[0], PCL)
+    fraction = transitions.solid_fraction(found.y[0], PCL)
     inside = (fraction > 0.1) & (fraction < 0.9)
     lag = 48.0 + speed * times[inside] - (65.0 - 15.0 * fraction[inside])
     assert np.all(np.abs(lag) < 0.5 * speed + 0.05)
@@ -149,21 +149,21 @@ def test_heated_solid_melts_half_a_second_behind_equilibrium(speed: float) -> No
 
 
 def test_part_molten_polymer_freezes_on_or_melts_on() -> None:
-    psi = float(crystallization.extended(0.5, PCL))
-    assert crystallization.rate(CELSIUS + 35.0, psi, PCL, MELTING) > 1e-3
-    assert crystallization.rate(CELSIUS + 62.0, psi, PCL, MELTING) < -0.1
+    psi = float(transitions.extended(0.5, PCL))
+    assert transitions.rate(CELSIUS + 35.0, psi, PCL, MELTING) > 1e-3
+    assert transitions.rate(CELSIUS + 62.0, psi, PCL, MELTING) < -0.1
 
 
 @given(celsius=st.floats(-20.0, 200.0), fraction=st.floats(0.0, 1.0))
 def test_temperature_is_the_enthalpy_solved_for_it(celsius: float, fraction: float) -> None:
-    enthalpy = crystallization.enthalpy(CELSIUS + celsius, fraction, MELTING)
-    assert crystallization.temperature(enthalpy, fraction, MELTING) == pytest.approx(CELSIUS + celsius, abs=1e-9)
+    enthalpy = transitions.enthalpy(CELSIUS + celsius, fraction, MELTING)
+    assert transitions.temperature(enthalpy, fraction, MELTING) == pytest.approx(CELSIUS + celsius, abs=1e-9)
 
 
 def test_heat_of_freezing_follows_kirchhoffs_law() -> None:
     # 76.75 kJ/kg and half the window's sensible heat difference at 57.5 degC; d L/dT = c_melt - c_solid = 250 J/kg K.
     def latent(celsius: float) -> float:
-        return crystallization.enthalpy(CELSIUS + celsius, 0.0, MELTING) - crystallization.enthalpy(
+        return transitions.enthalpy(CELSIUS + celsius, 0.0, MELTING) - transitions.enthalpy(
             CELSIUS + celsius, 1.0, MELTING
         )
 
@@ -173,33 +173,33 @@ def test_heat_of_freezing_follows_kirchhoffs_law() -> None:
 
 def test_pure_solid_and_pure_melt_have_the_enthalpies_of_the_melting_curve() -> None:
     for celsius, fraction in ((20.0, 1.0), (49.9, 1.0), (65.1, 0.0), (120.0, 0.0)):
-        found = crystallization.enthalpy(CELSIUS + celsius, fraction, MELTING)
+        found = transitions.enthalpy(CELSIUS + celsius, fraction, MELTING)
         assert found == pytest.approx(polymer.enthalpy(CELSIUS + celsius, MELTING), rel=1e-12)
 
 
 def test_symbols_give_numbers_with_finite_derivatives() -> None:
     kelvin, psi = ca.SX.sym("T"), ca.SX.sym("psi")
     both = ca.vertcat(kelvin, psi)
-    value = crystallization.rate(kelvin, psi, PCL, MELTING)
-    fraction = crystallization.solid_fraction(psi, PCL)
-    handover = crystallization.extended(psi / 2.0, PCL)
+    value = transitions.rate(kelvin, psi, PCL, MELTING)
+    fraction = transitions.solid_fraction(psi, PCL)
+    handover = transitions.extended(psi / 2.0, PCL)
     first = [ca.gradient(of, both) for of in (value, fraction, handover)]
     second = [ca.hessian(of, both)[0] for of in (value, fraction, handover)]
     look = ca.Function("look", [both], [value, fraction, ca.vertcat(*first), ca.vertcat(*second)])
     for t in np.linspace(250.0, 480.0, 93):
         for p in (-0.05, 0.0, 1e-3, 0.5, 1.0, 2.0, 2.1, 2.3):
             numbers = [np.asarray(part).ravel() for part in look([t, p])]
-            assert numbers[0][0] == pytest.approx(crystallization.rate(t, p, PCL, MELTING), rel=1e-9, abs=1e-300)
-            assert numbers[1][0] == pytest.approx(crystallization.solid_fraction(p, PCL), rel=1e-12, abs=1e-15)
+            assert numbers[0][0] == pytest.approx(transitions.rate(t, p, PCL, MELTING), rel=1e-9, abs=1e-300)
+            assert numbers[1][0] == pytest.approx(transitions.solid_fraction(p, PCL), rel=1e-12, abs=1e-15)
             assert np.all(np.isfinite(np.concatenate(numbers)))
 
 
 @given(celsius=st.floats(-20.0, 200.0), psi=st.floats(0.0, 2.3))
 def test_slope_of_the_rate_is_what_differences_show(celsius: float, psi: float) -> None:
     kelvin = ca.SX.sym("T")
-    slope = ca.Function("slope", [kelvin], [ca.gradient(crystallization.rate(kelvin, psi, PCL, MELTING), kelvin)])
+    slope = ca.Function("slope", [kelvin], [ca.gradient(transitions.rate(kelvin, psi, PCL, MELTING), kelvin)])
     at, step = CELSIUS + celsius, 1e-4
-    around = [crystallization.rate(at + shift, psi, PCL, MELTING) for shift in (-step, step)]
+    around = [transitions.rate(at + shift, psi, PCL, MELTING) for shift in (-step, step)]
     assert float(slope(at)) == pytest.approx((around[1] - around[0]) / (2.0 * step), rel=1e-4, abs=1e-7)
 
 

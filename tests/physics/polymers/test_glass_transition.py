@@ -6,18 +6,18 @@ import pytest
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device.core.impedance.joint_impedance import solid_modes
-from tvimdesign.physics.polymers import glass, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.physics.polymers.polymer import PINNED_FREQUENCY
 
 CELSIUS = 273.15
-TRANSITION = glass.GlassTransition(CELSIUS + 60.0, 17.44, 51.6, 300e3)
+TRANSITION = transitions.GlassTransition(CELSIUS + 60.0, 17.44, 51.6, 300e3)
 
 
-def pla() -> glass.Glass:
+def pla() -> transitions.Glass:
     record = Catalog().record("polymers", "pla")
     names = ("glass_transition", "wlf_c1", "wlf_c2", "glass_activation_energy")
-    transition = glass.GlassTransition(*(record.value(name) for name in names))
-    return glass.Glass(1e9, record.value("reference_temperature"), transition, solid_modes(record))
+    transition = transitions.GlassTransition(*(record.value(name) for name in names))
+    return transitions.Glass(1e9, record.value("reference_temperature"), transition, solid_modes(record))
 
 
 @pytest.mark.parametrize(
@@ -25,17 +25,17 @@ def pla() -> glass.Glass:
     [(10.0, -2.8312), (20.0, -4.8715), (40.0, -7.6157)],  # 17.44 dT/(51.6 + dT) by hand
 )
 def test_above_the_transition_times_shift_by_wlf(above: float, decades: float) -> None:
-    found = np.log10(glass.shift(TRANSITION.temperature + above, TRANSITION))
+    found = np.log10(transitions.shift(TRANSITION.temperature + above, TRANSITION))
     assert found == pytest.approx(decades, abs=0.01)
 
 
 def test_below_the_transition_they_shift_by_arrhenius() -> None:
     # 300 kJ/mol, 60 and 20 degC: 300000/8.314463 (1/293.15 - 1/333.15)/ln 10 = 6.4182 decades, by hand.
-    assert np.log10(glass.shift(CELSIUS + 20.0, TRANSITION)) == pytest.approx(6.4182, abs=0.01)
+    assert np.log10(transitions.shift(CELSIUS + 20.0, TRANSITION)) == pytest.approx(6.4182, abs=0.01)
 
 
 def test_the_corner_is_rounded_within_a_kelvin_and_falls_everywhere() -> None:
-    around = np.log10(glass.shift(TRANSITION.temperature + np.linspace(-3.0, 3.0, 241), TRANSITION))
+    around = np.log10(transitions.shift(TRANSITION.temperature + np.linspace(-3.0, 3.0, 241), TRANSITION))
     assert np.all(np.diff(around) < 0.0)
     # The WLF law has 0.338 decades a kelvin there, the Arrhenius law 0.141: half of a kelvin off at most.
     assert abs(around[120]) < 0.5 * 0.34
@@ -57,7 +57,7 @@ def test_slower_at_a_warmer_place_is_the_same() -> None:
     """Time-temperature superposition: a faster test stands for a colder one."""
     one = pla()
     colder, warmer = CELSIUS + 65.0, CELSIUS + 70.0
-    faster = glass.shift(colder, one.transition) / glass.shift(warmer, one.transition)
+    faster = transitions.shift(colder, one.transition) / transitions.shift(warmer, one.transition)
     cold = polymer.maxwell_moduli(1.0, one.at(colder))
     warm = polymer.maxwell_moduli(faster, one.at(warmer))
     assert warm == pytest.approx(cold, rel=1e-9)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tvimdesign.physics.polymers import shrinkage
+from tvimdesign.physics.polymers import transitions
 
 
 def beam(
@@ -41,20 +41,20 @@ def beam(
 
 @pytest.mark.parametrize(("thickness", "span"), [(4e-3, 12.6e-3), (2.5e-3, 3.6e-3), (6e-3, 20e-3)])
 def test_the_edge_pulls_as_a_beam_on_springs_does(thickness: float, span: float) -> None:
-    rigidity = shrinkage.flexural_rigidity(2.1e9, 0.37, thickness)
-    shear = shrinkage.shear_rigidity(0.77e9, thickness)
+    rigidity = transitions.flexural_rigidity(2.1e9, 0.37, thickness)
+    shear = transitions.shear_rigidity(0.77e9, thickness)
     foundation, shortened = 1.8e11, 65e-6
     # Long against the way on which the plates bend after the layer, as the formula has it.
-    length = 12.0 / shrinkage.decay_rate(foundation, rigidity)
+    length = 12.0 / transitions.decay_rate(foundation, rigidity)
     expected = beam(foundation, rigidity, shear, span, length, shortened, 0.0)
-    assert shrinkage.edge_traction(shortened, foundation, rigidity, shear, span) == pytest.approx(expected, rel=1e-3)
+    assert transitions.edge_traction(shortened, foundation, rigidity, shear, span) == pytest.approx(expected, rel=1e-3)
 
 
 def test_the_edge_of_a_free_rotor_pulls_as_the_force_at_the_hub_asks() -> None:
-    rigidity, foundation, span = shrinkage.flexural_rigidity(2.1e9, 0.37, 4e-3), 1.8e11, 12.6e-3
-    length = 12.0 / shrinkage.decay_rate(foundation, rigidity)
+    rigidity, foundation, span = transitions.flexural_rigidity(2.1e9, 0.37, 4e-3), 1.8e11, 12.6e-3
+    length = 12.0 / transitions.decay_rate(foundation, rigidity)
     expected = beam(foundation, rigidity, 2.6e6, span, length, 0.0, 50.0)
-    found = shrinkage.edge_traction_of_force(50.0, foundation, rigidity, span)
+    found = transitions.edge_traction_of_force(50.0, foundation, rigidity, span)
     assert found == pytest.approx(expected, rel=1e-3)
 
 
@@ -62,28 +62,28 @@ def test_a_real_arc_is_long_enough_for_the_formula() -> None:
     # Arcs of 14 mm between plates of 4 mm PETG; the formula's have no end.
     rigidity, foundation = 12.0, 1.77e11
     expected = beam(foundation, rigidity, 2.4e6, 12.6e-3, 14e-3, 65e-6, 0.0)
-    assert shrinkage.edge_traction(65e-6, foundation, rigidity, 2.4e6, 12.6e-3) == pytest.approx(expected, rel=0.1)
+    assert transitions.edge_traction(65e-6, foundation, rigidity, 2.4e6, 12.6e-3) == pytest.approx(expected, rel=0.1)
 
 
 def test_without_a_span_nothing_gives_way_and_far_from_the_hub_all_does() -> None:
-    assert shrinkage.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 0.0) == pytest.approx(65e-6 * 1.8e11)
-    assert shrinkage.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 1.0) < 1e-3 * 65e-6 * 1.8e11
+    assert transitions.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 0.0) == pytest.approx(65e-6 * 1.8e11)
+    assert transitions.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 1.0) < 1e-3 * 65e-6 * 1.8e11
 
 
 def test_confined_modulus_by_bulk_and_shear_modulus() -> None:
     # Steel, handbook: K 160 GPa, G 79.3 GPa, E 207 GPa, nu 0.292 (Shigley, table A-5, for E, G and nu).
     youngs, poisson = 207e9, 0.292
     bulk, shear = youngs / (3.0 * (1.0 - 2.0 * poisson)), youngs / (2.0 * (1.0 + poisson))
-    assert shrinkage.confined_modulus(youngs, poisson) == pytest.approx(bulk + 4.0 / 3.0 * shear)
+    assert transitions.confined_modulus(youngs, poisson) == pytest.approx(bulk + 4.0 / 3.0 * shear)
 
 
 def test_shares_of_volume_and_length() -> None:
     # Water to ice, backwards: 999.84 and 916.7 kg/m3 at 0 degC (CRC Handbook), ice is 9.07 % larger.
-    assert shrinkage.growth(916.7, 999.84) == pytest.approx(0.0907, rel=1e-3)
-    share = shrinkage.volume_share(1040.0, 1145.0)
+    assert transitions.growth(916.7, 999.84) == pytest.approx(0.0907, rel=1e-3)
+    share = transitions.volume_share(1040.0, 1145.0)
     assert (1.0 - share) * 1145.0 == pytest.approx(1040.0)
-    assert (1.0 - shrinkage.linear_share(share)) ** 3 == pytest.approx(1.0 - share)
-    assert shrinkage.linear_share(share) == pytest.approx(share / 3.0, rel=0.04)
+    assert (1.0 - transitions.linear_share(share)) ** 3 == pytest.approx(1.0 - share)
+    assert transitions.linear_share(share) == pytest.approx(share / 3.0, rel=0.04)
 
 
 @pytest.mark.parametrize(
@@ -103,11 +103,11 @@ def test_solids_in_finite_elements_pull_no_harder_and_not_much_less(
     bending, shear = (
         1.0 / sum(1.0 / one for one in rigidities)
         for rigidities in (
-            [shrinkage.flexural_rigidity(youngs, poisson, h) for h in both],
-            [shrinkage.shear_rigidity(youngs / (2.0 * (1.0 + poisson)), h) for h in both],
+            [transitions.flexural_rigidity(youngs, poisson, h) for h in both],
+            [transitions.shear_rigidity(youngs / (2.0 * (1.0 + poisson)), h) for h in both],
         )
     )
-    layer = shrinkage.confined_modulus(411e6, 0.45)
+    layer = transitions.confined_modulus(411e6, 0.45)
     foundation = 1.0 / (1e-3 / layer + 1.5e-3 / 300e6 + 0.5 * sum(both) / youngs)
-    found = shrinkage.edge_traction(65.5e-6, foundation, bending, shear, 12.6e-3)
+    found = transitions.edge_traction(65.5e-6, foundation, bending, shear, 12.6e-3)
     assert solid < found < 1.35 * solid

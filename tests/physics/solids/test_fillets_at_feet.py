@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from support import ROOT
 
-from tvimdesign.physics.bodies.shapes import fillet_at_foot
 from tvimdesign.physics.solids import structure
+from tvimdesign.physics.solids.shapes import fillet_at_foot
 
 MM = 1e-3
 UNEVEN = 1.03

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from support import ROOT
 
-from tvimdesign.physics.layers import annular_lap, shear_lag
+from tvimdesign.physics.layers import shear_lag
 from tvimdesign.physics.solids import plate_beside_core, structure, vane, wedge
 
 FOLDER = ROOT / "validation"
@@ -282,7 +282,7 @@ def tiled(mm: dict[str, float], less: float = 0.0) -> float:
     return mm["heater_count"] * (mm["peltier_length"] - less) / (2.0 * np.pi * mm["tile_radius"])
 
 
-def spread_lap(case: dict[str, Any]) -> annular_lap.AnnularLap:
+def spread_lap(case: dict[str, Any]) -> shear_lag.AnnularLap:
     """Layer between the plate and a spreader with its modules, which are sheared between that and the floor."""
     mm, _, shear = read(case)
     metal = coverage(mm) * case["spreader_shear_modulus"] * 1e9 * mm["spreader_depth"]
@@ -293,7 +293,7 @@ def spread_lap(case: dict[str, Any]) -> annular_lap.AnnularLap:
     layer = coverage(mm) / (mm["pcl_thickness"] / (case["frozen_shear_modulus"] * 1e9) + liner)
     below = tiled(mm) * case["pad_shear_modulus"] * 1e9 / mm["peltier_thickness"]
     radii = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
-    return annular_lap.lap_of_three((layer, below), (1.0 / plate, 1.0 / (metal + modules), 1.0 / floor), radii)
+    return shear_lag.lap_of_three((layer, below), (1.0 / plate, 1.0 / (metal + modules), 1.0 / floor), radii)
 
 
 @pytest.mark.parametrize("name", SPREAD)
@@ -301,7 +301,7 @@ def test_the_plate_over_a_spreader_is_as_stiff_as_in_fe(name: str) -> None:
     mm, _, shear = read(SHIPPED[name])
     whole, over_thickness = above_arcs(mm, shear)
     lap = spread_lap(SHIPPED[name])
-    above = annular_lap.upper_share(lap) / whole + annular_lap.unevenness(lap) * over_thickness
+    above = shear_lag.upper_share(lap) / whole + shear_lag.unevenness(lap) * over_thickness
     assert structure.series(inside(mm, shear), 1.0 / above) == pytest.approx(SHIPPED[name]["found"]["plate"], rel=0.04)
 
 
@@ -329,7 +329,7 @@ def test_edges_beside_a_liner_bear_what_they_do_in_fe() -> None:
         inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
         polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
         walls = 1.0 if row["gap"] else beside_walls(lined, mm, polar)
-        highest = max(annular_lap.edge_rises(spread_lap(lined))) * walls * outer / polar * 1e-6
+        highest = max(shear_lag.edge_rises(spread_lap(lined))) * walls * outer / polar * 1e-6
         assert highest == pytest.approx(row["edge_highest"], rel=0.08)
 
 
@@ -339,7 +339,7 @@ def test_the_edges_of_a_layer_on_a_spreader_bear_what_they_do_in_fe(name: str) -
     mm, _, _ = read(case)
     inner, outer = mm["pcl_inner_radius"], mm["pcl_outer_radius"]
     polar = 0.25 * mm["arc_count"] * mm["arc_span"] * (outer**4 - inner**4)
-    rises, found = annular_lap.edge_rises(spread_lap(case)), case["found"]
+    rises, found = shear_lag.edge_rises(spread_lap(case)), case["found"]
     highest = max(rises) * beside_walls(case, mm, polar)
     assert highest * outer / polar * 1e-6 == pytest.approx(found["edge_highest"], rel=0.08)
     if "liner_shear_modulus" not in case:  # with walls beside it the inner rim takes more there than the form gives it

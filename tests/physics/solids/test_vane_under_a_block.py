@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import quad, solve_bvp
 from scipy.optimize import minimize
 
-from tvimdesign.physics.bodies.shapes import radial_strip
 from tvimdesign.physics.solids import vane
+from tvimdesign.physics.solids.shapes import radial_strip
 
 YOUNGS, SHEAR, WIDTH, THICKNESS, HEIGHT = 2.1e9, 0.76e9, 11e-3, 4e-3, 12e-3
 

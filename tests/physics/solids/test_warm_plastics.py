@@ -4,19 +4,19 @@ import numpy as np
 import pytest
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.physics.solids import warm
+from tvimdesign.physics.polymers import plastics
 
 FIELDS = ("modulus_slope", "softening_temperature", "softening_width", "softened_share", "loss_factor",
           "softening_loss_factor")  # fmt: skip
 
 
-def law(material: str) -> warm.Softening:
+def law(material: str) -> plastics.Softening:
     record = Catalog().record("structure_materials", material)
-    return warm.Softening(*(record.value(name) for name in FIELDS))
+    return plastics.Softening(*(record.value(name) for name in FIELDS))
 
 
 def modulus(material: str, celsius: float, at_23: float) -> float:
-    return at_23 * float(warm.modulus_share(celsius + 273.15, law(material)))
+    return at_23 * float(plastics.modulus_share(celsius + 273.15, law(material)))
 
 
 # A bar that bends by its standard strain under its standard stress has a modulus of stress over strain: ISO 75,
@@ -46,17 +46,17 @@ def test_aluminium_is_as_stiff_as_eurocode_9_says() -> None:
 @pytest.mark.parametrize("material", ["petg", "abs", "polycarbonate", "aluminum_6061_t6", "aluminum_7075_t6"])
 def test_modulus_falls_smoothly_and_never_to_nothing(material: str) -> None:
     temperatures = np.linspace(233.15, 523.15, 2901)
-    share = warm.modulus_share(temperatures, law(material))
+    share = plastics.modulus_share(temperatures, law(material))
     assert np.all(np.diff(share) < 0.0)
     assert 0.0005 < share[-1] < share[0] < 1.35
     assert np.max(np.abs(np.diff(np.log(share), 2))) < 1e-2
-    assert warm.modulus_share(296.15, law(material)) == 1.0
+    assert plastics.modulus_share(296.15, law(material)) == 1.0
 
 
 def test_loss_peaks_where_the_plastic_softens_and_is_the_records_far_below() -> None:
     found = law("petg")
     temperatures = np.linspace(296.15, 400.0, 2000)
-    loss = warm.loss_factor(temperatures, found)
+    loss = plastics.loss_factor(temperatures, found)
     assert temperatures[np.argmax(loss)] == pytest.approx(found.temperature, abs=0.1)
     assert np.max(loss) == pytest.approx(1.5, rel=1e-4)
     assert loss[0] == pytest.approx(0.03, rel=1e-3)
@@ -65,4 +65,4 @@ def test_loss_peaks_where_the_plastic_softens_and_is_the_records_far_below() -> 
 def test_parts_in_series_are_the_sum_of_their_complex_compliances() -> None:
     parts = [(1e-3, 0.9, 0.03), (2e-4, 0.1, 0.12), (0.0, 1e-3, 0.0), (5e-5, 1.0, 0.0)]
     star = 1.0 / sum(compliance / complex(real, loss) for compliance, real, loss in parts)
-    assert warm.series(parts) == pytest.approx((star.real, star.imag), rel=1e-12)
+    assert plastics.series(parts) == pytest.approx((star.real, star.imag), rel=1e-12)

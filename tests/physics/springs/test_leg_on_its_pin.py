@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from support import ROOT
 
-from tvimdesign.physics.springs import spring, transmission
+from tvimdesign.physics.springs import spring
 from tvimdesign.physics.springs.drawn_spring import (
     DrawnSpring,
     active_coils,
@@ -52,13 +52,13 @@ def test_direction_is_that_of_the_line_constructed_with_vectors(
 ) -> None:
     offset = share * (placement - pin)
     expected = constructed_direction(pin, placement, azimuth, offset, hand)
-    assert transmission.leg_direction(pin, placement, azimuth, offset, hand) == pytest.approx(expected, abs=1e-9)
+    assert spring.leg_direction(pin, placement, azimuth, offset, hand) == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize("pin", [12e-3, 28.5e-3, 38e-3, 50e-3])
 def test_ratio_of_a_leg_without_offset_is_pin_radius_over_its_length(pin: float) -> None:
     # A point p from O and |r - p| from C: p dphi = |r - p| dw.
-    assert abs(transmission.leg_ratio(pin, 57e-3, 0.0, 0.0)) == pytest.approx(pin / abs(57e-3 - pin), rel=1e-12)
+    assert abs(spring.leg_ratio(pin, 57e-3, 0.0, 0.0)) == pytest.approx(pin / abs(57e-3 - pin), rel=1e-12)
 
 
 @given(**lengths)
@@ -67,8 +67,8 @@ def test_ratio_is_the_derivative_of_the_direction(
 ) -> None:
     offset = share * (placement - pin)
     # The complex step cannot pass atan2; a five-point stencil is good to 1e-9 here.
-    slope = five_points(lambda f: transmission.leg_direction(pin, placement, f, offset, hand), azimuth)
-    assert transmission.leg_ratio(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-6, abs=1e-7)
+    slope = five_points(lambda f: spring.leg_direction(pin, placement, f, offset, hand), azimuth)
+    assert spring.leg_ratio(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-6, abs=1e-7)
 
 
 @given(**lengths)
@@ -77,8 +77,8 @@ def test_curvature_is_the_derivative_of_the_ratio(
 ) -> None:
     offset = share * (placement - pin)
     step = 1e-30
-    slope = transmission.leg_ratio(pin, placement, azimuth + 1j * step, offset, hand).imag / step
-    assert transmission.leg_curvature(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-9, abs=1e-9)
+    slope = spring.leg_ratio(pin, placement, azimuth + 1j * step, offset, hand).imag / step
+    assert spring.leg_curvature(pin, placement, azimuth, offset, hand) == pytest.approx(slope, rel=1e-9, abs=1e-9)
 
 
 @given(**lengths)
@@ -86,17 +86,17 @@ def test_the_left_hand_spring_is_the_mirror_image(
     pin: float, placement: float, azimuth: float, share: float, hand: float
 ) -> None:
     offset = share * (placement - pin)
-    left = transmission.leg_direction(pin, placement, azimuth, offset, -hand)
-    right = transmission.leg_direction(pin, placement, -azimuth, offset, hand)
+    left = spring.leg_direction(pin, placement, azimuth, offset, -hand)
+    right = spring.leg_direction(pin, placement, -azimuth, offset, hand)
     assert left + right == pytest.approx(2.0 * np.pi, rel=1e-12)
 
 
 @pytest.mark.parametrize(("pin", "expected"), [(28.5e-3, 5.61), (38e-3, 22.4)])
 def test_four_springs_of_the_paper_make_its_output_stiffness(pin: float, expected: float) -> None:
     # Exley et al.: K_s = N k (dalpha/dtheta)^2 with N = 4, k = 1.4023 N*m/rad; springs at 57 mm, radial pins.
-    ratio = transmission.leg_ratio(pin, 57e-3, 0.0, 0.0)
-    curvature = transmission.leg_curvature(pin, 57e-3, 0.0, 0.0)
-    assert transmission.output_stiffness(4, 1.4023, 0.15, ratio, curvature) == pytest.approx(expected, rel=5e-3)
+    ratio = spring.leg_ratio(pin, 57e-3, 0.0, 0.0)
+    curvature = spring.leg_curvature(pin, 57e-3, 0.0, 0.0)
+    assert spring.output_stiffness(4, 1.4023, 0.15, ratio, curvature) == pytest.approx(expected, rel=5e-3)
 
 
 @given(pin=lengths["pin"], placement=lengths["placement"], share=lengths["share"], preload=st.floats(0.0, 1.0))
@@ -117,9 +117,9 @@ def test_output_stiffness_is_the_curvature_of_the_springs_energy(
     weights = zip((-3, -2, -1, 0, 1, 2, 3), (2, -27, 270, -490, 270, -27, 2), strict=True)
     expected = sum(weight * energy(i * step) for i, weight in weights) / (180.0 * step**2)
     # The device's choice of signs: a right-hand spring winds where the rotor turns clockwise.
-    ratio = -transmission.leg_ratio(pin, placement, 0.0, offset)
-    curvature = transmission.leg_curvature(pin, placement, 0.0, offset)
-    stiffness = transmission.output_stiffness(4, rate, preload, ratio, curvature)
+    ratio = -spring.leg_ratio(pin, placement, 0.0, offset)
+    curvature = spring.leg_curvature(pin, placement, 0.0, offset)
+    stiffness = spring.output_stiffness(4, rate, preload, ratio, curvature)
     scale = 4.0 * rate * (ratio**2 + preload * abs(curvature))
     assert stiffness == pytest.approx(expected, abs=1e-4 * scale)
 
@@ -134,7 +134,7 @@ def test_torque_of_one_spring_is_that_of_its_force_on_the_pin() -> None:
     force = moment / arm * np.array([np.sin(direction), -np.cos(direction)])
     torque = position[0] * force[1] - position[1] * force[0]
     # Energy: the springs' torque on the rotor is -M dw/dphi, w the leg's direction.
-    expected = -moment * transmission.leg_ratio(pin, placement, azimuth, offset)
+    expected = -moment * spring.leg_ratio(pin, placement, azimuth, offset)
     assert torque == pytest.approx(expected, rel=1e-9)
 
 

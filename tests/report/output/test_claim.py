@@ -14,9 +14,8 @@ import psutil
 import pytest
 from results_written import finished, killed, texts
 
-from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.atomic_files import RUN, UNFINISHED, atomic_write
 from tvimdesign.base.errors import FolderInUseError
-from tvimdesign.base.journal import RUN, UNFINISHED
 from tvimdesign.report.output.claim import FORMAT
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.sweep.shared_folder import joined

@@ -12,10 +12,9 @@ from pathlib import Path
 import pytest
 from results_written import FILES, finished, killed, texts
 
-from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.atomic_files import UNFINISHED, atomic_write
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import interrupt_handler
-from tvimdesign.base.journal import UNFINISHED
 from tvimdesign.report.output import results_folder
 from tvimdesign.report.output.claim import FORMAT
 from tvimdesign.report.output.manifest import MANIFEST, read_manifest

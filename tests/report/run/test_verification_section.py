@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tvimdesign.base.journal import digest_of
+from tvimdesign.base.atomic_files import digest_of
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.blocks import Page, Picture, Points, Section, Words
 from tvimdesign.report.output.manifest import MANIFEST

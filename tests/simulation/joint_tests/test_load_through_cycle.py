@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics.layers import slices
+from tvimdesign.physics.layers import lasting_load
 from tvimdesign.simulation.joint_tests.case import cases
 from tvimdesign.simulation.joint_tests.load_through_cycle import (
     Carried,
@@ -27,7 +27,7 @@ from tvimdesign.study import read_study_text
 
 Array = NDArray[np.float64]
 SPRINGS, STRUCTURE, INERTIA, LOAD = 5.61, 919.0, 4.156e-4, 0.5834
-SUPPORT = slices.Support(SPRINGS, STRUCTURE)
+SUPPORT = lasting_load.Support(SPRINGS, STRUCTURE)
 SOLID = np.array([(1e10, 2.0e5), (10.0, 2e4), (0.1, 2e4)])
 MELT = np.array([(2e-2, 150.0), (2e-3, 250.0), (2e-4, 600.0)])
 
@@ -152,7 +152,7 @@ def test_lossy_structure_creeps_behind_a_frozen_layer_as_radau_says() -> None:
     structure = [(1e15, 600.0), (0.05, 80.0), (0.5, 70.0), (5.0, 60.0), (50.0, 50.0)]
     times = np.linspace(0.0, 40.0, 81)
     layer = np.repeat(np.log(SOLID.T)[:, :, None, None], 81, axis=3)
-    carried = carry(Changing(layer, times, structure), slices.Support(SPRINGS, 1e12), LOAD, times)
+    carried = carry(Changing(layer, times, structure), lasting_load.Support(SPRINGS, 1e12), LOAD, times)
     (slow, soft), (slower, softer) = np.array(structure).T, SOLID.T
     most = SPRINGS + np.sum(soft) * np.sum(softer) / (np.sum(soft) + np.sum(softer))
 

@@ -10,9 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from tvimdesign.base.command_group import CommandGroup
 from tvimdesign.base.errors import InputError, SimulationError
-from tvimdesign.base.processor_time import ProcessorTimeError
+from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
 
 SOLVERS = Path(__file__).with_name("solvers")
 COARSER = 1.6

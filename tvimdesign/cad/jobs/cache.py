@@ -22,7 +22,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.file_owner import is_own_folder, read_own_file
+from tvimdesign.base.user_cache import is_own_folder, read_own_file
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.study.design import Design

@@ -21,10 +21,10 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, TextIO
 
 from tvimdesign.base.atomic_files import atomic_write
-from tvimdesign.base.cache_folder import FOLDER_VARIABLE, cache_folder
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import CatalogError, GeometryError, TvimError
 from tvimdesign.base.record import Record
+from tvimdesign.base.user_cache import FOLDER_VARIABLE, cache_folder
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words
 from tvimdesign.cad.make import HALF_MADE, WAITING
 from tvimdesign.device import table_for

@@ -25,8 +25,7 @@ from typing import Any
 
 from tvimdesign.base.child_process import follow_parent
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import set_lower_priority
-from tvimdesign.base.processor_time import CHECK_EVERY, LIMIT, ProcessorLimit, ProcessorTimeError
+from tvimdesign.base.processes import CHECK_EVERY, LIMIT, ProcessorLimit, ProcessorTimeError, set_lower_priority
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.jobs.cache import Cache, Reads, Result, TrackedDesign

@@ -18,7 +18,7 @@ from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import block, hold, layer
+from tvimdesign.physics.layers import block, lasting_load, layer
 from tvimdesign.physics.solids import structure, wedge
 
 quantities = QuantityGroup("Impedance")
@@ -214,5 +214,5 @@ def parting_share(_: Module) -> Scalar:
 @quantities.output("MPa", per_point=True)
 def block_pressure(m: Module) -> Scalar:
     """Highest mean pressure on the blocks' faces in a hold: when the load has just come on."""
-    borne = hold.first_torque(m.hold_torque, m.spring_stiffness, m.elastic_support, m.pcl_modes)
+    borne = lasting_load.first_torque(m.hold_torque, m.spring_stiffness, m.elastic_support, m.pcl_modes)
     return block.stress(borne, m.vane_count, m.block_area, m.pcl_mean_radius)

@@ -11,7 +11,8 @@ from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import (
+from tvimdesign.physics.polymers import transitions
+from tvimdesign.physics.solids.shapes import (
     Section,
     corners,
     corners_beyond,
@@ -22,7 +23,6 @@ from tvimdesign.physics.bodies.shapes import (
     wedge,
     wedge_corners,
 )
-from tvimdesign.physics.polymers import shrinkage
 
 quantities = QuantityGroup("Size and weight")
 
@@ -143,7 +143,7 @@ def freezing_travel(m: Module) -> Scalar:
 @shrinkages.output("mm")
 def freezing_gap(m: Module) -> Scalar:
     """Depth that a freezing block loses, and leaves beside its vane."""
-    return m.block_depth * shrinkage.linear_share(m.freezing_shrinkage)
+    return m.block_depth * transitions.linear_share(m.freezing_shrinkage)
 
 
 @shrinkages.output("deg")

@@ -13,7 +13,7 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at
+from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at
 
 places, weights, rules = QuantityGroup("Layout"), QuantityGroup("Size and weight"), QuantityGroup("Gaps")
 

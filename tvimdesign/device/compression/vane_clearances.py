@@ -10,8 +10,8 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import between_planes
 from tvimdesign.physics.layers import block
+from tvimdesign.physics.solids.shapes import between_planes
 
 quantities = QuantityGroup("Gaps")
 

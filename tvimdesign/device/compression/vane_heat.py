@@ -24,7 +24,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
-from tvimdesign.physics.heat_flow.lip import Lip
+from tvimdesign.physics.heat_flow.layer_end import Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Body, Link, Place
 
 quantities = QuantityGroup("Switch")

@@ -8,7 +8,7 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import between_planes
+from tvimdesign.physics.solids.shapes import between_planes
 
 quantities = QuantityGroup("Layout")
 

@@ -10,9 +10,9 @@ from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import NOTHING, Section, mean_square, radial_strip
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids import vane, wedge
+from tvimdesign.physics.solids.shapes import NOTHING, Section, mean_square, radial_strip
 
 quantities = QuantityGroup("Impedance")
 

@@ -7,7 +7,7 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, disc_at, fillet_at_foot, notch, point_at, ring, slot, stacked
+from tvimdesign.physics.solids.shapes import Section, disc_at, fillet_at_foot, notch, point_at, ring, slot, stacked
 
 quantities = QuantityGroup("Size and weight")
 LINK_SCREWS = 4

@@ -8,7 +8,7 @@ from __future__ import annotations
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.polymers import melt, polymer, shrinkage, viscoelasticity
+from tvimdesign.physics.polymers import melt, polymer, transitions, viscoelasticity
 
 quantities = QuantityGroup("Axial play")
 
@@ -16,13 +16,13 @@ quantities = QuantityGroup("Axial play")
 @quantities.output("%")
 def freezing_shrinkage(m: Module) -> Scalar:
     """Share of its volume that the PCL loses on freezing."""
-    return shrinkage.volume_share(m.pcl_melt_density, m.pcl_density)
+    return transitions.volume_share(m.pcl_melt_density, m.pcl_density)
 
 
 @quantities.helper()
 def melting_growth(m: Module) -> Scalar:
     """Volume the PCL gains on melting over that of the solid."""
-    return shrinkage.growth(m.pcl_melt_density, m.pcl_density)
+    return transitions.growth(m.pcl_melt_density, m.pcl_density)
 
 
 @quantities.output("mm^3")

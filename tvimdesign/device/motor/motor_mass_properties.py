@@ -14,7 +14,7 @@ from tvimdesign.device.motor.motor_layout import BASE_SCREWS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import (
+from tvimdesign.physics.solids.shapes import (
     NOTHING,
     Section,
     disc_at,

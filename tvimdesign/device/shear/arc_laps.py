@@ -14,7 +14,7 @@ from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import annular_lap, shear_lag
+from tvimdesign.physics.layers import shear_lag
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
@@ -56,7 +56,7 @@ def windowed_share(m: Module) -> Scalar:
 
 
 @quantities.helper(requires=WITH_TILES, default=None)
-def lap_on_spreader(m: Module) -> annular_lap.AnnularLap:
+def lap_on_spreader(m: Module) -> shear_lag.AnnularLap:
     """Frozen layer between the plate and a spreader with its modules, which are sheared between that and the floor."""
     plate = np.sqrt(m.driven_share) * m.structure_shear_modulus * m.backing_depth
     metal = m.driven_share * m.spreader_shear_modulus * m.spreader_depth
@@ -67,7 +67,7 @@ def lap_on_spreader(m: Module) -> annular_lap.AnnularLap:
         m.tiled_share * m.peltier_shear_modulus / m.peltier_thickness,
         (m.pcl_inner_radius, m.pcl_outer_radius),
     )
-    return annular_lap.lap_of_three((layer, below), (1.0 / plate, 1.0 / (metal + modules), 1.0 / floor), radii)
+    return shear_lag.lap_of_three((layer, below), (1.0 / plate, 1.0 / (metal + modules), 1.0 / floor), radii)
 
 
 @quantities.helper()
@@ -81,9 +81,7 @@ def over_arcs_compliance(m: Module) -> Scalar:
     over_thickness = structure.face_compliance(m.structure_shear_modulus, m.backing_depth, m.layer_polar_moment)
     if m.lap_on_spreader is None:
         return structure.evenly_relieved(*radii) / whole + over_thickness
-    return (
-        annular_lap.upper_share(m.lap_on_spreader) / whole + annular_lap.unevenness(m.lap_on_spreader) * over_thickness
-    )
+    return shear_lag.upper_share(m.lap_on_spreader) / whole + shear_lag.unevenness(m.lap_on_spreader) * over_thickness
 
 
 def _ledge_radii(m: Module) -> tuple[Scalar, Scalar]:
@@ -156,7 +154,7 @@ def layer_edge_rise(m: Module) -> Scalar:
     a spreader that is stiffer than the plate it leaves at the inner rim. Beside the walls around a liner it is higher.
     """
     if m.lap_on_spreader is not None:
-        return m.liner_rim_rise * np.fmax(*annular_lap.edge_rises(m.lap_on_spreader))
+        return m.liner_rim_rise * np.fmax(*shear_lag.edge_rises(m.lap_on_spreader))
     held = m.held_polar_moment / m.layer_polar_moment
     radii = m.pcl_inner_radius, m.pcl_outer_radius
     layer, plate, floor = m.lap_of_arcs

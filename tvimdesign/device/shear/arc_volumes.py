@@ -9,7 +9,7 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import NOTHING, Section, inner_corner, outer_corner, rectangle_at, sector, stacked
+from tvimdesign.physics.solids.shapes import NOTHING, Section, inner_corner, outer_corner, rectangle_at, sector, stacked
 
 quantities = QuantityGroup("Size and weight")
 _SPANDREL = (5.0 / 6.0 - 0.25 * pi) / (1.0 - 0.25 * pi)

@@ -13,9 +13,9 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, disc_at
 from tvimdesign.physics.motions.contacts import joint_play
 from tvimdesign.physics.solids import fasteners, structure
+from tvimdesign.physics.solids.shapes import Section, disc_at
 
 places, strengths, play, weights, rules = (
     QuantityGroup("Layout"),

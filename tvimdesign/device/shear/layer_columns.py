@@ -12,7 +12,7 @@ from tvimdesign.device.shear.layer_end import ColdEnd
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import columns, conduction, heat, peltier, walled_end
+from tvimdesign.physics.heat_flow import columns, conduction, heat, layer_end, peltier
 
 quantities = QuantityGroup("Switch")
 
@@ -72,7 +72,7 @@ def layer_surroundings(m: Module) -> LayerSurroundings:
     if m.cold_end is not None:
         assert now.lip is not None  # a cold end is that of a lip
         lip = now.lip.temperature
-        into_lip, into_floor = walled_end.below_lip(slot)
+        into_lip, into_floor = layer_end.below_lip(slot)
         to_floor = into_lip * (now.hot - lip) + into_floor * to_floor
     return LayerSurroundings(
         cells=now.cells,

@@ -22,8 +22,8 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, shape_factors
+from tvimdesign.physics.heat_flow.layer_end import WalledEnd, below_lip, sheet_end, sheeted_end, walled_end
 from tvimdesign.physics.heat_flow.lumps import Link
-from tvimdesign.physics.heat_flow.walled_end import WalledEnd, below_lip, sheet_end, sheeted_end, walled_end
 
 quantities = QuantityGroup("Switch")
 

@@ -13,7 +13,7 @@ from tvimdesign.device.core.impedance.warm_structure import Compliances
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import hold, layer, shear_lag
+from tvimdesign.physics.layers import lasting_load, layer, shear_lag
 from tvimdesign.physics.polymers import melt
 from tvimdesign.physics.solids import structure
 
@@ -196,7 +196,7 @@ def parting_share(_: Module) -> Scalar:
 @quantities.output("N*m", per_point=True)
 def layer_torque(m: Module) -> Scalar:
     """Torque of the layer in a hold when the load has just come on; the springs bear the rest."""
-    return hold.first_torque(m.hold_torque, m.spring_stiffness, m.elastic_support, m.pcl_modes)
+    return lasting_load.first_torque(m.hold_torque, m.spring_stiffness, m.elastic_support, m.pcl_modes)
 
 
 @quantities.output("MPa", per_point=True)

@@ -14,7 +14,7 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.polymers import shrinkage
+from tvimdesign.physics.polymers import transitions
 from tvimdesign.physics.solids import structure
 
 places, quantities = QuantityGroup("Layout"), QuantityGroup("Axial play")
@@ -28,7 +28,7 @@ def freezing_travel(m: Module) -> Scalar:
 
 def _layer_foundation(m: Module) -> Scalar:
     """Return the tension of the frozen layer over how far the middles of plate and floor part [Pa/m]."""
-    layer = shrinkage.confined_modulus(m.pcl_flexural_modulus, m.pcl_poissons_ratio) / m.pcl_thickness
+    layer = transitions.confined_modulus(m.pcl_flexural_modulus, m.pcl_poissons_ratio) / m.pcl_thickness
     halves = 2.0 * m.structure_youngs_modulus / (m.rotor_thickness + m.floor_thickness)
     return structure.series(layer, m.pad_foundation, halves)
 
@@ -38,10 +38,10 @@ def _plates_rigidity(m: Module) -> tuple[Scalar, Scalar]:
     shear [N/m]."""
     both, share = (m.rotor_thickness, m.floor_thickness), m.arc_count * m.arc_span / (2.0 * np.pi)
     bending = (
-        shrinkage.flexural_rigidity(m.structure_youngs_modulus, m.structure_poissons_ratio, thickness)
+        transitions.flexural_rigidity(m.structure_youngs_modulus, m.structure_poissons_ratio, thickness)
         for thickness in both
     )
-    shear = (shrinkage.shear_rigidity(m.structure_shear_modulus, thickness) for thickness in both)
+    shear = (transitions.shear_rigidity(m.structure_shear_modulus, thickness) for thickness in both)
     return structure.series(*bending) / share, structure.series(*shear) / share
 
 
@@ -55,10 +55,12 @@ def freezing_traction(m: Module) -> Scalar:
     if isinstance(m.axial_preload, str):
         lost = m.freezing_shrinkage * m.pcl_thickness
         bending, shear = _plates_rigidity(m)
-        held = shrinkage.edge_traction(lost, _layer_foundation(m), bending, shear, span)
+        held = transitions.edge_traction(lost, _layer_foundation(m), bending, shear, span)
         return np.fmin(held, m.pcl_tensile_yield)
     edge = m.arc_count * m.arc_span * m.pcl_inner_radius
-    return shrinkage.edge_traction_of_force(m.frozen_preload / edge, _layer_foundation(m), _plates_rigidity(m)[0], span)
+    return transitions.edge_traction_of_force(
+        m.frozen_preload / edge, _layer_foundation(m), _plates_rigidity(m)[0], span
+    )
 
 
 _PARTS = "the freezing layer shrinks, the rotor cannot follow, and the bond may part at its inner edge"

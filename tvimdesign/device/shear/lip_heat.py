@@ -14,8 +14,8 @@ from tvimdesign.device.shear.melt_lip import LEAST_LIP, NO_LIP
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.heat_flow import shape_factors, walled_end
-from tvimdesign.physics.heat_flow.lip import Arm, Lip
+from tvimdesign.physics.heat_flow import layer_end, shape_factors
+from tvimdesign.physics.heat_flow.layer_end import Arm, Lip
 from tvimdesign.physics.heat_flow.lumps import STRIP, WAYS, Place
 
 quantities = QuantityGroup("Switch")
@@ -113,7 +113,7 @@ def lip(m: Module) -> Lip | None:
     (root, mean), (conductivity, slot) = m.lip_root, m.air_beside
     arms = [
         Arm(m.structure_conductivity / onto * m.edge_length, root),
-        Arm(walled_end.below_lip(slot)[0] * conductivity * m.edge_length, ((HOT, 1.0),)),
+        Arm(layer_end.below_lip(slot)[0] * conductivity * m.edge_length, ((HOT, 1.0),)),
     ]
     for i, (through, warmer, floor) in enumerate(zip(m.below_lips, _lip_faces(m), BELOW, strict=True)):
         edge = tuple((place, weight * warmer) for place, weight in mean)

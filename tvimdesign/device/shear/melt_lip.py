@@ -20,8 +20,8 @@ from tvimdesign.device.core.shrinkage import GRAVITY, HOUR
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, ring
 from tvimdesign.physics.polymers import melt
+from tvimdesign.physics.solids.shapes import Section, ring
 
 NO_LIP = "none"
 WITH_LIP = (Feature("melt_lip", NO_LIP),)

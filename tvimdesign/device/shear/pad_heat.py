@@ -17,9 +17,9 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps, peltier, shape_factors
+from tvimdesign.physics.heat_flow.layer_end import room
 from tvimdesign.physics.heat_flow.lumps import Link
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
-from tvimdesign.physics.heat_flow.walled_end import room
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Switch")

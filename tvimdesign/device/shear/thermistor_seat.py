@@ -14,7 +14,7 @@ from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, stacked
+from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, stacked
 
 ROOM = 2.3
 """Diameter of the seat over that of the bead: twice the bead, which stands in half of it, and what it is glued in."""

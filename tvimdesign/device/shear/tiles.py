@@ -16,7 +16,7 @@ from tvimdesign.device.core.heat.heater_form import WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import NOTHING, Section, disc_at, rectangle_at
+from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at
 
 places, weights, rules = (
     QuantityGroup("Layout", WITH_TILES),

@@ -9,9 +9,8 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.atomic_files import atomic_write, digest_of, free_name, is_as_written
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.journal import digest_of, free_name, is_as_written
 from tvimdesign.explore.states.state import Pinned, State
 
 FILE = "explore.json"

@@ -15,9 +15,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tvimdesign.physics.heat_flow.layer_end import cooled_end, fallen
 from tvimdesign.physics.heat_flow.shape_factors import gap_end_depth
 from tvimdesign.physics.heat_flow.stack import Stack
-from tvimdesign.physics.heat_flow.walled_end import cooled_end, fallen
 
 SINES = 3
 

@@ -25,9 +25,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tvimdesign.physics.heat_flow import conduction, lumps, peltier
-from tvimdesign.physics.heat_flow.lip import warm_lip
+from tvimdesign.physics.heat_flow.layer_end import warm_lip
 from tvimdesign.physics.heat_flow.stack import LINER_CELLS, Profile, Stack, liner_flows, liner_heating
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 
 __all__ = [
@@ -83,7 +83,7 @@ def with_history(state: Any, stack: Stack) -> Any:
     assert stack.freezing is not None
     layer = _parts(state, stack._replace(freezing=None)).layer
     fractions = polymer.solid_fraction(ENTHALPY_SCALE * layer, stack.melting)
-    return np.append(state, crystallization.extended(fractions, stack.freezing))
+    return np.append(state, transitions.extended(fractions, stack.freezing))
 
 
 def _kelvin(scaled: Any) -> Any:
@@ -95,8 +95,8 @@ def _layer(parts: _Parts, stack: Stack) -> tuple[Any, Any]:
     enthalpies = ENTHALPY_SCALE * parts.layer
     if stack.freezing is None:
         return polymer.temperature(enthalpies, stack.melting), polymer.solid_fraction(enthalpies, stack.melting)
-    fractions = crystallization.solid_fraction(parts.extended, stack.freezing)
-    return crystallization.temperature(enthalpies, fractions, stack.melting), fractions
+    fractions = transitions.solid_fraction(parts.extended, stack.freezing)
+    return transitions.temperature(enthalpies, fractions, stack.melting), fractions
 
 
 def profile(state: Any, stack: Stack) -> Profile:
@@ -227,7 +227,7 @@ def rates(state: Any, stack: Stack, current: Any) -> Any:
     if stack.freezing is None:
         return heated
     extended = _parts(state, stack).extended
-    return np.append(heated, crystallization.rate(now.cells, extended, stack.freezing, stack.melting))
+    return np.append(heated, transitions.rate(now.cells, extended, stack.freezing, stack.melting))
 
 
 def _pads(now: Profile, stack: Stack, current: Any, linked: Mapping[str, Sequence[Any]]) -> tuple[Any, Any, Any]:

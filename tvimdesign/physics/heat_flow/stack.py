@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tvimdesign.physics.heat_flow import peltier
-from tvimdesign.physics.heat_flow.lip import Lip, WarmLip
+from tvimdesign.physics.heat_flow.layer_end import Lip, WarmLip
 from tvimdesign.physics.heat_flow.lumps import Body, Link, Lump, Place, Surface
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 
 
 class Stack(NamedTuple):
@@ -62,7 +62,7 @@ class Stack(NamedTuple):
     """Heat that the joint's motion makes in each polymer cell [W]."""
     layer_resistance: Any = 0.0
     """Of the polymer, where the heater's current passes it [ohm]; its heat is the same in each cell."""
-    freezing: crystallization.Kinetics | None = None
+    freezing: transitions.Kinetics | None = None
     """Kinetics of freezing; without them the equilibrium melting curve holds."""
     liner: Liner | None = None
     """A sheet between polymer and plate; `plate_contact` is then that of polymer and sheet."""

@@ -4,11 +4,17 @@ A spectrum is a list of (relaxation time [s], modulus [Pa]), the Maxwell element
 creep is exact too: the retardation spectrum has one time fewer, and a viscosity.
 Sources: [F] Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 3 and 4; [T] Tschoegl, The Phenomenological Theory
 of Linear Viscoelastic Behavior (interconversion; the times of retardation lie between those of relaxation).
+
+The springs and dashpots of textbooks: Kelvin-Voigt, Maxwell and standard linear solid, in the three kinds of test.
+
+Sources: Ferry, Viscoelastic Properties of Polymers, 3rd ed., ch. 3; Findley, Lai and Onaran, Creep and Relaxation of
+Nonlinear Viscoelastic Materials, ch. 5.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -121,3 +127,86 @@ def ramped_stress(time: Any, strain: float, rise: float, modes: Modes) -> Any:
     rising, after = np.minimum(time, rise), np.maximum(time - rise, 0.0)
     fading = [(tau, modulus * np.exp(-after / tau)) for tau, modulus in modes]
     return strain / rise * start_up_viscosity(rising, fading)
+
+
+class Body(Protocol):
+    """Moduli of a body: complex modulus [Pa], relaxation modulus [Pa] and creep compliance [1/Pa]."""
+
+    def modulus(self, angular_frequency: Any) -> Any:
+        """Return the complex modulus G' + i G'' [Pa]."""
+
+    def relaxation(self, time: Any) -> Any:
+        """Return the relaxation modulus [Pa]."""
+
+    def creep(self, time: Any) -> Any:
+        """Return the creep compliance [1/Pa]."""
+
+
+@dataclass(frozen=True)
+class KelvinVoigt:
+    """A spring and a dashpot side by side: it never flows, and cannot be strained at once."""
+
+    stiffness: float
+    """[Pa]"""
+    viscosity: float
+    """[Pa s]"""
+
+    def modulus(self, angular_frequency: Any) -> Any:
+        """Return G + i w eta."""
+        return self.stiffness + 1j * angular_frequency * self.viscosity
+
+    def relaxation(self, time: Any) -> Any:
+        """Return the G, for ever, after an infinite stress in the instant of the step."""
+        return self.stiffness + 0.0 * time
+
+    def creep(self, time: Any) -> Any:
+        """Return (1 - exp(-G t/eta))/G."""
+        return -np.expm1(-self.stiffness / self.viscosity * time) / self.stiffness
+
+
+@dataclass(frozen=True)
+class Maxwell:
+    """A spring and a dashpot one after the other: under load it flows without end."""
+
+    stiffness: float
+    """[Pa]"""
+    viscosity: float
+    """[Pa s]"""
+
+    def modulus(self, angular_frequency: Any) -> Any:
+        """Return 1/(1/G + 1/(i w eta))."""
+        return 1.0 / (1.0 / self.stiffness + 1.0 / (1j * angular_frequency * self.viscosity))
+
+    def relaxation(self, time: Any) -> Any:
+        """Return G exp(-G t/eta)."""
+        return self.stiffness * np.exp(-self.stiffness / self.viscosity * time)
+
+    def creep(self, time: Any) -> Any:
+        """Return 1/G + t/eta."""
+        return 1.0 / self.stiffness + time / self.viscosity
+
+
+@dataclass(frozen=True)
+class StandardLinearSolid:
+    """A spring beside a Maxwell body (Zener's): stiff at once, softer later, and it never flows."""
+
+    equilibrium: float
+    """Modulus that is left [Pa]."""
+    stiffness: float
+    """Modulus that relaxes [Pa]."""
+    viscosity: float
+    """[Pa s]"""
+
+    def modulus(self, angular_frequency: Any) -> Any:
+        """Return the modulus of the spring and of the Maxwell body together."""
+        return self.equilibrium + Maxwell(self.stiffness, self.viscosity).modulus(angular_frequency)
+
+    def relaxation(self, time: Any) -> Any:
+        """Return the rest and what the Maxwell body has left."""
+        return self.equilibrium + Maxwell(self.stiffness, self.viscosity).relaxation(time)
+
+    def creep(self, time: Any) -> Any:
+        """Return 1/R - (1/R - 1/(R + G)) exp(-t/lambda), lambda = eta (R + G)/(R G), R the modulus that is left."""
+        whole = self.equilibrium + self.stiffness
+        slow = self.viscosity * whole / (self.equilibrium * self.stiffness)
+        return 1.0 / self.equilibrium - (1.0 / self.equilibrium - 1.0 / whole) * np.exp(-time / slow)

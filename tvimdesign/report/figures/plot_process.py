@@ -24,8 +24,7 @@ from typing import Any, NamedTuple
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import Niceness, end_process_tree, set_low_priority
-from tvimdesign.base.processor_time import ProcessorTimeError, communicate
+from tvimdesign.base.processes import Niceness, ProcessorTimeError, communicate, end_process_tree, set_low_priority
 
 PROCESSOR_LIMIT = 600.0
 """Seconds of processor time for all plots of a command; they take about five."""

@@ -13,8 +13,8 @@ from typing import Any
 
 import psutil
 
+from tvimdesign.base.atomic_files import JOURNALS, RUN, UNFINISHED
 from tvimdesign.base.errors import FolderInUseError
-from tvimdesign.base.journal import JOURNALS, RUN, UNFINISHED
 
 if sys.platform != "win32":
     import fcntl

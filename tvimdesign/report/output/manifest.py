@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.base.atomic_files import digest_of, is_inside
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.journal import digest_of, is_inside
 from tvimdesign.report.output.claim import FORMAT
 
 MANIFEST = "manifest.json"

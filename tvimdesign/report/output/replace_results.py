@@ -8,9 +8,17 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
-from tvimdesign.base.atomic_files import make_folder
+from tvimdesign.base.atomic_files import (
+    JOURNALS,
+    RUN,
+    free_name,
+    is_as_written,
+    link_on_the_way,
+    make_folder,
+    record,
+    recorded,
+)
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.journal import JOURNALS, RUN, free_name, is_as_written, link_on_the_way, record, recorded
 from tvimdesign.report.output.manifest import MANIFEST, Manifest
 
 Say = Callable[[str], None]

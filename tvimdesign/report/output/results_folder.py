@@ -15,10 +15,18 @@ from types import TracebackType
 from typing import Any
 
 from tvimdesign import __version__
-from tvimdesign.base.atomic_files import TABLE_ENCODING, atomic_write, make_folder
+from tvimdesign.base.atomic_files import (
+    ANY,
+    TABLE_ENCODING,
+    UNFINISHED,
+    atomic_write,
+    digest_of,
+    is_as_written,
+    make_folder,
+    recorded,
+)
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
-from tvimdesign.base.journal import ANY, UNFINISHED, digest_of, is_as_written, recorded
 from tvimdesign.report.output.claim import FORMAT, RUNNING, Claim, is_run
 from tvimdesign.report.output.manifest import MANIFEST, Manifest, manifest_text, read_manifest
 from tvimdesign.report.output.replace_results import (

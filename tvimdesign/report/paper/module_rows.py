@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from tvimdesign.base.units import from_si
 from tvimdesign.physics.layers import layer
-from tvimdesign.physics.springs import transmission
+from tvimdesign.physics.springs import spring
 from tvimdesign.report.paper.published_module import (
     from_paper,
     published_model,
@@ -86,7 +86,7 @@ def _creep() -> str:
 
 def _parallel_springs() -> str:
     values = published_values()
-    springs = float(transmission.output_stiffness(from_paper("springs"), published_rate(), 0.0, 1.0, 0.0))
+    springs = float(spring.output_stiffness(from_paper("springs"), published_rate(), 0.0, 1.0, 0.0))
     cold, hot = values["pcl_stiffness@cold"], values["pcl_stiffness@hot"]
     shown = values["joint_stiffness@cold"]
     return (

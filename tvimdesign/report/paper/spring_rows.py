@@ -8,7 +8,7 @@ from collections.abc import Callable
 from tvimdesign.base.units import from_si, to_si
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import motion
-from tvimdesign.physics.springs import spring, transmission
+from tvimdesign.physics.springs import spring
 from tvimdesign.report.paper.published_module import (
     from_paper,
     published_module,
@@ -42,7 +42,7 @@ def _output_stiffness() -> str:
 
 def _by_unity(rate: float) -> float:
     """Return the output stiffness of the paper's springs with its ratio of one [N*m/rad]."""
-    return float(transmission.output_stiffness(from_paper("springs"), rate, 0.0, 1.0, 0.0))
+    return float(spring.output_stiffness(from_paper("springs"), rate, 0.0, 1.0, 0.0))
 
 
 def _implied() -> str:
@@ -97,9 +97,9 @@ def _pretension() -> str:
     values = published_values()
     place, offset, preload = values["placement_radius"], values["leg_offset"], values["preload_angle"]
     pin = 0.5 * place
-    drawn = transmission.output_stiffness(
+    drawn = spring.output_stiffness(
         count, rate, preload,
-        transmission.leg_ratio(pin, place, 0.0, offset), transmission.leg_curvature(pin, place, 0.0, offset),
+        spring.leg_ratio(pin, place, 0.0, offset), spring.leg_curvature(pin, place, 0.0, offset),
     )  # fmt: skip
     return (
         f"no pretension is given, and a torsion spring bears load in its winding direction only: with less than "
@@ -112,8 +112,8 @@ def _pretension() -> str:
 
 def _symbols() -> str:
     rate, place = published_rate(), from_paper("placement_radius")
-    turned = abs(float(transmission.leg_ratio(OTHER_PIN, place, 0.0, 0.0)))
-    first, other = (transmission.output_stiffness(4, rate, 0.0, ratio, 0.0) for ratio in (turned, 1.0 / turned))
+    turned = abs(float(spring.leg_ratio(OTHER_PIN, place, 0.0, 0.0)))
+    first, other = (spring.output_stiffness(4, rate, 0.0, ratio, 0.0) for ratio in (turned, 1.0 / turned))
     return (
         f"only a ratio of one hides it: with pins at {OTHER_PIN * 1e3:g} mm spring and rotor turn in a ratio of "
         f"{turned:.2f}, and K_s is {first:.1f} or {other:.2f} N·m/rad as alpha is the one or the other, a factor of "
@@ -127,7 +127,7 @@ def _angles() -> str:
     angles = []
     for name in ("release_angle", "stroke", "largest_rotation"):
         angle = from_paper(name)
-        ratio = abs(float(transmission.leg_ratio(0.5 * place, place, angle, 0.0)))
+        ratio = abs(float(spring.leg_ratio(0.5 * place, place, angle, 0.0)))
         strain = layer.shear_strain(radius, angle, thickness)
         angles.append(
             f"{angle:g} rad: {_by_unity(rate) * angle:.2f} N·m, melt sheared by {strain:.0%}, ratio {ratio:.3f}"
@@ -141,9 +141,7 @@ def _angles() -> str:
 def _ratio() -> str:
     place, rate = from_paper("placement_radius"), published_rate()
     pins = (0.5 * place, OTHER_PIN)
-    stiffness = [
-        transmission.output_stiffness(4, rate, 0.0, transmission.leg_ratio(pin, place, 0.0, 0.0), 0.0) for pin in pins
-    ]
+    stiffness = [spring.output_stiffness(4, rate, 0.0, spring.leg_ratio(pin, place, 0.0, 0.0), 0.0) for pin in pins]
     strain = layer.shear_strain(40e-3, from_paper("stroke"), 1e-3)
     return (
         f"alpha/theta = p/(r - p) for a pin at radius p: one only at p = {pins[0] * 1e3:.1f} mm "

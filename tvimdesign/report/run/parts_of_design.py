@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.base.process_tree import Niceness, set_low_priority
+from tvimdesign.base.processes import Niceness, set_low_priority
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
 from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from rich.markup import escape
 
 from tvimdesign.base.deadline import Deadline
+from tvimdesign.base.environment import how_to_install
 from tvimdesign.base.errors import (
     AboveRatingError,
     BelowYieldError,
@@ -20,7 +21,6 @@ from tvimdesign.base.errors import (
     TimeOverError,
     TvimError,
 )
-from tvimdesign.base.extras import how_to_install
 from tvimdesign.report.command import done_in_part, noting
 from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder

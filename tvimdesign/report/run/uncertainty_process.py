@@ -23,8 +23,14 @@ from typing import Any
 from tvimdesign.base.child_process import follow_parent, start_child
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import TvimError
-from tvimdesign.base.process_tree import Niceness, end_process_tree, set_low_priority
-from tvimdesign.base.processor_time import CHECK_EVERY, ProcessorLimit, ProcessorTimeError
+from tvimdesign.base.processes import (
+    CHECK_EVERY,
+    Niceness,
+    ProcessorLimit,
+    ProcessorTimeError,
+    end_process_tree,
+    set_low_priority,
+)
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 

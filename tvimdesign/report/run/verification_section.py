@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.base.journal import digest_of
+from tvimdesign.base.atomic_files import digest_of
 from tvimdesign.page.blocks import Block, Picture, Section, Words
 from tvimdesign.page.page_file import FILE, MOST
 from tvimdesign.page.page_insert import with_section

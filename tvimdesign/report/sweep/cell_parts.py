@@ -11,8 +11,8 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
+from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import GeometryError, InputError, TvimError
-from tvimdesign.base.extras import require_extra
 from tvimdesign.report.command import Command
 from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.progress import Progress

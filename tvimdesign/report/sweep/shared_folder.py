@@ -11,8 +11,8 @@ from pathlib import Path, PurePosixPath
 from rich.console import Console
 from rich.markup import escape
 
+from tvimdesign.base.atomic_files import recorded
 from tvimdesign.base.errors import FolderInUseError, InputError
-from tvimdesign.base.journal import recorded
 from tvimdesign.report.output.claim import IN_PARTS, Claim
 from tvimdesign.report.output.replace_results import seed
 from tvimdesign.report.output.results_folder import prepare, recovered, say

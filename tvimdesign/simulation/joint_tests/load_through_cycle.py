@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError, SimulationError
-from tvimdesign.physics.layers import slices
+from tvimdesign.physics.layers import lasting_load
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests.case import joint_of
@@ -93,14 +93,14 @@ class Changing:
         self._slopes = self._curves.derivative()
         self._structure = structure
 
-    def at(self, time: float) -> slices.Slices:
+    def at(self, time: float) -> lasting_load.Slices:
         """Return the slices at one time."""
         relaxation_times, stiffnesses = np.exp(self._curves(time))
         fields = relaxation_times, stiffnesses, self._slopes(time)[1]
         if not self._structure:
-            return slices.Slices(*map(list, fields))
+            return lasting_load.Slices(*map(list, fields))
         own = np.column_stack([*zip(*self._structure, strict=True), np.zeros(len(self._structure))])
-        return slices.Slices(*(_beside(*pair) for pair in zip(fields, own.T, ABSENT, strict=True)))
+        return lasting_load.Slices(*(_beside(*pair) for pair in zip(fields, own.T, ABSENT, strict=True)))
 
 
 def _beside(layer: Array, structure: Array, absent: float) -> list[Array]:
@@ -130,7 +130,7 @@ def _structure_of(resolved: ResolvedModule) -> motion.Modes:
     return [*([(NEVER, spring)] if spring > 0.0 else []), *elements]
 
 
-def carry(layer: Changing, support: slices.Support, load: float, times: Array) -> Carried:
+def carry(layer: Changing, support: lasting_load.Support, load: float, times: Array) -> Carried:
     """Put a load [N*m] on the link of a layer free of stress and keep it there over the times; inertia left out.
 
     Raises SimulationError where the integration fails.
@@ -138,17 +138,17 @@ def carry(layer: Changing, support: slices.Support, load: float, times: Array) -
     from scipy.integrate import solve_ivp
 
     begin = layer.at(float(times[0]))
-    angle, torques = slices.loaded_start(load, begin, support)
+    angle, torques = lasting_load.loaded_start(load, begin, support)
     shape = np.shape(torques)
 
     def rates(time: float, state: Array) -> Array:
-        speed, changes = slices.loaded_rates(list(state[1:].reshape(shape)), 0.0, layer.at(time), support)
+        speed, changes = lasting_load.loaded_rates(list(state[1:].reshape(shape)), 0.0, layer.at(time), support)
         return np.concatenate([[speed], np.ravel(changes)])
 
     def jacobian(time: float, _: Array) -> Array:
-        now = slices.Slices(*([row[:, None] for row in field] for field in layer.at(time)))
+        now = lasting_load.Slices(*([row[:, None] for row in field] for field in layer.at(time)))
         inner = np.eye(1 + shape[0] * shape[1])[1:].reshape(*shape, -1)
-        speed, changes = slices.loaded_rates(list(inner), 0.0, now, support)
+        speed, changes = lasting_load.loaded_rates(list(inner), 0.0, now, support)
         return np.concatenate([speed[None, :], np.reshape(changes, (-1, inner.shape[-1]))])
 
     solved = solve_ivp(
@@ -160,15 +160,16 @@ def carry(layer: Changing, support: slices.Support, load: float, times: Array) -
     inner = solved.y[1:].reshape(*shape, -1)
     states = [layer.at(float(time)) for time in times]
     energies = [
-        float(slices.stored_energy(solved.y[0, i], list(inner[..., i]), now, support)) for i, now in enumerate(states)
+        float(lasting_load.stored_energy(solved.y[0, i], list(inner[..., i]), now, support))
+        for i, now in enumerate(states)
     ]
-    given_back, _ = slices.loaded_start(load, states[-1], support)
+    given_back, _ = lasting_load.loaded_start(load, states[-1], support)
     layer_torque, last = np.sum(inner, axis=0)[0], solved.y[0, -1]
-    free = last - layer_torque[-1] * slices.compliance(states[-1], support)
+    free = last - layer_torque[-1] * lasting_load.compliance(states[-1], support)
     return Carried(times, solved.y[0], layer_torque, np.array(energies), inner, float(last - given_back), float(free))
 
 
-def support_of(resolved: ResolvedModule) -> slices.Support:
+def support_of(resolved: ResolvedModule) -> lasting_load.Support:
     """Return springs and structure on the bench, as warm as at the cold point; a lossy one gives as a slice."""
     joint = joint_of(resolved, "cold")
-    return slices.Support(joint.spring_stiffness, RIGID if _structure_of(resolved) else joint.structure_stiffness)
+    return lasting_load.Support(joint.spring_stiffness, RIGID if _structure_of(resolved) else joint.structure_stiffness)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tvimdesign.physics.bodies.simple_bodies import Body, KelvinVoigt, Maxwell, StandardLinearSolid
+from tvimdesign.physics.polymers.viscoelasticity import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 from tvimdesign.simulation.rheometer.specimen import Specimen, State
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding
 

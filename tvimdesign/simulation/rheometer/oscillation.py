@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from tvimdesign.physics.bodies.simple_bodies import Body
 from tvimdesign.physics.polymers import viscoelasticity
 from tvimdesign.physics.polymers.polymer import LINEAR_DROP, ZERO_CELSIUS, maxwell_moduli
+from tvimdesign.physics.polymers.viscoelasticity import Body
 from tvimdesign.simulation.rheometer.model_reduction import TITLES, Comparison, compare, parameters
 from tvimdesign.simulation.rheometer.specimen import Specimen, State, at_fraction, history_note, specimen, specimens
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial

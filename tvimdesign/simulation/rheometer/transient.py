@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tvimdesign.physics.bodies.simple_bodies import Body
 from tvimdesign.physics.polymers import viscoelasticity
+from tvimdesign.physics.polymers.viscoelasticity import Body
 from tvimdesign.simulation.rheometer.model_reduction import TITLES, Comparison, compare, parameters
 from tvimdesign.simulation.rheometer.specimen import Specimen, State, history_note, specimens
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.device import Table
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
@@ -65,18 +65,18 @@ def frozen_on_cooling(resolved: ResolvedModule, rate: float) -> Callable[[float]
 
     What has no kinetics freezes as it melts, at any rate.
     """
-    kinetics: crystallization.Kinetics | None = resolved.quantity("pcl_kinetics")
+    kinetics: transitions.Kinetics | None = resolved.quantity("pcl_kinetics")
     if kinetics is None:
         melting: polymer.Melting = resolved.quantity("pcl_melting")
         return lambda temperature: _on_heating(temperature, melting)
     temperatures = np.linspace(kinetics.equilibrium_melting + 20.0, 240.0, 4001)
-    slowness = crystallization.rate_constant(temperatures, kinetics) / rate
+    slowness = transitions.rate_constant(temperatures, kinetics) / rate
     steps = 0.5 * (slowness[1:] + slowness[:-1]) * -np.diff(temperatures)
     extended = np.concatenate([[0.0], np.cumsum(steps)])
 
     def fraction(temperature: float) -> float:
         psi = np.interp(temperature, temperatures[::-1], extended[::-1])
-        return float(crystallization.solid_fraction(psi, kinetics))
+        return float(transitions.solid_fraction(psi, kinetics))
 
     return fraction
 

@@ -7,7 +7,7 @@ from importlib.metadata import version
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.base.compile_cache import find_code, keep_code
+from tvimdesign.base.user_cache import find_code, keep_code
 
 
 def sobol_points(dimensions: int, count: int, seed: int) -> NDArray[np.float64]:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.layers import block, hold
+from tvimdesign.physics.layers import block, lasting_load
 from tvimdesign.physics.motions import one_sided
 
 quantities = QuantityGroup("Hold")
@@ -27,9 +27,9 @@ def hold_torque(m: Module) -> Scalar:
 
 
 @quantities.helper(per_point=True)
-def held(m: Module) -> hold.Held:
+def held(m: Module) -> lasting_load.Held:
     """Joint and PCL at the end of the hold."""
-    return hold.held(m.hold_torque, m.hold_time, m.spring_stiffness, m.elastic_support, m.pcl_modes)
+    return lasting_load.held(m.hold_torque, m.hold_time, m.spring_stiffness, m.elastic_support, m.pcl_modes)
 
 
 @quantities.output("rad", per_point=True)
@@ -62,7 +62,7 @@ def relaxation_loss(m: Module) -> Scalar:
 
     A bonded layer that has relaxed takes the whole torque of such a turn: it starts from the stress it has.
     """
-    return hold.impedance_loss(m.hold_angle, m.backlash, m.spring_stiffness, m.elastic_support, m.pcl_modes)
+    return lasting_load.impedance_loss(m.hold_angle, m.backlash, m.spring_stiffness, m.elastic_support, m.pcl_modes)
 
 
 @quantities.first_oscillation("1")

@@ -15,7 +15,7 @@ from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import motion
-from tvimdesign.physics.polymers import crystallization, glass, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
@@ -33,9 +33,9 @@ def pcl_melting(m: Module) -> polymer.Melting:
 
 
 @quantities.helper(requires=CRYSTALLIZING, default=None)
-def pcl_kinetics(m: Module) -> crystallization.Kinetics:
+def pcl_kinetics(m: Module) -> transitions.Kinetics:
     """Freezing and melting of the PCL in time; none where it freezes as it melts."""
-    return crystallization.Kinetics(
+    return transitions.Kinetics(
         m.pcl_avrami_exponent, m.pcl_crystallization_half_time, m.pcl_crystallization_reference,
         m.pcl_nucleation_constant, m.pcl_equilibrium_melting_temperature, m.pcl_glass_transition,
         m.pcl_transport_energy, m.melting_time,
@@ -71,13 +71,15 @@ def solid_modes(pcl_grade: Record) -> polymer.Modes:
 
 
 @quantities.helper(requires=GLASS, default=None)
-def pcl_glass(m: Module) -> glass.Glass:
+def pcl_glass(m: Module) -> transitions.Glass:
     """Relaxation spectrum of a layer that softens through a glass transition, at any temperature."""
     at_reference = structure.shear_modulus(m.pcl_solid_modulus.reference_modulus, m.pcl_solid_modulus.poissons_ratio)
-    transition = glass.GlassTransition(
+    transition = transitions.GlassTransition(
         m.pcl_glass_transition, m.pcl_wlf_c1, m.pcl_wlf_c2, m.pcl_glass_activation_energy
     )
-    return glass.Glass(at_reference, m.pcl_solid_modulus.reference_temperature, transition, solid_modes(m.pcl_grade))
+    return transitions.Glass(
+        at_reference, m.pcl_solid_modulus.reference_temperature, transition, solid_modes(m.pcl_grade)
+    )
 
 
 @quantities.helper()

@@ -17,7 +17,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.motions.contacts import joint_play, overhung_shift, sliding_torque
-from tvimdesign.physics.springs.transmission import pin_slip
+from tvimdesign.physics.springs.spring import pin_slip
 
 quantities = QuantityGroup("Lost motion")
 

@@ -13,7 +13,8 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers.layer import series_stiffness
-from tvimdesign.physics.solids import structure, warm
+from tvimdesign.physics.polymers import plastics
+from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Impedance")
 
@@ -107,7 +108,7 @@ def link_stiffness(m: Module) -> Scalar:
 
 def _stiffness_beyond_link(m: Module) -> tuple[Scalar, Scalar]:
     """Real and imaginary stiffness of the joint with its link, which is as warm as the core [N*m/rad]."""
-    link = (m.link_stiffness * part for part in warm.complex_modulus(m.core_temperature, m.structure_softening))
+    link = (m.link_stiffness * part for part in plastics.complex_modulus(m.core_temperature, m.structure_softening))
     return series_stiffness(m.spring_stiffness + m.branch_stiffness[0], m.branch_stiffness[1], *link)
 
 

@@ -19,8 +19,8 @@ from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.heat_flow import lumps
 from tvimdesign.physics.heat_flow.held_plate import BehindPolymer, held_plate
-from tvimdesign.physics.solids import warm
-from tvimdesign.physics.solids.warm import Softening
+from tvimdesign.physics.polymers import plastics
+from tvimdesign.physics.polymers.plastics import Softening
 
 quantities = QuantityGroup("Impedance")
 
@@ -69,7 +69,7 @@ def in_series(
     each."""
 
     def of(*slices: Scalar) -> tuple[Scalar, Scalar]:
-        moduli = [warm.complex_modulus(temperature, law) for temperature in slices]
+        moduli = [plastics.complex_modulus(temperature, law) for temperature in slices]
         storage, loss = (sum(parts) / len(moduli) for parts in zip(*moduli, strict=True))
         return storage, loss + clamped * storage
 
@@ -77,7 +77,7 @@ def in_series(
     moduli = [of(core), of(beside), of(*plate), of(walls), of(floor)]
     pads = (1.0, law.loss_factor + clamped)
     pairs = zip(parts, [*moduli, pads], strict=True)
-    return warm.series([*((compliance, *modulus) for compliance, modulus in pairs), (lossless, 1.0, 0.0)])
+    return plastics.series([*((compliance, *modulus) for compliance, modulus in pairs), (lossless, 1.0, 0.0)])
 
 
 # --- at the operating points ------------------------------------------------------------------------------------------
@@ -177,7 +177,7 @@ def cold_strength_share(m: Module) -> Scalar:
 
     Yield stress and modulus of glassy polymers fall together (N. Brown, Mater. Sci. Eng. 8 (1971) 69).
     """
-    return warm.modulus_share(m.temperature_at_cold, m.structure_softening)
+    return plastics.modulus_share(m.temperature_at_cold, m.structure_softening)
 
 
 @quantities.helper()

@@ -18,7 +18,7 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.springs import drawn_spring as drawn
-from tvimdesign.physics.springs import spring, transmission
+from tvimdesign.physics.springs import spring
 
 quantities = QuantityGroup("Springs")
 
@@ -65,12 +65,12 @@ def leg_azimuth(pin_radius: float, placement_radius: float, rotor_angle: float, 
 
     Lengths in one unit, `rotor_angle` [rad]; `offset` is that of the line through the pin from the coil's axis.
     """
-    return float(transmission.leg_direction(pin_radius, placement_radius, rotor_angle, offset))
+    return float(spring.leg_direction(pin_radius, placement_radius, rotor_angle, offset))
 
 
 def pin_distance(pin_radius: float, placement_radius: float, rotor_angle: float) -> float:
     """Return the distance of a coil's axis from its pin, which turns with the rotor, in the unit of the radii."""
-    return float(transmission.pin_distance(pin_radius, placement_radius, rotor_angle))
+    return float(spring.pin_distance(pin_radius, placement_radius, rotor_angle))
 
 
 FROM_STOCK = (Feature("stock_spring", "none"),)

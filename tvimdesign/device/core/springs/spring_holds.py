@@ -13,7 +13,7 @@ import numpy as np
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.polymers import creep
+from tvimdesign.physics.polymers import plastics
 
 quantities = QuantityGroup("Springs")
 
@@ -23,7 +23,9 @@ def pin_give(m: Module) -> Scalar:
     """Winding that a spring loses for each moment on its coil as its pin gives [rad/(N*m)]."""
     # As low as in `pin_safety`, for the same reason.
     height = np.fmax(m.coil_end_level + m.helix_slope * m.leg_arm - m.rotor_top_level, 0.5 * m.wire_diameter)
-    return creep.peg_give(m.structure_youngs_modulus, m.structure_poissons_ratio, m.pin_diameter, height) / m.leg_arm**2
+    return (
+        plastics.peg_give(m.structure_youngs_modulus, m.structure_poissons_ratio, m.pin_diameter, height) / m.leg_arm**2
+    )
 
 
 @quantities.helper()
@@ -33,7 +35,7 @@ def tang_give(m: Module) -> Scalar:
     The force on the pin acts at the leg's arm and the tang's lever, at most.
     """
     lever = 1.0 + m.tang_lever / m.leg_arm
-    return creep.twisted_hole_give(m.structure_shear_modulus, m.wire_diameter, m.tang_length) * lever**2
+    return plastics.twisted_hole_give(m.structure_shear_modulus, m.wire_diameter, m.tang_length) * lever**2
 
 
 @quantities.output("N*m/rad")
@@ -41,7 +43,7 @@ def held_spring_rate(m: Module) -> Scalar:
     """Torque of a spring per winding of spring, pin and floor in series; `leg_model: ignored` holds it rigidly."""
     if m.leg_model == "ignored":
         return m.spring_rate
-    return m.spring_rate * creep.winding_left(m.spring_rate, (m.pin_give, 0.0), (m.tang_give, 0.0))
+    return m.spring_rate * plastics.winding_left(m.spring_rate, (m.pin_give, 0.0), (m.tang_give, 0.0))
 
 
 @quantities.output("rad")
@@ -50,9 +52,9 @@ def preload_give(m: Module) -> Scalar:
     return m.preload_angle * (1.0 - m.held_spring_rate / m.spring_rate)
 
 
-def _structure_creep(m: Module) -> creep.Creep:
+def _structure_creep(m: Module) -> plastics.Creep:
     """Return the creep of the structure."""
-    return creep.Creep(m.structure_creep_share, m.structure_creep_exponent, m.structure_creep_energy)
+    return plastics.Creep(m.structure_creep_share, m.structure_creep_exponent, m.structure_creep_energy)
 
 
 Holds = tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]]
@@ -61,18 +63,18 @@ Holds = tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]]
 
 def _spring_holds(m: Module) -> Holds:
     """Return the supports of a spring after `rest_time` in the air and `hot_time` at the hot point."""
-    rested = creep.aged(m.rest_time, m.ambient_temperature, _structure_creep(m))
+    rested = plastics.aged(m.rest_time, m.ambient_temperature, _structure_creep(m))
     warm = (m.part_temperatures_at_hot.beside, m.part_temperatures_at_hot.floor)
-    times = (rested + creep.aged(m.hot_time, temperature, _structure_creep(m)) for temperature in warm)
-    on_pin, in_floor = (creep.growth(time, _structure_creep(m)) for time in times)
+    times = (rested + plastics.aged(m.hot_time, temperature, _structure_creep(m)) for temperature in warm)
+    on_pin, in_floor = (plastics.growth(time, _structure_creep(m)) for time in times)
     return (m.pin_give, on_pin), (m.tang_give, in_floor)
 
 
 @quantities.output("rad")
 def preload_loss(m: Module) -> Scalar:
     """Winding that a spring loses at rest by creep of pin and floor, after `rest_time` and `hot_time`."""
-    at_once = creep.winding_left(m.spring_rate, *((compliance, 0.0) for compliance, _ in _spring_holds(m)))
-    return m.preload_angle * (at_once - creep.winding_left(m.spring_rate, *_spring_holds(m)))
+    at_once = plastics.winding_left(m.spring_rate, *((compliance, 0.0) for compliance, _ in _spring_holds(m)))
+    return m.preload_angle * (at_once - plastics.winding_left(m.spring_rate, *_spring_holds(m)))
 
 
 _CREPT = "a spring lifts off at full stroke once pins and floor have crept"

@@ -12,7 +12,7 @@ from tvimdesign.device.table.quantity import Feature, Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.springs import spring
-from tvimdesign.physics.springs.transmission import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
+from tvimdesign.physics.springs.spring import leg_curvature, leg_ratio, leg_turned, output_stiffness, pair_turned
 
 quantities = QuantityGroup("Springs")
 

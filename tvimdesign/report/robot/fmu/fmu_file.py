@@ -17,9 +17,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from tvimdesign.base.atomic_files import whole_file
-from tvimdesign.base.command_group import CommandGroup
 from tvimdesign.base.errors import InputError
-from tvimdesign.base.processor_time import ProcessorTimeError
+from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
 from tvimdesign.report.robot.fmu.joint_equations import JointEquations, joint_equations, listed, sizes
 from tvimdesign.report.robot.fmu.model_description import IDENTIFIER, Variable, fmu_variables, model_description
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule

@@ -1,6 +1,6 @@
 """Calorimetry of a polymer: heat, melting window and freezing kinetics from runs cooled, held and heated.
 
-Freezing is Nakamura's integral of Hoffman and Lauritzen's rate (physics/polymers/crystallization.py) along each run's
+Freezing is Nakamura's integral of Hoffman and Lauritzen's rate (physics/polymers/transitions.py) along each run's
 own temperatures; what is given off is (h_m - h_s) dX/dt beside the heat of the specific heats and a straight baseline.
 Melting is the equilibrium curve over its window, straight as the product has it.
 """
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics.polymers import crystallization, polymer
+from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
 from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
@@ -70,9 +70,9 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     return Measurement(fit, tuple(_notes(runs, upwards)), values, {}, chosen if freezing else {})
 
 
-def kinetics_of(values: Values, settings: Settings) -> crystallization.Kinetics:
+def kinetics_of(values: Values, settings: Settings) -> transitions.Kinetics:
     """Return the kinetics with the values that are fitted; the melting time has no part in freezing."""
-    return crystallization.Kinetics(
+    return transitions.Kinetics(
         values.get("avrami_exponent", settings.get("avrami_exponent", 3.0)), values["crystallization_half_time"],
         settings["reference_temperature"], values["nucleation_constant"],
         settings["equilibrium_melting_temperature"], settings["glass_transition"], settings["transport_energy"], 0.5,
@@ -97,10 +97,10 @@ def frozen(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
 
     def predicted(values: Values) -> Any:
         kinetics, melting = kinetics_of(values, settings), melting_of(values, settings)
-        constants = crystallization.rate_constant(temperature, kinetics)
+        constants = transitions.rate_constant(temperature, kinetics)
         psi = ca.vertcat(0.0, ca.cumsum(0.5 * (constants[1:] + constants[:-1]) * steps))
         fraction, slope = _fraction_and_slope(psi, kinetics)
-        heat = crystallization.enthalpy(temperature, 0.0, melting) - crystallization.enthalpy(temperature, 1.0, melting)
+        heat = transitions.enthalpy(temperature, 0.0, melting) - transitions.enthalpy(temperature, 1.0, melting)
         capacity = fraction * melting.specific_heat_solid + (1.0 - fraction) * melting.specific_heat_melt
         base = values[f"base_{which}"] + values[f"slope_{which}"] * time
         return base - (capacity - melting.specific_heat_solid) * rate + heat * slope * constants
@@ -116,7 +116,7 @@ def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
         melting = melting_of(values, settings)
         at, ends = ca.SX.sym("T"), ca.SX.sym("ends", 2)
         window = melting._replace(start=ends[0], end=ends[1])
-        fraction = crystallization.equilibrium_fraction(at, window)
+        fraction = transitions.equilibrium_fraction(at, window)
         both = ca.Function("both", [at, ends], [fraction, ca.gradient(fraction, at)])
         solid, slope = both.map(len(run.time))(
             run.temperature[None, :], ca.repmat(ca.vertcat(melting.start, melting.end), 1, len(run.time))
@@ -128,10 +128,10 @@ def melted(run: Run, which: int, settings: Settings) -> Callable[[Values], Any]:
     return predicted
 
 
-def _fraction_and_slope(psi: Any, kinetics: crystallization.Kinetics) -> tuple[Any, Any]:
+def _fraction_and_slope(psi: Any, kinetics: transitions.Kinetics) -> tuple[Any, Any]:
     """Return X(psi) and dX/dpsi, the exact derivative of the product's equation."""
     reduced, exponent = ca.SX.sym("psi"), ca.SX.sym("n")
-    fraction = crystallization.solid_fraction(reduced, kinetics._replace(avrami_exponent=exponent))
+    fraction = transitions.solid_fraction(reduced, kinetics._replace(avrami_exponent=exponent))
     both = ca.Function("both", [reduced, exponent], [fraction, ca.gradient(fraction, reduced)])
     count = psi.shape[0]
     values, slope = both.map(count)(psi.T, ca.repmat(ca.MX(kinetics.avrami_exponent), 1, count))
@@ -170,11 +170,11 @@ def _freezing_start(runs: Sequence[Run], settings: Settings) -> tuple[float, flo
     return best[1], best[2]
 
 
-def _misfit(run: Run, kinetics: crystallization.Kinetics) -> float:
+def _misfit(run: Run, kinetics: transitions.Kinetics) -> float:
     """Return the squares left of a run's heat, over what they are about their mean."""
-    constants = crystallization.rate_constant(run.temperature, kinetics)
+    constants = transitions.rate_constant(run.temperature, kinetics)
     psi = np.concatenate([[0.0], np.cumsum(0.5 * (constants[1:] + constants[:-1]) * np.diff(run.time))])
-    freezing: Array = np.gradient(crystallization.solid_fraction(psi, kinetics), run.time)
+    freezing: Array = np.gradient(transitions.solid_fraction(psi, kinetics), run.time)
     table = np.column_stack([np.ones_like(freezing), run.time / run.time[-1], freezing])
     weights = np.linalg.lstsq(table, run.heat, rcond=None)[0]
     if weights[2] <= 0.0:

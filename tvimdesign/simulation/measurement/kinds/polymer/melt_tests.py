@@ -4,7 +4,7 @@ Sweeps and ramps: G', G'' by `polymer.maxwell_moduli`; each row of a ramp is shi
 below the least temperature are left out, for the polymer may be frozen there.
 
 Creep: J(t) = t/eta + the recoverable part, which has the Laplace transform 1/(s Q(s)) - 1/(s^2 eta), Q(s) = sum G s
-tau/(1 + s tau), and is inverted by Stehfest's weights (physics/motions/laplace.py): to 4e-4 the retardation spectrum
+tau/(1 + s tau), and is inverted by Stehfest's weights (physics/motions/motion.py): to 4e-4 the retardation spectrum
 (`viscoelasticity.retardation`), and with derivatives. After the stress is off J(t) - J(t - t_1) is left.
 
 Relaxation: G(t) by `viscoelasticity.relaxation_modulus`, or as `ramped_stress` where the strain took a time to rise.
@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics.motions import laplace
+from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.simulation.measurement.fitting.problem import Parameter
@@ -177,7 +177,7 @@ def compliance(time: Any, modes: Modes) -> Any:
         elastic = sum(modulus * tau**2 / (1.0 + s * tau) for tau, modulus in spectrum)
         return (elastic / (s * flow * viscosity),)
 
-    (recoverable,) = laplace.inverse(transform, moment)
+    (recoverable,) = motion.inverse(transform, moment)
     at_once = ca.Function("compliance", [ca.SX(moment), constants], [ca.SX(recoverable + moment / viscosity)])
     given = ca.vertcat(*(ca.vertcat(tau, modulus) for tau, modulus in modes))
     return at_once.map(count)(ca.MX(time).T, ca.repmat(given, 1, count)).T

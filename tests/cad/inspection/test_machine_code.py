@@ -10,9 +10,9 @@ from unittest import mock
 import numpy as np
 import pytest
 
-from tvimdesign.base import machine_code
-from tvimdesign.base.compile_cache import find_code, keep_code
-from tvimdesign.base.machine_code import MachineCode
+from tvimdesign.base.user_cache import find_code, keep_code
+from tvimdesign.cad.inspection import ray_code
+from tvimdesign.cad.inspection.ray_code import MachineCode
 
 TEXT = """
 define void @sums(ptr %given, ptr %found, i64 %count) {
@@ -53,7 +53,7 @@ def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def compiled_again(values: np.ndarray) -> bool:
     """Return whether the compiler was called; the sum is right either way."""
-    with mock.patch.object(machine_code, "_compiled", wraps=machine_code._compiled) as compiler:
+    with mock.patch.object(ray_code, "_compiled", wraps=ray_code._compiled) as compiler:
         assert told(values) == pytest.approx(3.0 * values.sum(), rel=1e-14)
     return bool(compiler.called)
 
@@ -73,9 +73,9 @@ def test_code_is_compiled_once_and_again_if_damaged(stored: Path) -> None:
 def test_code_of_another_processor_or_compiler_is_none_of_ours(stored: Path) -> None:
     values = np.arange(1.0, 9.0)
     told(values)
-    with mock.patch.object(machine_code, "_processor", return_value="another"):
+    with mock.patch.object(ray_code, "_processor", return_value="another"):
         assert compiled_again(values)
-    with mock.patch.object(machine_code.llvmlite, "__version__", "0"):
+    with mock.patch.object(ray_code.llvmlite, "__version__", "0"):
         assert compiled_again(values)
     assert len(list(stored.iterdir())) == 3
 
@@ -89,7 +89,7 @@ def test_code_runs_where_nothing_can_be_kept(stored: Path, monkeypatch: pytest.M
 
 
 def test_of_much_code_what_was_not_used_for_longest_goes(stored: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tvimdesign.base.compile_cache._MOST", 3)
+    monkeypatch.setattr("tvimdesign.base.user_cache._MOST", 3)
     for number in range(6):
         keep_code(b"code", f"text {number}")
         latest = max(stored.iterdir(), key=lambda path: path.stat().st_mtime)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tvimdesign.physics.bodies import shapes
+from tvimdesign.physics.solids import shapes
 
 
 def integrate(function: Callable[[float], float], start: float, end: float) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from tvimdesign.physics.bodies.simple_bodies import Body, KelvinVoigt, Maxwell, StandardLinearSolid
+from tvimdesign.physics.polymers.viscoelasticity import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 
 BODIES = [Maxwell(3.0, 0.6), StandardLinearSolid(2.0, 3.0, 0.6)]
 

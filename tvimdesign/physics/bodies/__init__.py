@@ -1,1 +1,0 @@
-"""Areas, volumes and inertias of simple shapes."""
