@@ -8,6 +8,7 @@ import numpy as np
 
 from made_measurements.made import Array, Made, block
 from tvimdesign.physics.polymers import polymer, viscoelasticity
+from tvimdesign.simulation.measurement.kinds.polymer.flow_curve import carreau
 from tvimdesign.simulation.measurement.reading.data_file import Block
 
 MODES = [(0.5, 800.0), (0.05, 1.0e4), (0.004, 6.0e4)]
@@ -103,11 +104,23 @@ def amplitude_sweep_data(noise: np.random.Generator) -> Made:
     return [block(strain=strain, storage_modulus=storage, loss_modulus=loss, temperature=rows)], {}, truth
 
 
+def flow_curve_data(noise: np.random.Generator) -> Made:
+    """Flow curves at 80, 100 and 120 degC from 0.01 to 30 1/s; viscosities to 2 %."""
+    truth = {"zero_shear_viscosity": 1500.0, "thinning_time": 0.4, "thinning_power": 0.4}
+    rate, blocks = np.geomspace(0.01, 30.0, 15), []
+    for at in (353.15, REFERENCE, 393.15):
+        shift = float(polymer.arrhenius_shift(at, REFERENCE, ENERGY))
+        viscosity = shift * carreau(shift * rate, truth) * np.exp(noise.normal(0.0, 0.02, 15))
+        blocks.append(block(shear_rate=rate, viscosity=viscosity, temperature=np.full(15, at)))
+    return blocks, {}, {**truth, "flow_activation_energy": ENERGY}
+
+
 MELTS: dict[str, Callable[[np.random.Generator], Made]] = {
     "frequency_sweep": frequency_sweep_data,
     "temperature_ramp": temperature_ramp_data,
     "creep": creep_data,
     "relaxation": relaxation_data,
+    "flow_curve": flow_curve_data,
     "melt": melt_data,
     "amplitude_sweep": amplitude_sweep_data,
 }

@@ -64,7 +64,7 @@ def test_kinds_are_listed(tvimdesign: Command) -> None:
     assert "columns: angle, torque or mass or force" in listed
     assert set(json.loads(tvimdesign("fit", "--kinds", "--json").stdout)) == {
         "torque_angle", "frequency_sweep", "temperature_ramp", "creep", "relaxation", "melt", "amplitude_sweep", "dsc",
-        "pad", "release", "sine", "frozen_torque", "heating_log",
+        "pad", "release", "sine", "frozen_torque", "heating_log", "flow_curve",
     }  # fmt: skip
 
 

@@ -42,6 +42,10 @@ class KindSheet:
     """Columns that must not change, where they are there."""
     only_asked: bool = False
     """Whether it is fitted only where it is asked for."""
+    decided_by: tuple[str, ...] = ()
+    """Columns; any of them decides for this kind."""
+    excluded_by: tuple[str, ...] = ()
+    """Columns; any of them rules it out, unless it is asked for."""
 
     def column(self, block: Block, need: tuple[str, ...]) -> str | None:
         """Return the first of the columns that will do and that a block has."""
@@ -56,6 +60,14 @@ class KindSheet:
             and not any(_changes(block, name) for name in self.constant if name in block.columns)
         )
 
+    def likely(self, block: Block) -> bool:
+        """Return whether a block may be of this kind."""
+        return self.fits(block) and not any(name in block.columns for name in self.excluded_by)
+
+    def decided(self, block: Block) -> bool:
+        """Return whether a column decides that a block is of this kind."""
+        return self.likely(block) and any(name in block.columns for name in self.decided_by)
+
     def lacking(self, block: Block) -> str:
         """Say what a block lacks, or why a column of that name could not be read."""
         for need in self.needs:
@@ -63,6 +75,13 @@ class KindSheet:
                 why = next((block.problems[name] for name in need if name in block.problems), "")
                 return why or f"{block.place}: no column is {' or '.join(need)}"
         return ""
+
+    def mismatch(self, block: Block) -> str:
+        """Say which column that must change does not, or the other way round."""
+        changing = [name for name in self.constant if name in block.columns and _changes(block, name)]
+        if changing:
+            return f"{changing[0]} changes from row to row, which rules {self.name} out"
+        return f"{' or '.join(self.varies)} does not change, which rules {self.name} out"
 
     def values(self, given: Mapping[str, str]) -> dict[str, Any]:
         """Return settings in SI: those given, as `name=value with unit`, and the defaults. Raises InputError."""
@@ -119,7 +138,8 @@ def kind_sheets() -> dict[str, KindSheet]:
         name: KindSheet(
             name, entry["function"], entry["about"], tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ())),
             entry.get("category", ""), entry["settings"], _words(entry.get("varies", "")),
-            _words(entry.get("constant", "")), entry.get("only_asked", False),
+            _words(entry.get("constant", "")), entry.get("only_asked", False), _words(entry.get("decided_by", "")),
+            _words(entry.get("excluded_by", "")),
         )
         for name, entry in tree.items()
     }  # fmt: skip

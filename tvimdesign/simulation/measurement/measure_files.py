@@ -13,6 +13,10 @@ from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS, Meas
 from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
 from tvimdesign.simulation.measurement.reading.data_file import Block, DataFile, read_data_file
 
+_FLOW = "flow_curve"
+_NEAREST = 3
+"""Kinds that a refusal names with their needs."""
+
 
 @dataclass(frozen=True)
 class Measured:
@@ -54,23 +58,16 @@ def measure_files(
     if not paths:
         raise InputError("give at least one file of measured data")
     files = tuple(read_data_file(path, columns) for path in paths)
-    every = [block for file in files for block in file.blocks]
-    blocks = [block for block in every if not _is_flow_curve(block)]
-    if not blocks:
-        raise InputError(
-            f"{every[0].place}: shear rate and viscosity without strain or moduli are a flow curve, which is not "
-            "fitted; give a frequency sweep of the melt (angular frequency, G', G''), or enter the viscosity at low "
-            "rates as pcl_zero_shear_viscosity in the study's module"
-        )
+    blocks = [block for file in files for block in file.blocks]
     sheet = kind_sheet(kind) if kind else _likely_kind(blocks)
     values = sheet.values(settings or {})
-    fitting = tuple(block for block in blocks if sheet.fits(block) and _rows(block, sheet) >= LEAST_ROWS)
+    fitting = tuple(
+        block
+        for block in blocks
+        if sheet.fits(block) and _rows(block, sheet) >= LEAST_ROWS and not _other_flow(block, sheet)
+    )
     if not fitting:
-        most = max(blocks, key=lambda block: sum(sheet.column(block, need) is not None for need in sheet.needs))
-        why = sheet.lacking(most) or f"{most.place}: fewer than {LEAST_ROWS} whole rows"
-        raise InputError(
-            f"{why}; {sheet.name} needs {_needed(sheet)}. A column map (--columns) says which column is what"
-        )
+        raise InputError(_refusal(blocks, sheet))
     measurement = measure_of(sheet)(fitting, values)
     for block in reversed(fitting):
         if block.flagged:
@@ -78,10 +75,36 @@ def measure_files(
     return Measured(sheet, files, fitting, measurement)
 
 
-def _is_flow_curve(block: Block) -> bool:
-    """Return whether the columns are those of steady shearing, which no kind of measurement fits."""
-    others = {"strain", "compliance", "relaxation_modulus", "storage_modulus", "loss_modulus"}
-    return {"shear_rate", "viscosity"} <= block.columns.keys() and not others & block.columns.keys()
+def _other_flow(block: Block, sheet: KindSheet) -> bool:
+    """Return whether a table is a flow curve, which tells another kind nothing."""
+    return (
+        sheet.name != _FLOW
+        and {"shear_rate", "viscosity"} <= block.columns.keys()
+        and (kind_sheet(_FLOW).decided(block))
+    )
+
+
+def _refusal(blocks: Sequence[Block], sheet: KindSheet) -> str:
+    """Say why no table is of a kind, and what to do."""
+    flows = [block for block in blocks if _other_flow(block, sheet)]
+    if flows:
+        return (
+            f"{flows[0].place}: shear rate and viscosity without strain or moduli are a flow curve, not {sheet.name}; "
+            f"--as {_FLOW} fits it"
+        )
+    most = max(blocks, key=lambda block: sum(sheet.column(block, need) is not None for need in sheet.needs))
+    few = f"{most.place}: fewer than {LEAST_ROWS} whole rows"
+    why = sheet.lacking(most) or (few if sheet.fits(most) else f"{most.place}: {sheet.mismatch(most)}")
+    return (
+        f"{why}; {sheet.name} needs {_needed(sheet)}. A column map (--columns) says which column is what"
+        + _not_understood(blocks)
+    )
+
+
+def _not_understood(blocks: Sequence[Block]) -> str:
+    """Return a line on the headings that were not understood; empty where there is none."""
+    unused = dict.fromkeys(f"{name!r}" for block in blocks for name in block.unused)
+    return f"\nnot used: {', '.join(unused)}" if unused else ""
 
 
 def measure_of(sheet: KindSheet) -> Callable[..., Measurement]:
@@ -97,18 +120,30 @@ def _rows(block: Block, sheet: KindSheet) -> int:
 
 def _likely_kind(blocks: Sequence[Block]) -> KindSheet:
     """Return the one kind whose columns a table has. Raises InputError where there is none, or several."""
-    guessed = [sheet for sheet in kind_sheets().values() if not sheet.only_asked]
-    likely = [sheet for sheet in guessed if any(sheet.fits(block) for block in blocks)]
+    sheets = kind_sheets().values()
+    likely = [sheet for sheet in sheets if any(sheet.decided(block) for block in blocks)] or [
+        sheet for sheet in sheets if not sheet.only_asked and any(sheet.likely(block) for block in blocks)
+    ]
     if len(likely) == 1:
         return likely[0]
-    names = [sheet.name for sheet in likely or kind_sheets().values()]
     headings = sorted({name for block in blocks for name in block.columns})
-    verb = "may be " if likely else "are of no kind there is: "
+    columns = f"the columns ({', '.join(headings) or 'none of a known name'})"
     problems = [why for block in blocks for why in block.problems.values()]
-    raise InputError(
-        f"the columns ({', '.join(headings) or 'none of a known name'}) {verb}{', '.join(names)}; say which with --as"
-        + (f"\n{problems[0]}" if problems else "")
-    )
+    ends = (f"\n{problems[0]}" if problems else "") + _not_understood(blocks)
+    if likely:
+        kinds = "; ".join(
+            f"{sheet.name}" + (f", if a column is {' or '.join(sheet.decided_by)}" if sheet.decided_by else "")
+            for sheet in likely
+        )
+        raise InputError(f"{columns} may be {kinds}; name the column so, or say which with --as{ends}")
+    near = sorted(sheets, key=lambda sheet: min(_lacks(block, sheet) for block in blocks))
+    needs = "; ".join(f"{sheet.name} needs {_needed(sheet)}" for sheet in near[:_NEAREST])
+    raise InputError(f"{columns} are of no kind there is ({', '.join(kind_sheets())}). The nearest: {needs}{ends}")
+
+
+def _lacks(block: Block, sheet: KindSheet) -> int:
+    """Count the columns of a kind that a table lacks."""
+    return sum(sheet.column(block, need) is None for need in sheet.needs)
 
 
 def _needed(sheet: KindSheet) -> str:

@@ -13,7 +13,7 @@ from scipy.stats import chi2, norm
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
 from tvimdesign.simulation.measurement.measure_files import measure_of
 
-QUICK = ["torque_angle", "pad", "frozen_torque", "amplitude_sweep", "relaxation"]
+QUICK = ["torque_angle", "pad", "frozen_torque", "amplitude_sweep", "relaxation", "flow_curve"]
 LONGER = ["release", "sine", "frequency_sweep", "temperature_ramp", "creep", "melt", "dsc", "heating_log"]
 SLOW = ["creep", "melt", "heating_log"]
 RARE = 1e-3

@@ -210,6 +210,56 @@ def test_a_gap_is_counted_and_drops_no_column(tmp_path: Path, gap: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("heading", "cells", "seconds"),
+    [
+        ("Timestamp", ["2026-11-26T23:59:58", "2026-11-27T00:00:03.5", "2026-11-27 00:01:00"], [0.0, 5.5, 62.0]),
+        ("Date/Time", ["26.11.2026 23:59:58", "27.11.2026 00:00:03", "27.11.2026 00:01:00"], [0.0, 5.0, 62.0]),
+        ("Time", ["03/04/2026 23:59", "03/05/2026 00:02", "03/05/2026 00:03"], [0.0, 180.0, 240.0]),
+        ("Time", ["23:59:58", "00:00:03", "00:01:00"], [0.0, 5.0, 62.0]),
+        ("Time", ["11:59:58 AM", "12:00:03 PM", "1:00:00 p.m."], [0.0, 5.0, 3602.0]),
+        ("Time [mm:ss]", ["0:58", "1:03", "1:06"], [0.0, 5.0, 8.0]),
+        ("Time (hh:mm)", ["0:58", "OPEN", "1:06"], [0.0, np.nan, 480.0]),
+    ],
+)  # fmt: skip
+def test_clock_times_are_seconds_from_the_first_row(
+    tmp_path: Path, heading: str, cells: list[str], seconds: list[float]
+) -> None:
+    rows = "\n".join(f"{cell};{i}" for i, cell in enumerate(cells))
+    (block,) = read(tmp_path, f"{heading};angle [deg]\n{rows}\n").blocks
+    assert block.values("time") == pytest.approx(seconds, nan_ok=True)
+
+
+def test_a_date_beside_its_time_of_day(tmp_path: Path) -> None:
+    text = "Date;Time;angle [deg]\n26.11.2026;23:59:58;1,5\n27.11.2026;00:00:03;2,5\n27.11.2026;00:00:13;4,0\n"
+    (block,) = read(tmp_path, text).blocks
+    assert block.values("time") == pytest.approx([0.0, 5.0, 15.0])
+
+
+@pytest.mark.parametrize(
+    ("cells", "said"),
+    [
+        (
+            ["0:58", "1:03"],
+            r"data.csv:2: column 'Time': '0:58' may be hh:mm or mm:ss; name the column 'time ",
+        ),
+        (["00:00:58", "noon"], r"data.csv:3: column 'Time': 'noon' is no clock time"),
+        (["31.02.2026 10:00:00", "31.02.2026 10:00:05"], "a day that is none"),
+    ],
+)
+def test_a_clock_time_that_is_none_is_refused(tmp_path: Path, cells: list[str], said: str) -> None:
+    rows = "\n".join(f"{cell};{i};{i}" for i, cell in enumerate(cells))
+    (block,) = read(tmp_path, f"Time;angle [deg];torque [N.m]\n{rows}\n").blocks
+    with pytest.raises(InputError, match=said):
+        block.complete(["time"])
+
+
+def test_of_two_columns_of_a_quantity_the_sample_s_counts(tmp_path: Path) -> None:
+    (block,) = read(tmp_path, "Furnace Temperature (°C);Sample Temperature (°C);t [s]\n9;1;0\n9;2;1\n9;3;2\n").blocks
+    assert block.columns["temperature"].heading == "Sample Temperature (°C)"
+    assert block.unused == ("Furnace Temperature (°C)",)
+
+
+@pytest.mark.parametrize(
     ("mapped", "said"),
     [
         ({"angel": 1}, "angel is no quantity"),

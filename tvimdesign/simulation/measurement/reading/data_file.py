@@ -15,13 +15,16 @@ from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
+from tvimdesign.simulation.measurement.reading.clock_times import clock_seconds, is_clock
 from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
-from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, unit_of
+from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, rank, unit_of
 from tvimdesign.simulation.measurement.reading.sheets import Row, Sheet, file_bytes, read_sheets
 from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blocks_of
 
 Array = NDArray[np.float64]
 _COLDEST = 1.0  # K; nothing that is measured here is as cold
+_LOWEST = 150.0
+"""K; a sample in a rheometer or a calorimeter for polymers is not as cold."""
 _NOTHING = {"", "-", "--", "---", "n/a", "na", "nan", "none", "nd", "no value", "#n/a", "#nv", "#value!", "#wert!",
             "#div/0!", "ol", "open", "****"}  # fmt: skip
 """Cells without a value, as instruments, loggers (OL, OPEN: no thermocouple) and spreadsheets write them."""
@@ -91,7 +94,7 @@ class Block:
         lines = [f"  lines {self.lines[0]} to {self.lines[1]}{title}: {rows} rows"]
         lines += [f"    {name}: {_range(column)}" for name, column in self.columns.items() if not uses or name in uses]
         lines += [f"    {name}: not read ({why})" for name, why in self.problems.items() if not uses or name in uses]
-        if self.unused and not uses:
+        if self.unused:
             lines.append(f"    not used: {', '.join(self.unused)}")
         if self.skipped:
             lines.append(f"    without a number: line {', '.join(map(str, self.skipped))}")
@@ -151,8 +154,15 @@ def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
         problems = {heading.quantity: why for heading in raw.headings if heading.quantity}
     raw = replace(raw, rows=good or raw.rows)
     unused = []
-    for i, heading in enumerate(columns.applied(raw.headings)):
-        if not heading.quantity or heading.quantity in columns_by_name or not good:
+    headings = columns.applied(raw.headings)
+    first = {heading.quantity: rank(heading) for heading in sorted(headings, key=_last_first) if heading.quantity}
+    for i, heading in enumerate(headings):
+        if (
+            not heading.quantity
+            or rank(heading) > first[heading.quantity]
+            or not good
+            or (heading.quantity in columns_by_name)
+        ):
             unused += [heading.text] if heading.text and not heading.text.startswith("column ") else []
             continue
         try:
@@ -166,6 +176,10 @@ def _block(raw: RawBlock, sheet: Sheet, file: str, columns: ColumnMap) -> Block:
     return Block(
         file, raw.title, lines, columns_by_name, tuple(unused), raw.settings, tuple(raw.skipped), unread, flagged
     )
+
+
+def _last_first(heading: Heading) -> int:
+    return -rank(heading) if heading.quantity else 0
 
 
 def _folded(text: str) -> str:
@@ -202,6 +216,13 @@ def _column(at: int, heading: Heading, raw: RawBlock, sheet: Sheet, file: str) -
         return None
     wanted = unit_of(heading.quantity)
     where = f"{file}:{raw.rows[0].line}: column {at + 1}, {heading.text!r}"
+    if wanted == "s" and any(map(is_clock, cells)):
+        lines = [row.line for row in raw.rows]
+        return Column(heading.quantity, heading.text, "s", clock_seconds(cells, _NOTHING, lines, heading.text, file))
+    if not heading.unit and known()["quantities"][heading.quantity].get("counted"):
+        heading = heading._replace(unit="1")
+    if not heading.unit and heading.quantity == "temperature" and _no_kelvins(cells, sheet):
+        heading = heading._replace(unit="degC")
     if not heading.unit:
         raise InputError(
             f"{where}, has no unit; write it into the heading, as in '{heading.text} [{wanted}]', or into a column map"
@@ -217,6 +238,11 @@ def _column(at: int, heading: Heading, raw: RawBlock, sheet: Sheet, file: str) -
     if heading.quantity.endswith("temperature") and np.nanmin(values) < _COLDEST:
         raise InputError(f"{where}: {np.nanmin(values):g} K is at absolute zero, or below; look at the column's unit")
     return Column(heading.quantity, heading.text, heading.unit, values)
+
+
+def _no_kelvins(cells: Sequence[str], sheet: Sheet) -> bool:
+    """Return whether temperatures without a unit are so low that they cannot be kelvins, but degrees Celsius."""
+    return min((value for cell in cells if (value := sheet.number(cell)) is not None), default=_LOWEST) < _LOWEST
 
 
 def _number(cell: str, line: int, at: int, sheet: Sheet, file: str) -> float:

@@ -16,11 +16,12 @@ _FILE = Path(__file__).with_name("headings.yaml")
 _IN_BRACKETS = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])]")
 _AFTER_SLASH = re.compile(r"([^/]*[^/\s.])\.?\s*/\s*(\S.*)")
 _IN_WORDS = re.compile(r"(.*\S)\s+in\s+(\S+)")
-_SUFFIX = re.compile(r"(.*[^\s_])[\s_]+([A-Za-z%°µ][^\s_]*)")
+_SUFFIX = re.compile(r"(.*[^\s_])[\s_]+([A-Za-z%°µ][^\s_]*|1/s)")
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z][a-z])")
 _WRITTEN_SMALL = {
     "nm": "N*m", "mnm": "mN*m", "degc": "degC", "c": "degC", "k": "K", "ma": "mA", "a": "A", "mv": "mV", "v": "V",
-    "w": "W", "mw": "mW", "pa": "Pa", "kpa": "kPa", "hz": "Hz", "n": "N",
+    "w": "W", "mw": "mW", "pa": "Pa", "kpa": "kPa", "hz": "Hz", "n": "N", "pas": "Pa*s", "mpas": "mPa*s",
+    "rads": "rad/s", "pct": "%", "percent": "%",
 }  # fmt: skip
 """Units as column names in programs have them."""
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
@@ -65,12 +66,26 @@ def heading(text: str, unit: str = "") -> Heading:
     """Read a heading such as `Storage Modulus`, `Time (s)`, `Temp./°C` or `G'`; `unit` is from a row of its own."""
     if unit or plain(text) in _by_name():
         return Heading(text, _quantity(text, read_unit(unit)), read_unit(unit))
-    for pattern in (_IN_BRACKETS, _AFTER_SLASH, _IN_WORDS):
+    fallback = Heading(text, "", "")
+    for pattern in (_IN_BRACKETS, _IN_WORDS, _AFTER_SLASH):
         match = pattern.fullmatch(text.strip().lstrip("#"))
         if match and is_unit(match[2]):
-            return Heading(text, _quantity(match[1], read_unit(match[2])), read_unit(match[2]))
+            candidate = Heading(text, _quantity(match[1], read_unit(match[2])), read_unit(match[2]))
+            if candidate.quantity:
+                return candidate
+            fallback = fallback if fallback.unit else candidate
     match = _SUFFIX.fullmatch(text.strip())
-    return (_with_suffix(text, match[1], match[2]) if match else None) or Heading(text, "", "")
+    return (_with_suffix(text, match[1], match[2]) if match else None) or fallback
+
+
+def rank(heading: Heading) -> int:
+    """Return the place of a heading's name among those of its quantity: of two columns, the first counts."""
+    names = [plain(name) for name in known()["quantities"][heading.quantity]["names"]]
+    text = plain(heading.text)
+    return next(
+        (i for i, name in enumerate(names) if text == name),
+        next((i for i, name in enumerate(names) if len(name) > 2 and text.startswith(name)), len(names)),
+    )
 
 
 def _with_suffix(text: str, name: str, suffix: str) -> Heading | None:
@@ -105,13 +120,14 @@ def read_unit(text: str) -> str:
     inner = inner.translate(_SUPERSCRIPTS).replace("µ", "u").replace("μ", "u")
     inner = re.sub(r"(?<=[A-Za-z])-(?=[A-Za-z])", "*", inner)
     inner = re.sub(r"^s\^?-1$", "1/s", inner)
+    inner = re.sub(r"^(m?)Pa\.?s(ec)?$", r"\1Pa*s", inner)
     return "1" if inner in _ALONE - {"°"} else inner
 
 
 def is_unit(text: str) -> bool:
     """Return whether a cell can be a unit: one in brackets, or one this package reads."""
     stripped = text.strip()
-    if not stripped or stripped in _ALONE or re.fullmatch(r"\[[^\]]*\]", stripped):
+    if not stripped or stripped in _ALONE or re.fullmatch(r"\[[^\]]*\]|[hms.:]*m+:s+[.s]*|h+:m+", stripped, re.I):
         return True
     return conversion(read_unit(stripped), "") is not None
 

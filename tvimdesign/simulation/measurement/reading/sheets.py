@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.simulation.measurement.reading.clock_times import is_clock, is_date
 
 LARGEST_FILE = 64_000_000
 WORKBOOKS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
@@ -74,8 +75,8 @@ class Sheet:
         return number(cell, self.decimal)
 
     def numbers(self, row: Row) -> int:
-        """Return cells of a row that are numbers."""
-        return sum(self.number(cell) is not None for cell in row.cells)
+        """Return cells of a row that are numbers or clock times."""
+        return sum(self.number(cell) is not None or is_clock(cell) for cell in row.cells)
 
 
 def file_bytes(path: Path) -> bytes:
@@ -178,9 +179,10 @@ def _counts(lines: Sequence[str], separator: str, decimal: str) -> tuple[int, in
     together, wrong = 0, 0
     for line in lines:
         cells = [cell for cell in cells_of(line, separator) if cell]
-        good = sum(number(cell, decimal) is not None for cell in cells)
+        good = sum(number(cell, decimal) is not None or is_clock(cell) for cell in cells)
         together += good if good >= 2 else 0
-        wrong += sum(number(cell, decimal) is None and _BAD.fullmatch(cell) is not None for cell in cells)
+        bad = [cell for cell in cells if number(cell, decimal) is None and not is_date(cell)]
+        wrong += sum(_BAD.fullmatch(cell) is not None for cell in bad)
     return together, wrong
 
 

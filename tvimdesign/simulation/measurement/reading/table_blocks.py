@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tvimdesign.base.errors import InputError
@@ -14,6 +14,8 @@ _LEAST_NUMBERS = 2
 _HEADING_ROWS = 4
 _MOST = 0.6
 _MOST_COLUMNS = 100
+_SIGNAL = re.compile(r"sig[0-9]+")
+"""Lines before a table that name its columns, as in `Sig1 Time (min)` (TA Universal Analysis)."""
 _PAIRS = re.compile(r"\s*([A-Za-z][\w ]*?)\s*=\s*([^;=]*);?")
 
 
@@ -44,7 +46,7 @@ def blocks_of(sheet: Sheet, file: str, ending: str, *, by_place: bool = False) -
             titles += [(rows[begin].line, setting_text)] if setting_text else []
             begin += 1
             continue
-        headings, head_line = _headings(sheet, begin, file, ending, by_place=by_place)
+        headings, head_line = _headings(sheet, begin, file, ending, settings, by_place=by_place)
         title = [text for line, text in titles if line < head_line][-1]
         end, skipped = _end(sheet, begin, file)
         data_rows = [row for row in rows[begin:end] if row.line not in skipped]
@@ -105,13 +107,16 @@ def _setting_text(row: Row, settings: dict[str, str]) -> str:
         name, value = pair
         unit = re.search(r"/\s*(\w+)\s*:?$", name)
         key = setting_name(name) or setting_name(name[: unit.start()] if unit else name)
+        key = plain(name) if _SIGNAL.fullmatch(plain(name)) else key
         if key:
             settings[key] = f"{value} {unit[1]}" if unit else value
         return value if plain(name) in {"step name", "test type", "action name"} else ""
     return text if len(cells) == 1 and re.search(r"[A-Za-z]{3}", text) and not text.startswith(("[", "#")) else ""
 
 
-def _headings(sheet: Sheet, begin: int, file: str, ending: str, *, by_place: bool) -> tuple[list[Heading], int]:
+def _headings(
+    sheet: Sheet, begin: int, file: str, ending: str, settings: Mapping[str, str], *, by_place: bool
+) -> tuple[list[Heading], int]:
     """Return headings of the numbers that begin at a row, and the line where they begin.
 
     Names and units are from the rows above it, or the format's own.
@@ -126,6 +131,8 @@ def _headings(sheet: Sheet, begin: int, file: str, ending: str, *, by_place: boo
         if not {column.quantity for column in heads} >= {name for name, _ in default}:
             heads = [heading(f"{name} [{unit}]") for name, unit in default]
         return heads + [Heading(f"column {i}", "", "") for i in range(len(heads) + 1, _MOST_COLUMNS)], line
+    if not heads and "sig1" in settings:
+        return [heading(settings.get(f"sig{i}", "")) for i in range(1, len(rows[begin].cells) + 1)], line
     if not heads and by_place:
         return [Heading(f"column {i}", "", "") for i in range(1, len(rows[begin].cells) + 1)], line
     if not heads:

@@ -181,13 +181,3 @@ def test_no_time_lies_far_outside_what_a_creep_sees(tmp_path: Path, end: float) 
     assert result.fit.value("plateau_modulus") == pytest.approx(20600.0, rel=1e-3)
     assert bool(result.record_values) == (end > MODES[0][0])
     assert any("the viscosity is extrapolated" in note for note in result.notes) == (end < MODES[0][0])
-
-
-@pytest.mark.parametrize("kind", ["", "relaxation", "creep", "melt"])
-def test_a_flow_curve_is_told_apart(tmp_path: Path, kind: str) -> None:
-    rate = np.geomspace(0.1, 100.0, 12)
-    path = csv(tmp_path / "f.csv", time__s=np.arange(12.0), shear_rate__1_per_s=rate, stress__Pa=300.0 * rate,
-               viscosity__Pa_s=np.full(12, 300.0))  # fmt: skip
-    path.write_text(path.read_text().replace("[Pa s]", "[Pa.s]"))
-    with pytest.raises(InputError, match=r"f\.csv:2: shear rate and viscosity .* are a flow curve"):
-        measured(path, kind)

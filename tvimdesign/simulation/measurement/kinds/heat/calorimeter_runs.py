@@ -17,6 +17,7 @@ _LEAST_SPAN = 10.0  # K; what changes less while it is heated or cooled is on it
 _LEAST_ROWS = 20
 _MOST_ROWS = 300
 _WINDOW = 9
+TYPICAL_HEAT = 70e3  # J/kg
 
 
 @dataclass(frozen=True)
@@ -40,8 +41,14 @@ class Run:
 
 
 def runs_of(blocks: Sequence[Block], settings: Settings) -> tuple[list[Run], bool]:
-    """Return all runs, exothermic positive, and whether the files have it so. Raises InputError."""
+    """Return all runs, exothermic positive, and whether the files have it so. Raises InputError.
+
+    Where no mass is known, heat is per the mass that would have `TYPICAL_HEAT`.
+    """
     runs = [run for block in blocks for run in _runs(block, settings)]
+    if runs and not mass_known(blocks, settings):
+        mass = max(float(np.trapezoid(np.abs(_bent(run)), run.time)) for run in runs) / TYPICAL_HEAT
+        runs = [replace(run, heat=run.heat / (mass or 1.0)) for run in runs]
     if not runs:
         raise InputError("no part of the data is cooled, held or heated for long enough to be fitted")
     sign = _exothermic(runs)
@@ -54,7 +61,7 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
     if len(time) < _LEAST_ROWS:
         return []
     if which == "heat_flow":
-        heat = heat / _mass(block, settings)
+        heat = heat / (_mass(block, settings) or 1.0)
     rates = np.gradient(temperature, time)
     smooth = np.convolve(np.pad(rates, _WINDOW // 2, mode="edge"), np.ones(_WINDOW) / _WINDOW, mode="valid")
     threshold = max(_LEAST_RATE, 0.2 * float(np.median(np.abs(smooth))))
@@ -83,18 +90,30 @@ def _at_new_times(block: Block, which: str) -> list[Array]:
     return [column[new] for column in columns]
 
 
-def _mass(block: Block, settings: Settings) -> float:
+def _mass(block: Block, settings: Settings) -> float | None:
     mass = settings.get("sample_mass", block.number("sample_mass"))
-    if mass is None:
-        raise InputError(f"{block.place}: the heat flow is not per mass; say --set sample_mass='5.2 mg'")
-    return float(mass)
+    return None if mass is None else float(mass)
+
+
+def mass_known(blocks: Sequence[Block], settings: Settings) -> bool:
+    """Return whether the heat of tables is per mass. Raises InputError where that of some is."""
+    known = ["specific_heat_flow" in block.columns or _mass(block, settings) is not None for block in blocks]
+    if any(known) and not all(known):
+        place = blocks[known.index(False)].place
+        raise InputError(f"{place}: the heat flow is not per mass, as in the others; say --set sample_mass='5.2 mg'")
+    return all(known)
+
+
+def _bent(run: Run) -> Array:
+    """Return the heat above the line between its ends."""
+    return np.asarray(run.heat - np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]]))
 
 
 def _exothermic(runs: Sequence[Run]) -> float:
     """Return +1 where the files count heat given off as positive: freezing gives it off, melting takes it up."""
     votes = 0.0
     for run in runs:
-        bent = run.heat - np.interp(run.time, run.time[[0, -1]], run.heat[[0, -1]])
+        bent = _bent(run)
         peak = float(bent[np.argmax(np.abs(bent))])
         votes += peak if run.way != "heated" else -peak
     return 1.0 if votes >= 0.0 else -1.0

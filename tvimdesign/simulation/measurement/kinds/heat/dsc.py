@@ -16,16 +16,21 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers import polymer, transitions
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
+from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import TYPICAL_HEAT, Run, mass_known, runs_of
 from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 
-_TYPICAL_HEAT = 70e3  # J/kg
 _RECORD = ("latent_heat", "melting_start", "melting_end", "crystallization_half_time", "nucleation_constant",
            "avrami_exponent")  # fmt: skip
 _HALF_TIMES = np.geomspace(3.0, 3000.0, 13)  # s
 _CONSTANTS = np.geomspace(3e4, 6e5, 11)  # K^2
+_STEPS = (0.2, 4.0)
+"""Range of the step of the specific heat where no mass is known."""
+_NO_MASS = (
+    "The heat flow is not per mass, and no file says the sample's: the heat of melting does not follow, all else does. "
+    "--set sample_mass='5.2 mg' gives it."
+)
 _SMOOTHING = 500.0  # J/kg, of `Melting`; the equations used here do not depend on it
 
 
@@ -33,7 +38,16 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     """Fit runs of calorimetry, all together. Raises InputError for what lacks."""
     runs, upwards = runs_of(blocks, settings)
     freezing, melting = [run for run in runs if run.way != "heated"], [run for run in runs if run.way == "heated"]
-    parameters = [Parameter("latent_heat", "kJ/kg", "Heat of melting, of the whole sample's mass", _TYPICAL_HEAT)]
+    per_mass = mass_known(blocks, settings)
+    parameters = [
+        Parameter("latent_heat", "kJ/kg", "Heat of melting, of the whole sample's mass", TYPICAL_HEAT,
+                  nuisance=not per_mass)
+    ]  # fmt: skip
+    if not per_mass:
+        parameters.append(
+            Parameter("capacity_step", "1", "Step of the specific heat over what the mass that is taken gives", 1.0,
+                      positive=False, least=_STEPS[0], most=_STEPS[1], nuisance=True)
+        )  # fmt: skip
     if melting:
         parameters += _window_start(melting)
     if freezing:
@@ -67,7 +81,8 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
             ("equilibrium_melting_temperature", "degC"), ("glass_transition", "degC"), ("transport_energy", "kJ/mol"),
         )},
     }  # fmt: skip
-    return Measurement(fit, tuple(_notes(runs, upwards)), values, {}, chosen if freezing else {})
+    notes = [*_notes(runs, upwards), *([] if per_mass else [_NO_MASS])]
+    return Measurement(fit, tuple(notes), values, {}, chosen if freezing else {})
 
 
 def kinetics_of(values: Values, settings: Settings) -> transitions.Kinetics:
@@ -81,8 +96,9 @@ def kinetics_of(values: Values, settings: Settings) -> transitions.Kinetics:
 
 def melting_of(values: Values, settings: Settings) -> polymer.Melting:
     """Return the melting with the values that are fitted."""
+    solid, molten = settings["specific_heat_solid"], settings["specific_heat_melt"]
     return polymer.Melting(
-        settings["specific_heat_solid"], settings["specific_heat_melt"], values["latent_heat"],
+        solid, solid + values.get("capacity_step", 1.0) * (molten - solid), values["latent_heat"],
         values.get("melting_start", settings["melting_start"]),
         values["melting_start"] + values["melting_width"] if "melting_width" in values else settings["melting_end"],
         _SMOOTHING,

@@ -24,13 +24,13 @@ from tvimdesign.simulation.measurement.reading.data_file import Array
 
 _TOGETHER = 1.0
 """Tests within so many kelvin are of one temperature."""
-_BETTER = 6.0
+BETTER = 6.0
 """By how much Schwarz's criterion has to fall for one mode more: strong evidence (Kass and Raftery, 1995)."""
 _UNTOLD = (
     "The files do not say their temperature: the spectrum is that of their temperature, whichever it was. No record "
     "is written; --set temperature=... says it."
 )
-_USUAL_ENERGY = 40e3
+USUAL_ENERGY = 40e3
 """J/mol, to start from: in the middle of what polymers' melts have."""
 _FAR = 0.15
 """Shift factors may miss Arrhenius' law by this share of themselves and it is still of use; more, and it is not."""
@@ -144,7 +144,7 @@ def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
     ramps = any(test.ramp is not None for test in tests)
     if known is None and not ramps:
         return Melt(tests, temperatures, min(temperatures, key=lambda temperature: abs(temperature - wanted)))
-    return Melt(tests, temperatures, wanted, _USUAL_ENERGY if known is None else known, known)
+    return Melt(tests, temperatures, wanted, USUAL_ENERGY if known is None else known, known)
 
 
 def _best(melt: Melt, count: int, first: BestFit, *, profiles: bool) -> tuple[Fit, list[str]]:
@@ -170,7 +170,7 @@ def shift_name(temperature: float) -> str:
 
 def guessed_shift(temperature: Any, reference: float) -> Any:
     """Return the shift factor to start from."""
-    return 1.0 if np.isnan(reference) else polymer.arrhenius_shift(temperature, reference, _USUAL_ENERGY)
+    return 1.0 if np.isnan(reference) else polymer.arrhenius_shift(temperature, reference, USUAL_ENERGY)
 
 
 def _fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
@@ -179,22 +179,22 @@ def _fewest_modes(melt: Melt, most: int) -> tuple[int, BestFit]:
     Raises InputError where there are fewer values than one mode has parameters.
     """
     chosen, best = 1, best_fit(_problem(melt, 1))
-    least = _criterion(best, melt)
+    least = criterion(best, melt.values)
     for count in range(2, most + 1):
         problem = _problem(melt, count)
         if len(problem.parameters) >= melt.values:
             break
         candidate = best_fit(problem)
-        criterion = _criterion(candidate, melt)
-        if criterion > least - _BETTER:
+        candidate_criterion = criterion(candidate, melt.values)
+        if candidate_criterion > least - BETTER:
             break
-        chosen, best, least = count, candidate, criterion
+        chosen, best, least = count, candidate, candidate_criterion
     return chosen, best
 
 
-def _criterion(fit: BestFit, melt: Melt) -> float:
+def criterion(fit: BestFit, values: int) -> float:
     """Return Schwarz's criterion, less is better [Sch]."""
-    return _misfit(fit) + len(fit.problem.parameters) * float(np.log(melt.values))
+    return _misfit(fit) + len(fit.problem.parameters) * float(np.log(values))
 
 
 def _misfit(fit: BestFit) -> float:

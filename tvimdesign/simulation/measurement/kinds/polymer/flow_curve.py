@@ -1,0 +1,164 @@
+"""Flow curves: steady viscosity over shear rate, and its plateau at low rates.
+
+eta = eta_0 a_T (1 + (lambda a_T rate)^a)^((n - 1)/a): the law of Carreau and Yasuda [BAH], a = 2 Carreau's own. A melt
+that does not thin has eta_0 alone. Parameters are added while Schwarz's criterion falls as for a spectrum's modes. Each
+temperature but the reference has a shift a_T, by Arrhenius' law where there are several. Source: [BAH] Bird, Armstrong
+and Hassager, Dynamics of Polymeric Liquids 1, 2nd ed., eq. 4.1-9 and table 4.5-1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tvimdesign.base.errors import InputError
+from tvimdesign.physics.polymers import polymer
+from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
+from tvimdesign.simulation.measurement.fitting.fit import BestFit, best_fit, with_intervals
+from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
+from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, rows_of
+from tvimdesign.simulation.measurement.kinds.polymer.melt_spectrum import BETTER, USUAL_ENERGY, criterion
+from tvimdesign.simulation.measurement.kinds.polymer.melt_tests import temperature_of, title_of
+from tvimdesign.simulation.measurement.reading.data_file import Array, Block
+from tvimdesign.simulation.working_cycle.casadi_setup import ca
+
+_CARREAU = 2.0
+_TOGETHER = 1.0
+"""Curves within so many kelvin are of one temperature."""
+_SEEN = 0.9
+"""Share of the plateau that a row must reach for the plateau not to be extrapolated."""
+_LAWS = ("no thinning", "Carreau's law", "the law of Carreau and Yasuda")
+
+
+class _Curves:
+    """Flow curves of one melt, each at a temperature of its own."""
+
+    def __init__(self, blocks: Sequence[Block], settings: Settings) -> None:
+        self.where, self.temperatures, self.rates, self.viscosities = [], [], [], []
+        for block in blocks:
+            temperature = temperature_of(block, settings)
+            self.where.append(title_of(block, temperature))
+            self.temperatures.append(temperature)
+            rate, viscosity = _curve(block)
+            self.rates.append(rate)
+            self.viscosities.append(viscosity)
+        untold = np.isnan(self.temperatures)
+        if np.any(untold) and not np.all(untold):
+            raise InputError(
+                f"{self.where[int(np.argmax(untold))]}: the file does not say its temperature, as others do; "
+                "--set temperature=..."
+            )
+        middle = sorted(self.temperatures)[len(self.temperatures) // 2]
+        self.reference = settings.get("reference_temperature", middle)
+        self.energy = settings.get("flow_activation_energy")
+        self.several = bool(np.ptp(self.temperatures) > _TOGETHER) if len(blocks) > 1 else False
+
+    @property
+    def values(self) -> int:
+        """Values measured."""
+        return sum(map(len, self.rates))
+
+    def shift(self, temperature: float, values: Values) -> Any:
+        """Return the factor a_T of a curve."""
+        if np.isnan(temperature) or abs(temperature - self.reference) < _TOGETHER:
+            return 1.0
+        energy = values.get("flow_activation_energy", self.energy)
+        if energy is None:
+            raise InputError(
+                f"reference_temperature is not the {temperature - ZERO_CELSIUS:.0f} degC of the curve: "
+                "--set flow_activation_energy=... shifts it, or leave the reference out"
+            )
+        return polymer.arrhenius_shift(temperature, self.reference, energy)
+
+    def problem(self, law: int) -> Problem:
+        """Return the problem of a law of `_LAWS`."""
+        most, rates = max(float(np.max(eta)) for eta in self.viscosities), np.concatenate(self.rates)
+        thinned = min(float(np.min(eta)) for eta in self.viscosities) / most
+        parameters = [Parameter("zero_shear_viscosity", "Pa*s", "Viscosity of slow flow", most)]
+        if law:
+            middle = float(1.0 / np.sqrt(rates.min() * rates.max()))
+            parameters += [
+                Parameter("thinning_time", "s", "One over the rate from which on it thins", middle),
+                Parameter("thinning_power", "1", "Power n: viscosity goes with the rate to n - 1",
+                          float(np.clip(thinned, 0.3, 0.7)), positive=False, least=-0.5, most=1.0),
+            ]  # fmt: skip
+        if law > 1:
+            parameters.append(Parameter("corner", "1", "Yasuda's a: sharpness of the bend", 1.0, least=0.1, most=10.0))
+        if self.several and self.energy is None:
+            parameters.append(
+                Parameter("flow_activation_energy", "kJ/mol", "Of the shift with temperature", USUAL_ENERGY)
+            )
+        return Problem(parameters, [self._channel(i) for i in range(len(self.rates))])
+
+    def _channel(self, i: int) -> Channel:
+        rate = ca.DM(self.rates[i])
+
+        def predicted(values: Values) -> Any:
+            shift = self.shift(self.temperatures[i], values)
+            return shift * carreau(rate * shift, values)
+
+        return Channel(f"viscosity of {self.where[i]}", "Pa*s", self.viscosities[i], predicted, self.rates[i],
+                       "shear rate", "1/s", relative=True, noise_of="viscosity")  # fmt: skip
+
+
+def carreau(rate: Any, values: Values) -> Any:
+    """Return the viscosity [Pa s] at shear rates [1/s]."""
+    if "thinning_time" not in values:
+        return values["zero_shear_viscosity"] * (1.0 + 0.0 * rate)
+    corner = values.get("corner", _CARREAU)
+    bend = 1.0 + (values["thinning_time"] * rate) ** corner
+    return values["zero_shear_viscosity"] * bend ** ((values["thinning_power"] - 1.0) / corner)
+
+
+def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
+    """Fit flow curves of one melt, together. Raises InputError for what lacks."""
+    curves = _Curves(blocks, settings)
+    law, best = _simplest(curves)
+    fit = with_intervals(best, profiles=profiles)
+    zero = fit["zero_shear_viscosity"]
+    notes = [f"{_LAWS[law][0].upper()}{_LAWS[law][1:]}: one parameter more would not better the fit by what it costs."]
+    seen = max(
+        float(np.max(eta)) / (zero.value * float(curves.shift(at, {e.name: e.value for e in fit.parameters})))
+        for at, eta in zip(curves.temperatures, curves.viscosities, strict=True)
+    )
+    if seen < _SEEN:
+        notes.append(
+            f"The slowest row has {100.0 * seen:.0f} % of the plateau: zero_shear_viscosity is extrapolated, and no "
+            "record is written. Measure at lower rates."
+        )
+        return Measurement(fit, tuple(notes))
+    if np.isnan(curves.temperatures).any():
+        notes.append("The file does not say its temperature: no record is written; --set temperature=... says it.")
+        return Measurement(fit, tuple(notes))
+    notes.append("The record has the viscosity; its plateau modulus stays that of the record it is based on.")
+    values = {"zero_shear_viscosity": zero}
+    values |= {e.name: e for e in fit.parameters if e.name == "flow_activation_energy"}
+    return Measurement(fit, tuple(notes), values, {}, {"melt_reference_temperature": (curves.reference, "degC")})
+
+
+def _simplest(curves: _Curves) -> tuple[int, BestFit]:
+    """Return the law up to which more parameters better Schwarz's criterion, and its fit."""
+    fits: list[BestFit] = []
+    for law in range(len(_LAWS)):
+        problem = curves.problem(law)
+        if curves.values > len(problem.parameters) + 1 or not fits:
+            fits.append(best_fit(problem))
+    criteria = [criterion(fit, curves.values) for fit in fits]
+    chosen = 0
+    for law in range(1, len(fits)):
+        chosen = law if criteria[law] < criteria[chosen] - BETTER else chosen
+    return chosen, fits[chosen]
+
+
+def _curve(block: Block) -> tuple[Array, Array]:
+    """Return shear rates [1/s] and viscosities [Pa s] above zero, rates rising. Raises InputError for too few."""
+    which = "viscosity" if block.complete(["viscosity"]) else "stress"
+    rate, other = (np.abs(column) for column in rows_of(block, ["shear_rate", which]))
+    good = (rate > 0.0) & (other > 0.0)
+    rate, other = rate[good], other[good]
+    if len(rate) == 0:
+        raise InputError(f"{block.place}: no row has a shear rate and a {which} that are not zero")
+    order = np.argsort(rate, kind="stable")
+    return rate[order], (other if which == "viscosity" else other / rate)[order]
