@@ -58,10 +58,17 @@ def test_requirements_say_what_holds(result: tvim.Result) -> None:
     assert result.feasible
 
 
-def test_what_its_study_accepts_is_told(result: tvim.Result) -> None:
+def test_a_result_tells_what_binds_and_what_is_accepted(result: tvim.Result) -> None:
     assert result.status == "optimal"
     assert result.accepting == ("structure_temperature_margin",)
     assert result.above_rating == ()
+    why = result.why()
+    assert any("spring_stiffness" in sentence and "costs" in sentence for sentence in why.sentences)
+    table = why.table()
+    binds = table[table.stands == "binds"]
+    assert len(binds) == len(why.sentences)
+    assert {"module_mass", "response_time"} <= set(table.columns)
+    assert "<p>" in why._repr_html_()
 
 
 @pytest.mark.slow
@@ -76,16 +83,6 @@ def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result
     assert soft.measure_first in {one["name"] for one in result.uncertainty()["unmeasured"]}
     assert result.uncertainty() is result.data["uncertainty"]
     assert result.uncertainty()["parts_yield"] != result.uncertainty()["ranges_hold"]
-
-
-def test_why_names_what_binds(result: tvim.Result) -> None:
-    why = result.why()
-    assert any("spring_stiffness" in sentence and "costs" in sentence for sentence in why.sentences)
-    table = why.table()
-    binds = table[table.stands == "binds"]
-    assert len(binds) == len(why.sentences)
-    assert {"module_mass", "response_time"} <= set(table.columns)
-    assert "<p>" in why._repr_html_()
 
 
 def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result) -> None:
@@ -161,14 +158,11 @@ def test_no_design_is_an_error_that_has_the_closest_one() -> None:
     assert closest.plots == []
 
 
-def test_a_notebook_shows_what_was_asked_and_what_came_out(result: tvim.Result) -> None:
+def test_a_notebook_and_show_print_what_a_run_prints(result: tvim.Result, capsys: pytest.CaptureFixture[str]) -> None:
     shown = result._repr_html_()
     assert "spring_stiffness &gt;= 5.2 N·m/rad" in shown
     assert "optimal" in shown
     assert str(result["module_mass"]) in shown
-
-
-def test_show_prints_what_a_run_prints(result: tvim.Result, capsys: pytest.CaptureFixture[str]) -> None:
     result.show()
     assert "The paper's module, re-optimised" in capsys.readouterr().out
 

@@ -12,19 +12,13 @@ import tvimdesign as tvim
 FILE = ROOT / "studies/paper_shear.yaml"
 
 
-def test_a_path_may_be_text() -> None:
+def test_studies_are_files_by_path_or_shipped_name() -> None:
     from tvimdesign.study import read_study
 
     assert read_study(str(FILE)) == read_study(FILE) == tvim.load(str(FILE)).resolved == tvim.load(FILE).resolved
-
-
-def test_a_shipped_study_is_the_file_s() -> None:
     assert tvim.example("paper_shear").resolved == tvim.load(FILE).resolved
     with pytest.raises(tvim.InputError, match="did you mean 'paper_shear'"):
         tvim.example("paper_sheer")
-
-
-def test_no_such_file_is_an_input_error() -> None:
     with pytest.raises(tvim.InputError, match="no such file"):
         tvim.load("nowhere.yaml")
     with pytest.raises(tvim.InputError, match="no such file"):
@@ -91,16 +85,16 @@ def test_copies_are_changed_and_the_study_is_not(study: tvim.Study) -> None:
     assert study.resolved == before
 
 
-def test_taking_away(study: tvim.Study) -> None:
+def test_a_copy_changes_what_its_paths_name(study: tvim.Study) -> None:
     assert "current" not in study.vary(current=None).resolved.vary
     assert "holding_torque" not in {one.output for one in study.require(holding_torque=None).resolved.require}
     assert "stroke" not in study.set(stroke=None).resolved.module
-
-
-def test_paths_are_set_as_they_stand(study: tvim.Study) -> None:
     changed = study.set({"operating_points.hot.temperature": "90 degC", "solver.starts": 1}).resolved
     assert changed.operating_points["hot"]["temperature"] == pytest.approx(363.15)
     assert changed.solver.starts == 1
+    with pytest.raises(tvim.StudyError) as caught:
+        study.set(pcl_thickness="1,2 mm").check()
+    assert str(caught.value).startswith("study.set(pcl_thickness='1,2 mm'): module.pcl_thickness: '1,2 mm': a decimal")
 
 
 def test_a_copy_may_be_incomplete_until_it_is_used() -> None:
@@ -108,12 +102,6 @@ def test_a_copy_may_be_incomplete_until_it_is_used() -> None:
     with pytest.raises(tvim.StudyError, match="`minimize` is missing"):
         study.check()
     assert study.minimize("module_mass").resolved.task == "optimize"
-
-
-def test_a_wrong_copy_names_the_call(study: tvim.Study) -> None:
-    with pytest.raises(tvim.StudyError) as caught:
-        study.set(pcl_thickness="1,2 mm").check()
-    assert str(caught.value).startswith("study.set(pcl_thickness='1,2 mm'): module.pcl_thickness: '1,2 mm': a decimal")
 
 
 def test_check_refuses_what_bounds_prove_impossible(study: tvim.Study) -> None:

@@ -1,14 +1,19 @@
-"""A sweep's cells are the designs that its studies have on their own, in the order of its axes."""
+"""A sweep's cells are the designs that its studies have on their own; progress shows where it is seen."""
 
 from __future__ import annotations
 
 import math
+import sys
+import threading
 from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import tvimdesign as tvim
+from tvimdesign.api.notebook import in_notebook, shown_progress
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM
 
 EVALUATED = {"coil_count": [3.0, 3.5], "wire_diameter": ["2 mm", "2.4 mm"]}
@@ -50,7 +55,7 @@ def test_a_warm_cell_is_what_its_study_has_from_every_start(optimised: tvim.Swee
         assert own <= others * (1 + 1e-5)
 
 
-def test_evaluated_cells_are_those_of_single_evaluations(grid: tvim.Sweep[tvim.Study]) -> None:
+def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Sweep[tvim.Study]) -> None:
     table = grid.table("spring_stiffness", "module_mass")
     assert table[["coil_count", "wire_diameter"]].to_numpy().tolist() == [
         [pytest.approx(n), pytest.approx(d)] for n in (3.0, 3.5) for d in (2.0, 2.4)
@@ -58,15 +63,9 @@ def test_evaluated_cells_are_those_of_single_evaluations(grid: tvim.Sweep[tvim.S
     alone = tvim.example("paper_as_published").set(coil_count=3.5, wire_diameter="2.4 mm").evaluate(progress=False)
     assert table.spring_stiffness[3] == pytest.approx(alone["spring_stiffness"].value, rel=1e-12)
     assert grid.warm_solves == 0
-
-
-def test_stiffness_goes_with_the_fourth_power_of_the_wire_over_the_coils(grid: tvim.Sweep[tvim.Study]) -> None:
     table = grid.table("spring_stiffness")
     shape = table.wire_diameter**4 / table.coil_count
     assert np.ptp(table.spring_stiffness / shape) < 1e-9 * float((table.spring_stiffness / shape).iloc[0])
-
-
-def test_units_stand_beside_the_table(grid: tvim.Sweep[tvim.Study]) -> None:
     units = grid.table("module_mass").attrs["units"]
     assert units == {"coil_count": "1", "wire_diameter": "mm", "module_mass": "g"}
     assert "wire_diameter [mm]" in grid._repr_html_()
@@ -142,3 +141,62 @@ def test_workers_and_a_folder_give_the_table_of_this_process(grid: tvim.Sweep[tv
         kept.table("spring_mass")
     with pytest.raises(tvim.InputError, match="name it with out="):
         study.sweep(EVALUATED, workers=2)
+
+
+@pytest.fixture
+def notebook(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """A kernel of which nothing is there but what progress asks for; returns what it shows."""
+    said: list[str] = []
+
+    def note(data: dict[str, str], **how: bool) -> Any:
+        assert how["raw"]
+        said.append(data["text/plain"])
+        return SimpleNamespace(update=note)
+
+    kernel, display = ModuleType("IPython"), ModuleType("IPython.display")
+    monkeypatch.setattr(kernel, "get_ipython", lambda: SimpleNamespace(kernel=object()), raising=False)
+    monkeypatch.setattr(display, "display", note, raising=False)
+    monkeypatch.setitem(sys.modules, "IPython", kernel)
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+    return said
+
+
+def test_a_notebook_s_line_is_empty_in_the_end_and_where_not_wanted(notebook: list[str]) -> None:
+    assert in_notebook()
+    tvim.example("paper_as_published").evaluate()
+    assert "... simulating one working cycle" in notebook
+    assert notebook[-1] == ""
+    notebook.clear()
+    tvim.example("paper_as_published").evaluate(progress=False)
+    assert notebook == []
+
+
+def test_the_line_is_emptied_after_an_error_too(notebook: list[str]) -> None:
+    def work() -> None:
+        with shown_progress(True) as say:
+            say("working")
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        work()
+    assert notebook == ["...", "... working", ""]
+
+
+def test_a_pipe_and_a_thread_see_nothing(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    study = tvim.example("paper_as_published")
+    with shown_progress(True) as say:
+        say("working")
+    assert capfd.readouterr() == ("", "")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    failed: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            study.evaluate()
+        except BaseException as error:
+            failed.append(error)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert failed == []

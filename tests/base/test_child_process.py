@@ -1,12 +1,28 @@
-"""A child is gone when its parent is, killed or not, and so are the children it has forked."""
+"""Child processes: ended with their parent and with all that they started, and limited in processor time."""
 
 import os
 import signal
 import subprocess
 import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+import psutil
+import pytest
 from support import ROOT, are_gone, is_at_work
+
+from tvimdesign.base import processes
+from tvimdesign.base.processes import (
+    Niceness,
+    ProcessorLimit,
+    ProcessorTimeError,
+    communicate,
+    end_process_tree,
+    set_low_priority,
+    set_lower_priority,
+)
 
 CHILD = """
 import os, sys, time
@@ -93,3 +109,126 @@ def test_a_pipe_ends_a_child_if_the_kernel_cannot(tmp_path: Path) -> None:
     if not gone:
         os.kill(child, signal.SIGKILL)
     assert gone
+
+
+TREE_CHILD = "import time; time.sleep(600)"
+TREE_PARENT = f"""
+import subprocess, sys, time
+others = [subprocess.Popen([sys.executable, "-c", {TREE_CHILD!r}], start_new_session=apart) for apart in (False, True)]
+print(*(other.pid for other in others), flush=True)
+time.sleep(600)
+"""
+
+
+def test_descendants_end_with_their_process_and_a_gone_one_is_none() -> None:
+    process = subprocess.Popen([sys.executable, "-c", TREE_PARENT], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    others = [psutil.Process(int(number)) for number in process.stdout.readline().split()]
+    assert [is_at_work(other.pid) for other in others] == [True, True]
+    end_process_tree(process.pid)
+    process.stdout.close()
+    assert are_gone([process.pid, *(other.pid for other in others)])
+    assert process.wait() != 0
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    process.wait()
+    end_process_tree(process.pid)
+
+
+def test_a_process_that_gives_way_and_what_it_starts_are_behind_all_others() -> None:
+    code = (
+        "import subprocess, sys; sys.stdin.readline(); "
+        "print(subprocess.run([sys.executable, '-c', 'import psutil; print(psutil.Process().nice())'], "
+        "capture_output=True, text=True).stdout)"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as item:
+        set_low_priority(item.pid)
+        message, _ = item.communicate("go on\n")
+    assert int(message) > psutil.Process().nice()
+    set_low_priority(item.pid)  # it has ended: nobody is to give way
+
+
+def test_who_gives_way_a_little_gives_way_further_and_others_do_not() -> None:
+    with subprocess.Popen([sys.executable, "-c", "import sys; sys.stdin.read()"], stdin=subprocess.PIPE) as item:
+        held = psutil.Process(item.pid)
+        set_lower_priority(item.pid)
+        assert held.nice() == psutil.Process().nice()
+        set_low_priority(item.pid, Niceness.LOW)
+        little = held.nice()
+        set_lower_priority(item.pid)
+        assert psutil.Process().nice() < little <= held.nice()
+        set_low_priority(item.pid, Niceness.SOME)
+        last = held.nice()
+        set_lower_priority(item.pid)
+        assert held.nice() == last
+        item.communicate()
+
+
+BURN = "while True: pass"
+FORKED = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {BURN!r}])"
+SLEEP = "import time; time.sleep(600)"
+
+
+@contextmanager
+def _running(code: str) -> Iterator[subprocess.Popen[bytes]]:
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    try:
+        yield child
+    finally:
+        for item in processes.psutil.Process(child.pid).children():
+            item.kill()
+        child.kill()
+        child.communicate()
+
+
+@pytest.fixture(autouse=True)
+def _checks_often(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
+
+
+@pytest.mark.parametrize("code", [BURN, FORKED])
+def test_a_process_that_computes_too_long_is_reported(code: str) -> None:
+    with _running(code) as child, pytest.raises(ProcessorTimeError, match=r"0\.2 s of processor time"):
+        communicate(child, 0.2)
+
+
+def test_waiting_uses_no_limit_and_hanging_is_reported() -> None:
+    child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1); print(1)"], stdout=subprocess.PIPE)
+    assert communicate(child, 0.5)[0].strip() == b"1"
+    with _running(SLEEP) as child:
+        limit = ProcessorLimit(child.pid, idle_limit=0.5)
+        with pytest.raises(ProcessorTimeError, match="used no processor time"):
+            _check(limit, 600)
+
+
+def _check(limit: ProcessorLimit, times: int) -> None:
+    for _ in range(times):
+        time.sleep(0.05)
+        limit.check()
+
+
+def test_time_without_checks_is_no_idle_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr(processes.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(processes, "processor_time", lambda _process: 1.0)
+    limit = ProcessorLimit(1, idle_limit=1.0)
+    for _ in range(8):  # the computer sleeps for an hour between two checks, each of which counts 0.1 s
+        now[0] += 3600.0
+        limit.check()
+
+
+def test_the_count_starts_again_with_progress(monkeypatch: pytest.MonkeyPatch) -> None:
+    used = [0.0]
+    monkeypatch.setattr(processes, "CHECK_EVERY", 0.0)
+    monkeypatch.setattr(processes, "processor_time", lambda _process: used[0])
+    limit = ProcessorLimit(1, 5.0)
+    for _ in range(4):
+        limit.check()
+        used[0] += 4.0
+        limit.check()
+        limit.restart()
+    limit.check()
+    used[0] += 6.0
+    with pytest.raises(ProcessorTimeError):
+        limit.check()

@@ -1,15 +1,24 @@
-"""A small campaign of random folders: no byte of a user's is changed or removed."""
+"""Small campaigns: random folders, random studies, and a machine that lacks something."""
 
 from __future__ import annotations
 
+import dataclasses
+import json
+import random
 from collections.abc import Iterator
 from pathlib import Path
 
 import folders
+import machine
+import numpy as np
 import pytest
+import random_studies
+from attack import Attack
 
 from tvimdesign.base import atomic_files
 from tvimdesign.report.output import replace_results
+from tvimdesign.solve.result import answer
+from tvimdesign.study import read_study_text
 
 WRITTEN = {
     "fit": {"fit.json": b"{}", "fit.png": b"png", "residuals.csv": b"a"},
@@ -48,3 +57,65 @@ def test_the_campaign_sees_what_is_lost(tmp_path: Path, monkeypatch: pytest.Monk
         for module in (atomic_files, replace_results):
             monkeypatch.setattr(module, "link_on_the_way", lambda *_: None)
     assert next(losses(tmp_path, 200), "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lack", machine.LACKS, ids=lambda lack: lack.name)
+def test_a_run_is_done_or_ends_in_one_line(lack: machine.Lack, tmp_path: Path) -> None:
+    if lack.mount and not machine.mounts():
+        pytest.skip("`unshare -rm` fails here: a system may forbid it; only these two need a disk of their own")
+    assert machine.faults_of(lack, tmp_path) == []
+
+
+@pytest.mark.slow
+def test_another_end_than_the_one_expected_is_a_fault(tmp_path: Path) -> None:
+    lack = next(one for one in machine.LACKS if one.name == "files of 20 kB at most")
+    found = machine.faults_of(dataclasses.replace(lack, code=0, says="no such words"), tmp_path)
+    assert [fault.partition(":")[0] for fault in found] == ["exit code 4, not 0", "not one line about 'no such words'"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [3, 5])
+def test_a_random_study_is_answered_and_its_answer_stands(seed: int) -> None:
+    found = random_studies.judged(seed)
+    assert found["wrong"] == ""
+    assert found["status"] == {3: "above_rating", 5: "infeasible"}[seed]
+
+
+def test_the_attack_counts_only_designs_whose_switch_ends() -> None:
+    study = random_studies.random_study(2)
+    attack = Attack(study)
+    optimum = random_studies.released(random.Random(2).choice(random_studies.BASES))
+    assert attack.residual(attack.evaluated(attack.shares(optimum))) <= random_studies.CYCLE_TOLERANCE
+    assert attack.worst(np.ones(len(attack.names))) > 100.0  # springs, layer and current at their largest together
+    # Its peak of power is that of what it has come to: an attack that took it would better every optimum.
+    asked = "mode: shear\nvary: {current: [0.1 A, 3 A]}\nminimize: peak_power\nsolver: {cells: 6}\n"
+    attack = Attack(read_study_text(asked, "test"))
+    assert attack.evaluated(attack.shares({"current": 1.0})) is None
+    assert attack.evaluated(attack.shares({"current": 1.5})) is not None
+
+
+@pytest.mark.slow
+def test_what_is_no_optimum_is_bettered() -> None:
+    study = random_studies.random_study(3)
+    answered = answer(study)
+    assert answered.solution is not None
+    attack, values = Attack(study), dict(answered.design.values)
+    assert attack.improved(values, answered.solution.reference) <= random_studies.BETTER
+    values["wire_diameter"] *= 1.05  # it keeps all limits, and is 1.3 % higher
+    assert attack.improved(values, answered.solution.reference) > random_studies.BETTER
+
+
+def test_a_campaign_goes_on_where_it_was_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+
+    def judged(seed: int) -> dict[str, object]:
+        asked.append(seed)
+        return {"seed": seed, "status": "optimal", "wrong": ""}
+
+    monkeypatch.setattr(random_studies, "in_a_process", judged)
+    out = tmp_path / "answers"
+    assert len(random_studies.campaign(range(1, 4), 1, out)) == 3
+    assert len(random_studies.campaign(range(1, 6), 1, out)) == 5
+    assert asked == [1, 2, 3, 4, 5]
+    assert [json.loads(line)["seed"] for line in out.read_text().splitlines()] == asked

@@ -61,12 +61,14 @@ def spins(_: Path) -> None:
         pass
 
 
-def test_an_input_changes_nothing_that_others_are_made_of() -> None:
+def test_an_input_is_copied_and_a_slow_one_is_a_fault(tmp_path: Path) -> None:
     before = repr(ODD)
     draw = random.Random(1)
     for _ in range(3000):
         mutated_data('{"a": {"b": [1, {"c": 2}]}}', [("a",), ("a", "b"), ("a", "b", 1), ("a", "b", 1, "c")], draw)
     assert repr(ODD) == before
+    kind = Kind(lambda _: Drawn("input.txt", b""), spins_briefly, most_seconds=0.05)
+    assert watched.ending(kind, tmp_path / "input.txt")[0].startswith("takes ")
 
 
 def spins_briefly(_: Path) -> None:
@@ -92,11 +94,6 @@ def test_the_campaign_sees_a_fault(
     monkeypatch.setattr(watched, "HANG", 0.05)
     kind = Kind(lambda _: Drawn("input.txt", b""), use)
     assert watched.ending(kind, Drawn("input.txt", b"x").written(tmp_path))[0].startswith(fault)
-
-
-def test_a_slow_input_is_a_fault(tmp_path: Path) -> None:
-    kind = Kind(lambda _: Drawn("input.txt", b""), spins_briefly, most_seconds=0.05)
-    assert watched.ending(kind, tmp_path / "input.txt")[0].startswith("takes ")
 
 
 @pytest.mark.parametrize(("writes", "inside"), [(True, True), (False, False)])

@@ -32,8 +32,16 @@ def found(now: Mapping[str, Value], **options: Any) -> list[tuple[str, str, str]
     return [(one.quantity, one.frozen, one.now) for one in differences("study", FROZEN, now, **options)]
 
 
-def test_same_values() -> None:
+def test_lost_added_and_different_values_are_told_apart() -> None:
     assert found(dict(FROZEN)) == []
+    assert found({name: value for name, value in FROZEN.items() if name != "mass"}) == [("mass", "0.1", "lost")]
+    assert found({**FROZEN, "size": 3.0}) == [("size", "added", "3.0")]
+    frozen, now = {"limit:mass <=": 1e-12, "mass": 1e-12}, {"limit:mass <=": 3e-12, "mass": 3e-12}
+    assert [one.quantity for one in differences("study", frozen, now, tolerance=1e-9)] == ["mass"]
+    assert relative_difference(2.0, 1.0) == 0.5
+    assert relative_difference(-1.0, 1.0) == 2.0
+    assert relative_difference(math.inf, math.inf) == relative_difference(math.nan, math.nan) == 0.0
+    assert relative_difference(math.inf, 1.0) == relative_difference(1.0, math.nan) == math.inf
 
 
 @pytest.mark.parametrize(
@@ -51,29 +59,9 @@ def test_a_changed_value(name: str, value: Value, difference: tuple[str, str, st
     assert found({**FROZEN, name: value}) == [difference]
 
 
-def test_a_lost_name() -> None:
-    assert found({name: value for name, value in FROZEN.items() if name != "mass"}) == [("mass", "0.1", "lost")]
-
-
-def test_an_added_name() -> None:
-    assert found({**FROZEN, "size": 3.0}) == [("size", "added", "3.0")]
-
-
 @pytest.mark.parametrize(("change", "count"), [(1e-10, 0), (1e-8, 1)])
 def test_tolerance(change: float, count: int) -> None:
     assert len(found({**FROZEN, "stiffness@hot": 5.0 * (1.0 + change)}, tolerance=1e-9)) == count
-
-
-def test_margins_near_zero_are_absolute() -> None:
-    frozen, now = {"limit:mass <=": 1e-12, "mass": 1e-12}, {"limit:mass <=": 3e-12, "mass": 3e-12}
-    assert [one.quantity for one in differences("study", frozen, now, tolerance=1e-9)] == ["mass"]
-
-
-def test_relative_difference() -> None:
-    assert relative_difference(2.0, 1.0) == 0.5
-    assert relative_difference(-1.0, 1.0) == 2.0
-    assert relative_difference(math.inf, math.inf) == relative_difference(math.nan, math.nan) == 0.0
-    assert relative_difference(math.inf, 1.0) == relative_difference(1.0, math.nan) == math.inf
 
 
 def test_renames() -> None:
@@ -154,9 +142,20 @@ def test_an_optimum(change: dict[str, Any], quantities: list[str]) -> None:
     assert [one.quantity for one in found] == quantities
 
 
-def test_a_better_objective_is_a_negative_change() -> None:
+def test_objectives_places_and_fits_are_compared_without_wording() -> None:
     changes = [optima.objective_change(OPTIMUM, OPTIMUM | {"objective": value}) for value in (0.9, 1.0, 1.25, None)]
     assert changes == pytest.approx([-0.1, 0.0, 0.2, 0.0])
+    assert messages.message_places("mode: shear\nmodul: {}\n") == {"2:1 modul": 1.0}
+    assert messages.message_places("mode: shear\n") == {"accepted": 1.0}
+    assert messages.message_places("a: b: c")["1:5 "] == 1.0
+    case = next(case for case in fits.fit_cases() if case.kind == "torque_angle")
+    once, again = fits.fit(case), fits.fit(case)
+    assert once == again
+    assert once["fit:kind"] == "torque_angle"
+    assert once["read:0.torque[count]"] == 25.0
+    assert "fit:parameters[stiffness].si.value" in once
+    assert not any("meaning" in name for name in once)
+    assert fits.fit(replace(case, data=b"nothing")) == {"read:refused": "InputError", "fit:refused": "InputError"}
 
 
 Answers = Callable[..., None]
@@ -221,29 +220,12 @@ def test_every_study_is_frozen() -> None:
         assert ("objective" in data["optimum"]) == bool(data["optimum"]), name
 
 
-def test_message_places() -> None:
-    assert messages.message_places("mode: shear\nmodul: {}\n") == {"2:1 modul": 1.0}
-    assert messages.message_places("mode: shear\n") == {"accepted": 1.0}
-    assert messages.message_places("a: b: c")["1:5 "] == 1.0
-
-
-def test_a_fit_without_wording() -> None:
-    case = next(case for case in fits.fit_cases() if case.kind == "torque_angle")
-    once, again = fits.fit(case), fits.fit(case)
-    assert once == again
-    assert once["fit:kind"] == "torque_angle"
-    assert once["read:0.torque[count]"] == 25.0
-    assert "fit:parameters[stiffness].si.value" in once
-    assert not any("meaning" in name for name in once)
-    assert fits.fit(replace(case, data=b"nothing")) == {"read:refused": "InputError", "fit:refused": "InputError"}
-
-
 @pytest.mark.gate
 def test_a_frozen_design_has_the_frozen_names() -> None:
     frozen = read_frozen(study_outputs.frozen_file("paper_shear"))
     renames = Renames.read(same.RENAMES)
     now = study_outputs.outputs(study_outputs.evaluate_frozen("paper_shear", renames))
     found = list(differences("paper_shear", frozen["outputs"], now, tolerance=1e-3, renames=renames))
-    assert [str(one) for one in found if one.now == "lost" or one.frozen == "added"] == []
+    assert [str(difference) for difference in found if difference.now == "lost" or difference.frozen == "added"] == []
     for name, value in frozen["chosen"].items():
         assert now[name] == value

@@ -41,13 +41,10 @@ def test_another_polymer_has_a_warning_for_each_law(tmp_path: Path) -> None:
     assert "give crystallization_half_time or nucleation_constant or avrami_exponent of its own" in message[0]
 
 
-def test_a_law_of_its_own_has_no_warning(tmp_path: Path) -> None:
+def test_laws_of_one_material_or_of_ones_own_have_no_warning(tmp_path: Path) -> None:
     message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA, **HALF_TIME, **VISCOSITY))
     assert len(message) == 1
     assert message[0].startswith("Mine: the losses of the solid")
-
-
-def test_measured_values_of_one_material_are_no_other_one(tmp_path: Path) -> None:
     own = {"melting_start": (53.0, "degC"), "density_solid": (1150.0, "kg/m^3")}
     assert inherited_law_warnings(record(tmp_path, "pcl_80k", **own)) == []
 
@@ -69,21 +66,15 @@ def test_a_wax_has_no_use_for_kinetics_and_is_refused_a_polymer_s_melt(tmp_path:
     assert "viscosity of the melt: those of pcl_80k mean nothing here, where freezing is equilibrium" in message[0]
 
 
-def test_a_glass_needs_a_spectrum_of_its_own(tmp_path: Path) -> None:
+def test_a_glass_needs_its_own_spectrum_and_constants(tmp_path: Path) -> None:
     words = "words: {freezing: equilibrium, softening: glass}"
     own = {"density_solid": (1250.0, "kg/m^3"), "glass_transition": (57.0, "degC"), "wlf_c1": (17.44, '"1"'),
            "wlf_c2": (51.6, "K"), "glass_activation_energy": (300.0, "kJ/mol")}  # fmt: skip
     with pytest.raises(CatalogError, match="losses of the solid: those of pcl_80k mean nothing here"):
         record(tmp_path, "pcl_80k", words, **own)
     assert inherited_law_warnings(record(tmp_path, "pla", words, **own)) == []
-
-
-def test_a_glass_without_its_constants_lists_what_is_missing(tmp_path: Path) -> None:
     with pytest.raises(CatalogError, match=r"values\.wlf_c1: missing; expected 1"):
         record(tmp_path, "pcl_80k", "words: {softening: glass}")
-
-
-def test_a_glass_has_its_transition_between_the_ends_of_it(tmp_path: Path) -> None:
     with pytest.raises(CatalogError, match=r"values\.melting_end: must be above glass_transition"):
         record(tmp_path, "pla", glass_transition=(70.0, "degC"))
 

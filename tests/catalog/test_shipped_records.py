@@ -23,13 +23,11 @@ def strength(name: str, diameter: float) -> float:
     return min(row["coefficient"] / diameter ** row["exponent"] for row in rows) / 1e6
 
 
-def test_nothing_lacks_unit_source_or_status() -> None:
+def test_every_category_has_records_with_unit_source_and_status() -> None:
     assert check_records(CATALOG) == []
-
-
-def test_every_category_has_records() -> None:
     # What a joint's own swings tell is nobody's until somebody has measured it.
     assert [category for category in CATEGORIES if not CATALOG.names(category)] == ["joints"]
+    assert CATALOG.record("wires", "metric") is CATALOG.record("wires", "metric")
 
 
 def test_a_record_has_what_its_shelf_requires() -> None:
@@ -107,38 +105,32 @@ def test_wire_that_makers_call_equivalent_is_as_strong_within_a_twentieth(jis: s
         assert strength(jis, diameter) == pytest.approx(strength(en, diameter), rel=0.05)
 
 
-def test_paper_wire_is_music_wire_with_the_papers_modulus() -> None:
+def test_paper_wire_is_music_wire_of_a_gauge_size() -> None:
     paper, music = (CATALOG.record("spring_materials", name) for name in ("paper_wire", "music_wire"))
     assert paper.value("youngs_modulus") == pytest.approx(210e9)
     assert paper.table("strength") == music.table("strength")
+    sizes = [row["wire_diameter"] for row in CATALOG.record("wires", "music_wire_gauge").table("sizes")]
+    assert any(size == pytest.approx(2.413e-3) for size in sizes)
 
 
 SIZES = {"metric": 44, "music_wire_gauge": 50, "gb_1358": 16}
 """How many sizes each list has."""
 
 
-def test_wire_sizes_rise() -> None:
+def test_wires_rise_in_the_preferred_metric_sizes() -> None:
     def check(name: str) -> None:
         sizes = [row["wire_diameter"] for row in CATALOG.record("wires", name).table("sizes")]
         assert sizes == sorted(set(sizes))
         assert len(sizes) == SIZES[name]
 
     of_every(CATALOG.names("wires"), check)
-
-
-def test_chinese_wire_has_the_preferred_metric_sizes() -> None:
-    """The wires of GB/T 2088-1997 from 0.5 to 2.5 mm, as cadhome.net prints the standard, and no size unknown there."""
+    # The wires of GB/T 2088-1997 from 0.5 to 2.5 mm, as cadhome.net prints the standard, and no size unknown there.
     sizes, metric = (
         [round(1e3 * row["wire_diameter"], 6) for row in CATALOG.record("wires", name).table("sizes")]
         for name in ("gb_1358", "metric")
     )
     assert [item for item in sizes if item <= 2.5] == [0.5, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0, 2.5]
     assert set(sizes) <= set(metric)
-
-
-def test_the_papers_wire_is_a_gauge_size() -> None:
-    sizes = [row["wire_diameter"] for row in CATALOG.record("wires", "music_wire_gauge").table("sizes")]
-    assert any(size == pytest.approx(2.413e-3) for size in sizes)
 
 
 LOSS_FACTORS = {"fields_metal": 0.01, "paraffin_rt60": 0.1}
@@ -228,10 +220,6 @@ def test_no_name_leaves_the_shelf(name: str) -> None:
         CATALOG.record("spring_materials", name)
 
 
-def test_a_record_is_read_once() -> None:
-    assert CATALOG.record("wires", "metric") is CATALOG.record("wires", "metric")
-
-
 def test_an_insert_weighs_no_more_than_its_brass() -> None:
     def check(name: str) -> None:
         value = CATALOG.record("inserts", name).value
@@ -281,15 +269,12 @@ def test_a_data_sheet_is_that_of_the_type() -> None:
     of_every(EVERY_RECORD, check)
 
 
-def test_a_process_names_a_material_of_the_catalogue() -> None:
+def test_processes_and_structure_materials_name_one_another() -> None:
     def check(name: str) -> None:
         process = CATALOG.record("processes", name)
         assert process.word("structure_material") in CATALOG.names("structure_materials")
 
     of_every(CATALOG.names("processes"), check)
-
-
-def test_every_structure_material_can_be_ordered_by_a_process() -> None:
     made = {CATALOG.record("processes", name).word("structure_material") for name in CATALOG.names("processes")}
     assert made == set(CATALOG.names("structure_materials"))
 

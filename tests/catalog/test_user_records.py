@@ -390,7 +390,7 @@ def test_another_user_s_folder_is_reported_and_refused_where_anybody_writes_it(
 def test_the_commands_report_such_a_folder_in_one_line(tmp_path: Path, tvimdesign: Command) -> None:
     (tmp_path / "kept").mkdir()
     (tmp_path / "records").symlink_to(tmp_path / "kept")
-    (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: records\n")
+    (tmp_path / "study.yaml").write_text("mode: shear\ncatalog: records\nmodule: {coil_cuont: 3}\n")  # refused: quick
     done = tvimdesign("check", str(tmp_path / "study.yaml"))
     message = f"Warning: {tmp_path / 'records'}: the folder of records leads to {tmp_path / 'kept'}"
     assert [line for line in done.stderr.splitlines() if "records" in line] == [message]

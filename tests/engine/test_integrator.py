@@ -199,13 +199,10 @@ def one_error(motion: Motion, y: Array, h: float, k: Array) -> float:
     return float(step_error(motion.system, v, y.copy(), 0.0, 0.0, h, np.zeros(y.size)))
 
 
-def test_the_error_of_a_step_falls_with_the_third_power_of_its_length(pendulum: Motion) -> None:
+def test_a_step_s_error_falls_with_the_third_power_and_is_exact_below(pendulum: Motion) -> None:
     y, k = np.array([1.0, 0.2]), np.array([2.0, 0.1])
     errors = [one_error(pendulum, y, h, k) for h in (0.08, 0.04, 0.02)]
     assert order_of(errors) == pytest.approx([3.0, 3.0], abs=0.15)
-
-
-def test_a_parabola_has_no_error_and_a_cubic_has_one() -> None:
     motion = motion_of(lambda _, u, k: k * u**2, 1, 1)
     _, _, v = motion.registers(np.ones(1), np.zeros((1, 0)))
     straight = step_error(motion.system, v, np.zeros(1), 2.0, 0.0, 0.5, np.zeros(1))

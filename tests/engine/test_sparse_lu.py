@@ -84,16 +84,13 @@ def test_an_order_holds_each_row_once_and_each_entry_has_a_place(case: Case) -> 
     assert pattern.size <= len(case.matrix) ** 2
 
 
-def test_an_arrow_is_eliminated_from_its_tips_without_fill_in() -> None:
+def test_arrows_and_chains_are_eliminated_without_fill_in() -> None:
     size = 30
     tips = np.arange(1, size)
     nothing = np.zeros(size - 1, np.int64)
     pattern, *_ = pattern_of(size, np.append(tips, nothing), np.append(nothing, tips))
     assert pattern.size == 3 * size - 2
     assert pattern.order[0] != 0
-
-
-def test_a_chain_has_no_fill_in() -> None:
     size = 40
     low = np.arange(size - 1)
     pattern, *_ = pattern_of(size, np.append(low, low + 1), np.append(low + 1, low))

@@ -122,11 +122,8 @@ def test_a_run_leaves_nothing_to_the_next() -> None:
     assert [part.tolist() for part in tape.values(np.array([4.0, 5.0]))] == first == [[10.0], [15.0]]
 
 
-def test_an_operation_that_is_not_known_is_refused() -> None:
+def test_unknown_operations_are_refused_or_give_no_number() -> None:
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     with pytest.raises(ValueError, match=rf"operation {ca.OP_FMOD} is not known"):
         Tape.of([x, y], [ca.fmod(x, y) + 1.0])
-
-
-def test_an_operation_the_program_does_not_know_gives_no_number() -> None:
     assert np.isnan(interpreter.slopes_of(90, 1.0, 2.0)[0])

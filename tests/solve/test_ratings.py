@@ -56,7 +56,7 @@ def test_an_optimum_beyond_ratings_is_not_called_optimal() -> None:
     assert f"accept: [{', '.join(found.design.above_rating)}]" in said
 
 
-def test_one_that_its_study_accepts_is_and_says_what_it_accepts() -> None:
+def test_an_optimum_within_accepted_ratings_says_what_it_accepts() -> None:
     found = answered(ACCEPTED)
     assert (found.design.status, found.design.above_rating) == ("optimal", ())
     assert set(found.design.accepting) == {*BOTH, PADS}
@@ -65,15 +65,9 @@ def test_one_that_its_study_accepts_is_and_says_what_it_accepts() -> None:
     assert above_rating(found, TABLE) == ""
     assert not {check.output for check in found.warnings} & {*BOTH, PADS}
     assert found.accepted_in_vain == ()
-
-
-def test_accepting_some_of_them_is_not_enough() -> None:
     found = answered(f"accept: [{', '.join(BOTH)}]\n")
     assert found.design.status == "above_rating"
     assert (found.design.above_rating, set(found.design.accepting)) == ((PADS,), set(BOTH))
-
-
-def test_what_is_accepted_in_vain_is_told() -> None:
     found = answered(ACCEPTED.replace("[", "[pcl_temperature_margin, "))
     assert found.design.status == "optimal"
     assert found.accepted_in_vain == ("pcl_temperature_margin",)

@@ -21,6 +21,12 @@ def problems_of(folder: Path, *texts: str) -> list[str]:
 
 def test_two_modes_with_one_task_can_be_compared(tmp_path: Path) -> None:
     assert problems_of(tmp_path, SHEAR, COMPRESSION) == []
+    own = "  spring_material: stainless_302\n  floor_thickness: 5 mm\n  leg_model: ignored\n  current: 1.5 A"
+    assert problems_of(tmp_path, SHEAR, SHEAR.replace("  current: 1.5 A", own)) == []
+    strain = SHEAR.replace("require:", 'require:\n  layer_strain: "<= 4"')
+    blocks = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.45"')
+    assert problems_of(tmp_path, strain, blocks) == []
+    assert "layer_strain <= 4 is required here" in problems_of(tmp_path, SHEAR, strain)[0]
 
 
 @pytest.mark.parametrize(
@@ -78,23 +84,19 @@ def test_all_differences_are_reported_at_once_in_the_order_of_the_file(tmp_path:
     assert len(reported) == 2
 
 
-def test_another_record_is_one_difference(tmp_path: Path) -> None:
+def test_another_record_or_an_evaluated_study_is_one_difference(tmp_path: Path) -> None:
     reported = problems_of(
         tmp_path, SHEAR, SHEAR.replace("  current", "  structure_material: aluminum_6061_t6\n  current")
     )
     assert len(reported) == 1
-
-
-def test_layout_springs_and_their_steel_are_each_study_s_own(tmp_path: Path) -> None:
-    own = "  spring_material: stainless_302\n  floor_thickness: 5 mm\n  leg_model: ignored\n  current: 1.5 A"
-    assert problems_of(tmp_path, SHEAR, SHEAR.replace("  current: 1.5 A", own)) == []
-
-
-def test_limits_on_what_one_mode_alone_has_may_differ(tmp_path: Path) -> None:
-    strain = SHEAR.replace("require:", 'require:\n  layer_strain: "<= 4"')
-    blocks = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.45"')
-    assert problems_of(tmp_path, strain, blocks) == []
-    assert "layer_strain <= 4 is required here" in problems_of(tmp_path, SHEAR, strain)[0]
+    start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
+    drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
+    reported = problems_of(tmp_path, SHEAR, drawn)
+    assert len(reported) == 1
+    assert "vary: missing: this study is evaluated only" in reported[0]
+    item = entrants(tmp_path, SHEAR)
+    with pytest.raises(StudyError, match=r"study_0\.yaml: given twice"):
+        refuse_unequal([*item, *item])
 
 
 def test_limits_are_compared_across_a_study_of_another_mode(tmp_path: Path) -> None:
@@ -103,17 +105,3 @@ def test_limits_are_compared_across_a_study_of_another_mode(tmp_path: Path) -> N
     assert len(reported) == 1
     assert "study_2.yaml" in reported[0]
     assert "block_strain <= 0.4 is required here" in reported[0]
-
-
-def test_an_evaluated_study_is_not_compared_with_an_optimised_one(tmp_path: Path) -> None:
-    start, end = COMPRESSION.index("vary:"), COMPRESSION.index("require:")
-    drawn = (COMPRESSION[:start] + COMPRESSION[end:]).replace("minimize: {module_mass: 1, response_time: 1}\n", "")
-    reported = problems_of(tmp_path, SHEAR, drawn)
-    assert len(reported) == 1
-    assert "vary: missing: this study is evaluated only" in reported[0]
-
-
-def test_one_study_twice_is_reported(tmp_path: Path) -> None:
-    item = entrants(tmp_path, SHEAR)
-    with pytest.raises(StudyError, match=r"study_0\.yaml: given twice"):
-        refuse_unequal([*item, *item])

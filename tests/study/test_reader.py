@@ -1,5 +1,7 @@
-"""Results of reading good studies, and errors as data."""
+"""Results of reading good studies, errors as data, and messages as in messages/ (UPDATE_MESSAGES=1 rewrites them)."""
 
+import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -8,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from tvimdesign.study import Options, Range, Requirement, Study, StudyError, read_study
+from tvimdesign.study import Options, Range, Requirement, Study, StudyError, read_study, read_study_text
 
 Read = Callable[..., Study]
 Refuse = Callable[..., list[str]]
@@ -83,13 +85,10 @@ def test_a_full_study(read: Read) -> None:
     assert (study.write.plots, study.write.cad) == (True, False)
 
 
-def test_only_the_mode_is_needed(read: Read) -> None:
+def test_only_the_mode_is_needed_and_empty_sections_are_none(read: Read) -> None:
     study = read("mode: shear", name="my_study")
     assert (study.name, study.task, study.module, study.vary) == ("my_study", "evaluate", {}, {})
     assert set(study.operating_points) == {"cold", "hot"}
-
-
-def test_empty_sections_are_no_sections(read: Read) -> None:
     bare = "".join(f"{key}:\n" for key in ("name", "module", "vary", "require", "solver", "catalog"))
     assert read(f"mode: shear\nminimize: {{}}\n{bare}") == read("mode: shear")
 
@@ -111,16 +110,13 @@ def test_a_study_is_frozen_and_knows_its_keys(read: Read) -> None:
         Range(lower=0.0, upper=float("inf"))
 
 
-def test_problems_are_data(read: Read) -> None:
+def test_problems_are_data_and_capped_in_print(read: Read) -> None:
     with pytest.raises(StudyError) as caught:
         read("mode: shear\nmodule: {wire_diamter: 2 mm}")
     (problem,) = caught.value.problems
     assert (problem.file, problem.line, problem.column, problem.path) == ("x.yaml", 2, 10, "module.wire_diamter")
     assert problem.hint == "did you mean 'wire_diameter'?"
     assert caught.value.exit_code == 2
-
-
-def test_the_printed_problems_are_capped(read: Read) -> None:
     with pytest.raises(StudyError) as caught:
         read("mode: shear\nmodule:\n" + "".join(f"  row_{i}: 1\n" for i in range(60)))
     assert len(caught.value.problems) == 60
@@ -177,3 +173,37 @@ def test_import_is_light() -> None:
     code = f"import sys, tvimdesign.study; print([name for name in {heavy} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=None)
     assert done.stdout.strip() == "[]"
+
+
+FOLDER = Path(__file__).with_name("messages")
+SNAPSHOTS = {
+    "small_table.txt": "small table and catalogue of these tests",
+    "shipped_tables.txt": "shipped tables and records",
+}
+_MANY = re.compile(r"one of [^;]*, \.\.\. \(\d+ in all\)")
+"""A list of names that grows with the table."""
+
+
+def cases(text: str) -> list[str]:
+    """Return the studies of a snapshot, without their messages."""
+    return [case.strip("\n") for case in re.split(r"(?m)(?:^> .*\n)+", text) if case.strip()]
+
+
+@pytest.mark.parametrize("name", SNAPSHOTS)
+def test_messages_are_those_of_the_snapshot(problems: Callable[..., list[str]], name: str) -> None:
+    path = FOLDER / name
+    expected = path.read_text(encoding="utf-8")
+    result = ""
+    for text in cases(expected):
+        lines = problems(text) if name == "small_table.txt" else _of_shipped_tables(text)
+        messages = "".join(f"> {_MANY.sub('one of ...', line.removeprefix('x.yaml:'))}\n" for line in lines)
+        result += f"{text}\n{messages}\n"
+    if os.environ.get("UPDATE_MESSAGES"):
+        path.write_text(result, encoding="utf-8")
+    assert result == expected
+
+
+def _of_shipped_tables(text: str) -> list[str]:
+    with pytest.raises(StudyError) as refused:
+        read_study_text(text, "x.yaml")
+    return str(refused.value).splitlines()

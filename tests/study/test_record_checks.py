@@ -41,13 +41,10 @@ def test_inconsistent_cooling_power_is_reported(shipped: Path, tmp_path: Path) -
     assert message in describe(study).splitlines()
 
 
-def test_a_sheet_that_agrees_is_not(shipped: Path, tmp_path: Path) -> None:
+def test_sheets_that_agree_or_lack_the_rating_are_not_reported(shipped: Path, tmp_path: Path) -> None:
     text = _cut_to_size(shipped)
     study = _study(tmp_path, text.replace("value: 51, unit: W", "value: 58, unit: W"))
     assert record_checks(study) == []
-
-
-def test_a_record_without_that_rating_is_not() -> None:
     study = read_study(Path(__file__).parents[2] / "studies" / "paper_shear.yaml")
     assert record_checks(study) == []
 

@@ -1,12 +1,16 @@
-"""From a study to what a table is evaluated with."""
+"""From a study, its catalogue and its table to what a table is evaluated with."""
 
+import copy
+import pickle
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tvimdesign.base.errors import InputError
-from tvimdesign.study import Study, given
+from tvimdesign.base.errors import CatalogError, InputError
+from tvimdesign.device import table_for
+from tvimdesign.study import Study, given, read_study_text
 
 Read = Callable[..., Study]
 BASE = "mode: shear\nmodule: {pcl_thickness: 1 mm, %s}\n"
@@ -29,13 +33,10 @@ def test_every_input_and_choice_has_a_value(read: Read) -> None:
     assert (result["rate_model"], result["peltier"].name) == ("bending", "flexible_1600")
 
 
-def test_the_study_before_the_record_before_the_default(read: Read) -> None:
+def test_values_are_the_study_s_then_the_record_s_then_the_default(read: Read) -> None:
     assert _given(read)["youngs_modulus"] == 203.4e9
     assert _given(read, "spring_material: stainless_302")["youngs_modulus"] == 193e9
     assert _given(read, "youngs_modulus: 200 GPa")["youngs_modulus"] == pytest.approx(200e9)
-
-
-def test_what_has_no_value_is_named(read: Read) -> None:
     with pytest.raises(InputError, match="pcl_thickness has no value; give it under `module`, in mm"):
         given(read("mode: shear"))
     with pytest.raises(InputError, match=r"youngs_modulus has no value \(mystery_steel has no value"):
@@ -63,12 +64,9 @@ def test_what_varies_starts_within(read: Read, *, module: str, vary: str, name: 
     assert result == (value if isinstance(value, str) else pytest.approx(value))
 
 
-def test_a_varied_input_without_any_value_starts_in_the_middle(read: Read) -> None:
+def test_what_varies_without_a_value_starts_in_the_middle_as_its_record(read: Read) -> None:
     study = read("mode: shear\n" + VARY % "pcl_thickness: [1 mm, 2 mm]")
     assert given(study)["pcl_thickness"] == pytest.approx(1.5e-3)
-
-
-def test_a_varied_record_takes_its_fields_along(read: Read) -> None:
     result = _given(read, "", VARY % "spring_material: {choose: [stainless_302]}")
     assert result["youngs_modulus"] == 193e9
 
@@ -77,3 +75,57 @@ def test_the_table_accepts_it(read: Read) -> None:
     study = read(BASE % "")
     result = study.table.evaluate(given(study), ["joint_stiffness@hot", "envelope_diameter"])
     assert result["envelope_diameter"] == pytest.approx(0.138)
+
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def study() -> Study:
+    return read_study_text("mode: shear\nmodule: {pcl_thickness: 1 mm}\n", "a test")
+
+
+@pytest.fixture
+def mine(tmp_path: Path) -> str:
+    shipped = ROOT / "tvimdesign/catalog/data/structure_materials/petg.yaml"
+    (tmp_path / "structure_materials").mkdir()
+    (tmp_path / "structure_materials/mine.yaml").write_text(shipped.read_text(encoding="utf-8"), encoding="utf-8")
+    return str(tmp_path)
+
+
+def test_catalogue_and_table_are_opened_once_and_kept_by_copies(study: Study) -> None:
+    assert study.catalog is study.catalog
+    assert study.table is table_for("shear")
+    stored = study.model_copy(update={"module": {}})
+    assert stored.catalog is study.catalog
+    assert stored.table is study.table
+
+
+def test_a_copy_of_another_mode_has_that_table(study: Study) -> None:
+    _ = study.table, study.catalog
+    other = study.model_copy(update={"mode": "compression"})
+    assert other.table is table_for("compression")
+    assert other.catalog is study.catalog
+    assert "block_depth" in given(other)
+
+
+def test_a_copy_with_another_folder_reads_the_records_there(study: Study, mine: str) -> None:
+    with pytest.raises(CatalogError, match="no record 'mine'"):
+        study.catalog.record("structure_materials", "mine")
+    other = study.model_copy(update={"catalog_folder": mine, "module": {"structure_material": "mine"}})
+    assert given(other)["structure_material"].name == "mine"
+    assert "mine" not in other.model_copy(update={"catalog_folder": None}).catalog.names("structure_materials")
+
+
+def test_what_it_has_opened_is_no_part_of_it(study: Study, mine: str) -> None:
+    fresh = Study.model_validate(study.model_dump())
+    assert not {"catalog", "table"} & fresh.__dict__.keys()
+    _ = fresh.catalog.record("structure_materials", "petg"), fresh.table
+    assert fresh == Study.model_validate(study.model_dump())
+    assert fresh.model_dump_json() == study.model_dump_json()
+    stored = study.model_copy(update={"catalog_folder": mine})
+    result = pickle.loads(pickle.dumps(stored))
+    assert not {"catalog", "table"} & result.__dict__.keys()
+    assert result == stored
+    assert "mine" in result.catalog.names("structure_materials")
+    assert copy.deepcopy(stored) == stored

@@ -33,16 +33,14 @@ def problems(*settings: str) -> list[str]:
     return str(caught.value).splitlines()
 
 
-def test_a_name_fixes_an_input_which_is_varied_no_longer() -> None:
+def test_a_name_fixes_what_is_varied_and_the_last_of_two_counts() -> None:
     study = read("pcl_thickness=1.2 mm")
     assert study.module["pcl_thickness"] == pytest.approx(1.2e-3)
     assert list(study.vary) == ["coil_diameter"]
     assert study.task == "optimize"
-
-
-def test_with_the_last_variable_fixed_the_study_is_evaluated() -> None:
     study = read("pcl_thickness=1.2 mm", "coil_diameter=24 mm")
     assert (study.task, study.vary, study.minimize) == ("evaluate", {}, {})
+    assert read("current=1 A", "current=2 A").module["current"] == 2.0
 
 
 def test_a_path_sets_what_stands_there_and_leaves_the_rest() -> None:
@@ -70,10 +68,6 @@ def test_a_path_sets_what_stands_there_and_leaves_the_rest() -> None:
 )
 def test_what_may_be_set(setting: str, find: Any, wanted: Any) -> None:
     assert find(read(setting)) == wanted
-
-
-def test_the_last_of_two_settings_counts() -> None:
-    assert read("current=1 A", "current=2 A").module["current"] == 2.0
 
 
 @pytest.mark.parametrize(
@@ -179,9 +173,6 @@ def test_a_changed_study_is_written_as_text_that_reads_as_the_same_study() -> No
     text = tree_yaml(tree)
     assert "# --set pcl_thickness=1.2 mm" in text.splitlines()
     assert read_study_text(text, "x") == read_tree(tree)
-
-
-def test_a_quoted_word_that_means_nothing_when_plain_stays_quoted() -> None:
     tree = tree_of_text(f"description: 'null'\n{TEXT}", "x.yaml", "x", Path())
     assert read_study_text(tree_yaml(tree), "x").description == "null"
 

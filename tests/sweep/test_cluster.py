@@ -53,16 +53,13 @@ def on_cluster(path: Path, out: Path, address: str, at: dict[int, Callable[[], A
     return run
 
 
-def test_a_cluster_gives_the_same_bytes(wide_file: Path, expected: dict[str, bytes], tmp_path: Path) -> None:
+@pytest.mark.parametrize("killed", [None, 1])
+def test_a_cluster_gives_the_same_bytes_and_a_killed_worker_costs_none(
+    wide_file: Path, expected: dict[str, bytes], tmp_path: Path, killed: int | None
+) -> None:
     with LocalCluster(tmp_path) as cluster:
-        run = on_cluster(wide_file, tmp_path / "out", cluster.address, {})
-    assert run["computed"] == 36
-    assert tables(tmp_path / "out") == expected
-
-
-def test_a_worker_that_is_killed_costs_no_cell(wide_file: Path, expected: dict[str, bytes], tmp_path: Path) -> None:
-    with LocalCluster(tmp_path) as cluster:
-        run = on_cluster(wide_file, tmp_path / "out", cluster.address, {8: lambda: cluster.kill_worker(1)})
+        at: dict[int, Callable[[], Any]] = {} if killed is None else {8: lambda: cluster.kill_worker(killed)}
+        run = on_cluster(wide_file, tmp_path / "out", cluster.address, at)
     assert run["computed"] == 36
     assert tables(tmp_path / "out") == expected
 

@@ -107,29 +107,23 @@ def test_all_that_the_terminals_give_is_stored_where_nothing_is_lost() -> None:
     assert stored == pytest.approx(power, rel=1e-6)
 
 
-def test_each_cell_has_an_even_part_of_the_heat() -> None:
+def test_a_layer_heated_by_current_is_heated_evenly_for_either_sign() -> None:
     state = heat.initial_state(stack(0.0), CELLS, 310.0)
     more = heat.rates(state, stack(1.5), CURRENT) - heat.rates(state, stack(0.0), CURRENT)
     each = CURRENT**2 * 1.5 / (1145.0 * 1e-3 * 1e-3) / heat.ENTHALPY_SCALE
     assert more[2 : 2 + CELLS] == pytest.approx(each)
     assert np.all(np.delete(more, range(2, 2 + CELLS)) == 0.0)
-
-
-def test_the_current_s_sign_does_not_matter() -> None:
     state = heat.initial_state(stack(1.5), CELLS, 310.0)
     assert heat.rates(state, stack(1.5), -CURRENT) == pytest.approx(heat.rates(state, stack(1.5), CURRENT))
     assert heat.voltage(heat.profile(state, stack(1.5)), stack(1.5), -CURRENT) == pytest.approx(-4.0)
 
 
-def test_a_wide_foot_is_longer_by_its_limit_and_a_narrow_one_by_more() -> None:
+def test_electrodes_of_a_comb_by_hand() -> None:
     # 2 ln 2/pi = 0.441271 of the depth for a foot much wider than the depth.
     assert shape_factors.electrode_foot(8e-3, 1e-3) == pytest.approx(0.441271e-3, rel=1e-5)
     feet = [shape_factors.electrode_foot(width, 1e-3) for width in (0.1e-3, 0.25e-3, 0.5e-3, 1e-3, 2e-3)]
     assert np.all(np.diff(feet) < 0.0)
-
-
-def test_a_comb_by_hand() -> None:
-    """Wide gaps: 10 mm long, 1 mm deep, 12 mm from finger to finger on 1200 mm2: 100 mm of gaps, 0.1 ohm m."""
+    # Wide gaps: 10 mm long, 1 mm deep, 12 mm from finger to finger on 1200 mm2: 100 mm of gaps, 0.1 ohm m.
     foot = 1e-3 - 2e-3 / np.pi * np.log(np.sinh(0.5 * np.pi))
     by_hand = 0.1 * (10e-3 + 2.0 * foot) / (1e-3 * 0.1)
     assert shape_factors.comb_resistance(0.1, 1e-3, 1200e-6, 10e-3, 2e-3) == pytest.approx(by_hand)

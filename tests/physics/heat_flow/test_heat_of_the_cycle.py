@@ -118,22 +118,16 @@ def test_a_layer_that_is_taken_over_keeps_its_fraction(celsius: float) -> None:
     assert after.cells == pytest.approx(before.cells, abs=0.75)
 
 
-def test_a_surface_radiates_as_stefan_and_boltzmann_say() -> None:
+def test_surfaces_and_gaps_radiate_and_conduct() -> None:
     # 0.01 m^2 of emissivity 0.9 at 80 degC: 5.670374e-8 * 0.009 * (353.15^4 - 295.15^4) = 4.0648 W, by hand.
     assert lumps.surface_heat(lumps.Surface(0.01, 0.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648, rel=2e-5)
     assert lumps.surface_heat(lumps.Surface(0.01, 10.0, 0.9), 353.15, AMBIENT) == pytest.approx(4.0648 + 5.8, rel=2e-5)
     assert lumps.surface_heat(lumps.Surface(0.01, 10.0, 0.9), AMBIENT, AMBIENT) == 0.0
-
-
-def test_a_gap_conducts_through_its_air_and_its_grey_walls_radiate() -> None:
     # 0.01 m^2, 1 mm of air of 0.028 W/m K, 80 to 22 degC: 0.28 W/K * 58 K; between plates of 0.9 radiate, by hand,
     # 5.670374e-8 * 0.01 * (353.15^4 - 295.15^4)/(1/0.9 + 1/0.9 - 1) = 3.6953 W (Incropera, ch. 13).
     gap = lumps.air_gap(0.01, 1e-3, 0.028, 0.9, ("beside", 0), ("around", 0))
     assert lumps.link_heat(gap, 353.15, AMBIENT) == pytest.approx(0.28 * 58.0 + 3.6953, rel=2e-5)
     assert lumps.link_heat(gap, AMBIENT, 353.15) == -lumps.link_heat(gap, 353.15, AMBIENT)
-
-
-def test_a_wall_before_a_gap_takes_its_share() -> None:
     # 0.28 W/K of air and 0.0640 W/K of radiation near 22 degC (4 e s A T^3/(2 - e)) behind 0.5 W/K: 0.2038 W/K.
     gap = lumps.air_gap(0.01, 1e-3, 0.028, 0.9, ("beside", 0), ("around", 0))
     radiated = 4.0 * STEFAN_BOLTZMANN * 0.01 / (2.0 / 0.9 - 1.0) * AMBIENT**3

@@ -46,11 +46,8 @@ def test_no_slice_in_series_can_make_the_layer_more_than_its_share_softer(slices
     assert softest * (1.0 - 1e-9) <= magnitude <= len(slices) * softest * (1.0 + 1e-9)
 
 
-def test_strain_of_50_mm_and_1_mm_at_the_papers_stroke_is_520_percent() -> None:
+def test_strain_and_torque_of_a_layer_by_hand() -> None:
     assert layer.shear_strain(50e-3, 0.104, 1e-3) == pytest.approx(5.2, rel=1e-12)
-
-
-def test_torque_at_a_traction_is_the_moment_of_a_linear_traction() -> None:
     limit = 2e6
     expected, _ = quad(lambda r: (limit * r / OUTER) * r * SPAN * r, INNER, OUTER, epsabs=0.0, epsrel=1e-12)
     found = layer.torque_at_traction(limit, sector(SPAN, INNER, OUTER).polar, OUTER)
@@ -114,20 +111,14 @@ def test_angle_and_set_are_those_of_radau(spectrum: str, time: float) -> None:
     assert lasting_load.held(LOAD, time, SPRINGS, STRUCTURE, modes) == pytest.approx((angle, free), rel=WITHIN)
 
 
-def test_load_that_has_just_come_on_is_shared_by_springs_and_the_branch() -> None:
+def test_a_load_is_shared_by_stiffness_and_sets_as_far_as_spectra_relax() -> None:
     # 450 behind 919 is 302.1 N*m/rad, beside 5.61.
     borne = lasting_load.first_torque(LOAD, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
     assert borne == pytest.approx(0.583 * 302.09 / 307.70, rel=1e-4)
     later = lasting_load.held(LOAD, 1e-9, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)]).angle
     assert LOAD - SPRINGS * later == pytest.approx(borne, rel=1e-6)
-
-
-def test_set_of_spectra_that_relax_or_do_not() -> None:
     assert lasting_load.held(LOAD, 10.0, SPRINGS, STRUCTURE, [(1e16, 300.0)]).set_angle < 1e-15
     assert lasting_load.held(LOAD, 1e6, SPRINGS, STRUCTURE, MELT).set_angle == pytest.approx(LOAD / SPRINGS, rel=1e-9)
-
-
-def test_gap_costs_the_branch_its_share_of_the_way() -> None:
     # To 0.1 rad 302.1 + 5.61 N*m/rad take 30.77 N*m; behind a gap of 0.04 rad the branch 18.13 and the springs 0.561.
     loss = lasting_load.impedance_loss(0.1, 0.04, SPRINGS, STRUCTURE, [(1.0, 150.0), (9.0, 300.0)])
     assert loss == pytest.approx(1.0 - (18.13 + 0.561) / 30.77, rel=1e-3)

@@ -30,8 +30,9 @@ def test_the_edge_of_a_lap_of_like_sheets_bears_what_volkersen_says(reach: float
     assert found == pytest.approx(0.5 * reach / np.tanh(0.5 * reach), rel=1e-12)
 
 
-def test_stiff_sheets_load_a_layer_evenly() -> None:
+def test_stiff_sheets_and_windows_of_no_width_change_nothing() -> None:
     assert shear_lag.edge_rise(1e6, 1e-9, 1e-9, 0.01) == pytest.approx(1.0, rel=1e-6)
+    assert shear_lag.borne_over_window(1e11, 1e-5, 0.0) == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(("first", "second"), [(3e-7, 8e-7), (8e-7, 3e-7)])
@@ -62,10 +63,6 @@ def test_what_is_borne_over_a_window_agrees_with_its_equation_solved(half: float
     solved = solve_bvp(slopes, lambda a, b: np.array([a[0], b[1]]), grid, np.zeros((2, grid.size)), tol=1e-9)
     share = solved.sol(0.0)[1] / (layer * half)
     assert shear_lag.borne_over_window(layer, sheet, half) == pytest.approx(share, rel=1e-5)
-
-
-def test_a_window_of_no_width_costs_nothing() -> None:
-    assert shear_lag.borne_over_window(1e11, 1e-5, 0.0) == pytest.approx(1.0, abs=1e-9)
 
 
 def lost_width(window: float, fine: int) -> float:
@@ -101,10 +98,12 @@ def test_a_pad_beside_a_window_is_held_as_a_harmonic_function_has_it(half: float
     assert shear_lag.held_over_window(1.0, half) == pytest.approx(share, abs=0.004)
 
 
-def test_beside_a_wide_window_a_strip_of_its_own_width_holds_a_pad() -> None:
+def test_windows_beside_their_limits() -> None:
     # The fringe of a strip line of no thickness, 2 ln 2/pi of the distance from its plane to the wall beside it.
     assert 10.0 * shear_lag.held_over_window(1.0, 10.0) == pytest.approx(0.4413, abs=1e-4)
     assert shear_lag.held_over_window(1.0, 0.0) == pytest.approx(1.0, abs=1e-5)
+    # Poisson's ratio of a quarter: K = 5 G/3.
+    assert shear_lag.end_fringe(3.0, 0.0) == pytest.approx(shear_lag.end_fringe(3.0, 5.0), rel=1e-12)
 
 
 @pytest.mark.parametrize("row", WINDOWS, ids=lambda row: "-".join(list(row.values())[:3]))
@@ -114,11 +113,6 @@ def test_an_end_of_a_window_is_held_as_strips_in_plane_strain_are(row: dict[str,
     # Of a thickness; one that keeps its volume leans on more of a ledge that is three thicknesses long.
     leans = 0.07 if row["ledge"] == "3" else 0.04
     assert half * shear_lag.held_over_window(1.0, half, fringe) == pytest.approx(held, abs=leans)
-
-
-def test_a_window_s_end_without_bulk_modulus_is_that_of_a_quarter() -> None:
-    # Poisson's ratio of a quarter: K = 5 G/3.
-    assert shear_lag.end_fringe(3.0, 0.0) == pytest.approx(shear_lag.end_fringe(3.0, 5.0), rel=1e-12)
 
 
 FINE, LONG = 40, 5.0
@@ -232,21 +226,15 @@ def test_a_floor_that_is_held_fast_to_its_spreader_is_one_sheet_with_it() -> Non
     assert shear_lag.upper_share(three) == pytest.approx(shear_lag.upper_share(two), rel=0.03)
 
 
-def test_between_stiff_sheets_the_traction_goes_with_the_radius() -> None:
+def test_limits_of_an_annular_lap() -> None:
     lap = shear_lag.annular_lap(1e10, 1e-12, 2e-12, (15e-3, 27.5e-3))
     assert shear_lag.edge_rises(lap) == pytest.approx((15.0 / 27.5, 1.0), rel=1e-4)
-
-
-def test_far_from_the_axis_the_lap_is_a_straight_one() -> None:
     # Volkersen's lap joint, of whose load the lower sheet bears 0.7 in the middle.
     layer, upper, lower, width = 5e10, 7e-7, 3e-7, 0.012
     lap = shear_lag.annular_lap(layer, upper, lower, (10.0, 10.0 + width))
     inner, outer = shear_lag.edge_rises(lap)
     assert outer == pytest.approx(shear_lag.edge_rise(layer, upper, lower, width), rel=5e-3)
     assert inner == pytest.approx(shear_lag.edge_rise(layer, lower, upper, width), rel=5e-3)
-
-
-def test_on_a_rigid_sheet_the_torque_leaves_at_the_inner_edge() -> None:
     # A printed plate on a spreader of aluminum: the bonds of the inner rim bear several times those of the outer.
     lap = shear_lag.annular_lap(1.8e11, 1.0 / 2.9e6, 1.0 / 15e6, (15e-3, 27.5e-3))
     inner, outer = shear_lag.edge_rises(lap)

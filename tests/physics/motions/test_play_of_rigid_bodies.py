@@ -54,16 +54,13 @@ def largest_turn(arm: float, leaning: bool) -> float:
     return max(-1e-3 * one.fun for one in found if np.all(clear(one.x) > -1e-6))
 
 
-def test_a_loose_spring_turns_as_far_as_any_rigid_one_can() -> None:
+def test_loose_springs_turn_as_far_as_rigid_ones_can() -> None:
     bound = float(spring_play(TANG, LENGTH, LEVER, POST, LEVELS, ARM))
     found = largest_turn(ARM, leaning=True)
     assert found <= bound * (1.0 + 1e-6)
     assert found == pytest.approx(bound, rel=0.02)  # the bound is nearly reached
     # The reading from outside had 13 degrees with the lean; this one is a bound of its own geometry.
     assert np.degrees(bound) == pytest.approx(13.0, rel=0.1)
-
-
-def test_an_upright_loose_spring_turns_by_its_plays_over_the_tangs_radius() -> None:
     upright = float(spring_play(TANG, 1e9, LEVER, POST, LEVELS, 1e9))
     assert upright == pytest.approx(largest_turn(1e9, leaning=False), rel=1e-4)
     assert np.degrees(upright) == pytest.approx(7.9, rel=0.01)  # read from outside
@@ -107,12 +104,14 @@ def test_a_leg_slides_on_its_pin_as_two_turning_bodies(ratio: float) -> None:
     assert slip == pytest.approx(from_rotor + ratio_of_leg * from_coil, rel=1e-12)
 
 
-def test_friction_under_screws_and_on_pins() -> None:
+def test_friction_under_screws_on_pins_and_in_a_ball_bearing() -> None:
     # Four M3 on 4.9 mm: 1.5 N.m in plastic, 4 in aluminium, by a reading from outside.
     for stress, torque in ((55e6, 1.5), (150e6, 4.0)):
         assert bolted_torque(0.2, tightened_force(stress, 3e-3), 4, 4.9e-3) == pytest.approx(torque, rel=0.05)
     assert float(joint_play(0.5 * (3.4e-3 - 3e-3), 4.9e-3)) == pytest.approx(41e-3, rel=0.01)
     assert sliding_torque(0.25, 8.0, 4e-3) == pytest.approx(8e-3, rel=1e-12)
+    # SKF: M = 0.5 mu P d. 100 N on a bore of 15 mm with 0.0015: 1.125 N*mm.
+    assert journal_torque(0.0015, 100.0, 15e-3) == pytest.approx(1.125e-3, rel=1e-12)
 
 
 def test_a_loose_shaft_leans_no_further_than_it_may() -> None:
@@ -122,33 +121,25 @@ def test_a_loose_shaft_leans_no_further_than_it_may() -> None:
     assert overhung_shift(0.1e-3, 5e-3, 10e-3, 0.01) == pytest.approx(0.2e-3, rel=1e-12)
 
 
-def test_a_bonded_peg_turns_when_its_surface_shears() -> None:
+def test_rings_and_pegs_slip_at_friction_times_force_times_radius() -> None:
+    friction, force, inner, outer = 0.3, 250.0, 2e-3, 9e-3
+    pressure = force / (3.141592653589793 * (outer**2 - inner**2))
+    thin = quad(lambda r: friction * pressure * 2.0 * 3.141592653589793 * r * r, inner, outer)[0]
+    assert disc_torque(friction, force, inner, outer) == pytest.approx(thin, rel=1e-9)
+    assert disc_torque(0.3, 250.0, 8.999e-3, 9.001e-3) == pytest.approx(0.3 * 250.0 * 9e-3, rel=1e-6)
     angles = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
     pieces = 24e6 * (0.9e-3 * 3.5e-3 * 2.0 * np.pi / angles.size) * 0.9e-3 * np.ones_like(angles)
     assert fasteners.peg_twist_torque(24e6, 1.8e-3, 3.5e-3) == pytest.approx(np.sum(pieces), rel=1e-12)
 
 
-def test_a_clamped_ring_slips_at_what_its_thin_rings_bear() -> None:
-    friction, force, inner, outer = 0.3, 250.0, 2e-3, 9e-3
-    pressure = force / (3.141592653589793 * (outer**2 - inner**2))
-    thin = quad(lambda r: friction * pressure * 2.0 * 3.141592653589793 * r * r, inner, outer)[0]
-    assert disc_torque(friction, force, inner, outer) == pytest.approx(thin, rel=1e-9)
-
-
-def test_a_thin_ring_slips_at_friction_times_force_times_radius() -> None:
-    assert disc_torque(0.3, 250.0, 8.999e-3, 9.001e-3) == pytest.approx(0.3 * 250.0 * 9e-3, rel=1e-6)
-
-
-def test_the_makers_estimate_for_a_ball_bearing() -> None:
-    # SKF: M = 0.5 mu P d. 100 N on a bore of 15 mm with 0.0015: 1.125 N*mm.
-    assert journal_torque(0.0015, 100.0, 15e-3) == pytest.approx(1.125e-3, rel=1e-12)
-
-
-def test_the_damping_loses_in_a_cycle_what_the_friction_does() -> None:
+def test_damping_loses_in_a_cycle_what_constant_friction_does() -> None:
     omega, amplitude, torque = 2.0 * np.pi, 0.104, 0.05
     damping = equivalent_damping(torque, omega, amplitude)
     viscous, _ = quad(lambda t: damping * (omega * amplitude * np.cos(omega * t)) ** 2, 0.0, 1.0)
     assert viscous == pytest.approx(torque * 4.0 * amplitude, rel=1e-9)  # there, back, and both again
+    constant = equivalent_damping(0.2 * 7.0 * 0.1, 2.0, 0.1)
+    assert loaded_damping(0.2, 7.0, 0.0, 2.0) == pytest.approx(0.5 * constant, rel=1e-12)
+    assert loaded_damping(0.2, 0.0, 7.0, 2.0) == pytest.approx(0.25 * np.pi * constant, rel=1e-12)
 
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, 60.0, 90.0])
@@ -160,12 +151,6 @@ def test_friction_that_grows_with_the_load_over_a_cycle(degrees: float) -> None:
     energy = np.trapezoid(torque * np.abs(reach * np.cos(phase)), phase)
     found = loaded_damping(share, size * np.cos(delta), size * np.sin(delta), omega)
     assert found == pytest.approx(energy / (np.pi * omega * reach**2), rel=1e-8)
-
-
-def test_constant_friction_against_spring_and_dashpot() -> None:
-    constant = equivalent_damping(0.2 * 7.0 * 0.1, 2.0, 0.1)
-    assert loaded_damping(0.2, 7.0, 0.0, 2.0) == pytest.approx(0.5 * constant, rel=1e-12)
-    assert loaded_damping(0.2, 0.0, 7.0, 2.0) == pytest.approx(0.25 * np.pi * constant, rel=1e-12)
 
 
 @pytest.mark.parametrize(("diameter", "pitch"), [(2.0, 0.4), (3.0, 0.5), (4.0, 0.7), (5.0, 0.8)])

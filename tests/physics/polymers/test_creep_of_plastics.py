@@ -1,14 +1,15 @@
-"""Creep under preload: against a data sheet, Volterra's equation stepped in time, and elasticity by quadrature."""
+"""Creep of plastics against sheets and finite elements; simple bodies against their equations."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.physics.polymers import plastics
+from tvimdesign.physics.polymers.viscoelasticity import Body, KelvinVoigt, Maxwell, StandardLinearSolid
 
 HOURS = 3600.0
 FE = yaml.safe_load((Path(__file__).parents[3] / "validation/fe_spring_holds/results.yaml").read_text())
@@ -19,13 +20,10 @@ def law(material: str) -> plastics.Creep:
     return plastics.Creep(*(record.value(name) for name in ("creep_share", "creep_exponent", "creep_energy")))
 
 
-def test_polycarbonate_has_the_creep_moduli_of_its_sheet() -> None:
+def test_creep_and_ageing_are_those_of_the_sheets() -> None:
     # Makrolon 2405, ISO 899-1: 2200 MPa after 1 h and 1900 MPa after 1000 h; tensile modulus 2400 MPa.
     for hours, sheet in ((1.0, 2200.0), (1000.0, 1900.0)):
         assert 2400.0 / (1.0 + plastics.growth(hours * HOURS, law("polycarbonate"))) == pytest.approx(sheet, rel=2e-3)
-
-
-def test_an_hour_hot_ages_as_arrhenius_says() -> None:
     # 150 kJ/mol from 23 to 60 degC: exp(150e3/8.314 (1/296.15 - 1/333.15)) = 868.
     assert plastics.aged(1.0, 333.15, law("petg")) == pytest.approx(868.0, rel=2e-3)
     assert plastics.aged(5.0, 296.15, law("petg")) == 5.0
@@ -81,3 +79,34 @@ def test_pins_and_holes_give_as_fe_of_the_exported_parts_does(study: str) -> Non
     twisted = plastics.twisted_hole_give(modulus / (2.0 * (1.0 + poisson)), hole["diameter"], hole["length"])
     assert peg == pytest.approx(pin["give"], rel=0.05)
     assert twisted == pytest.approx(hole["give"], rel=0.05)
+
+
+BODIES = [Maxwell(3.0, 0.6), StandardLinearSolid(2.0, 3.0, 0.6)]
+
+
+@pytest.mark.parametrize("body", BODIES, ids=lambda body: type(body).__name__)
+@pytest.mark.parametrize("time", [0.05, 0.7, 4.0])
+def test_creep_and_relaxation_convolve_to_the_time(body: Body, time: float) -> None:
+    whole, _ = quad(lambda s: body.relaxation(time - s) * body.creep(s), 0.0, time)
+    assert whole == pytest.approx(time, rel=1e-8)
+
+
+@pytest.mark.parametrize("body", BODIES, ids=lambda body: type(body).__name__)
+@pytest.mark.parametrize("omega", [0.4, 5.0])
+def test_modulus_is_the_fourier_integral_of_relaxation(body: Body, omega: float) -> None:
+    rest = float(body.relaxation(1e9))
+    sine, _ = quad(lambda t: body.relaxation(t) - rest, 0.0, np.inf, weight="sin", wvar=omega, limlst=500)
+    cosine, _ = quad(lambda t: body.relaxation(t) - rest, 0.0, np.inf, weight="cos", wvar=omega, limlst=500)
+    assert body.modulus(omega) == pytest.approx(rest + omega * (sine + 1j * cosine), rel=1e-6)
+
+
+def test_kelvin_voigt_obeys_its_equation_and_maxwell_forgets_all() -> None:
+    # sigma = G gamma + eta gamma'; under a constant stress of one, and in a sine.
+    body = KelvinVoigt(4.0, 2.0)
+    found = solve_ivp(lambda _, strain: (1.0 - 4.0 * strain) / 2.0, (0.0, 1.3), [0.0], rtol=1e-10, atol=1e-12)
+    assert body.creep(1.3) == pytest.approx(found.y[0, -1], rel=1e-8)
+    assert body.modulus(3.0) == pytest.approx(4.0 + 6.0j)
+    assert KelvinVoigt(4.0, 2.0).relaxation(1e6) == 4.0
+    assert Maxwell(4.0, 2.0).relaxation(1e6) == 0.0
+    assert KelvinVoigt(4.0, 2.0).creep(1e6) == pytest.approx(0.25)
+    assert Maxwell(4.0, 2.0).creep(1e6) == pytest.approx(5e5, rel=1e-6)

@@ -93,11 +93,13 @@ def test_cooling_at_a_constant_rate_is_ozawas_integral_over_temperature(rate: fl
         assert fraction[at] == pytest.approx(1.0 - np.exp(-((60.0 * integral / rate) ** 3)), abs=1e-3)
 
 
-def test_freezing_is_fastest_between_glass_transition_and_melting() -> None:
+def test_freezing_is_fastest_in_between_and_at_slower_cooling_warmer() -> None:
     kelvin = np.linspace(230.0, 345.0, 400)
     fastest = float(kelvin[np.argmin(textbook.half_time(kelvin, PCL))])
     assert 0.70 < fastest / PCL.equilibrium_melting < 0.92  # as a rule 0.8-0.9 of T_m0
     assert np.all(np.diff(textbook.half_time(np.linspace(303.0, 345.0, 50), PCL)) > 0.0)
+    peaks = [peak(rate, PCL) for rate in (0.5, 2.0, 10.0, 20.0)]
+    assert all(hotter > colder + 3.0 for hotter, colder in pairwise(peaks))
 
 
 @given(celsius=st.floats(74.5, 200.0))
@@ -123,12 +125,15 @@ def test_psi_of_a_solid_fraction_gives_it_back(fraction: float) -> None:
     assert transitions.solid_fraction(psi, PCL) == pytest.approx(fraction, abs=1e-4)
 
 
-def test_psi_of_a_fraction_at_and_beyond_its_ends_is_finite() -> None:
+def test_part_molten_polymer_goes_on_and_its_psi_is_finite() -> None:
     assert transitions.extended(0.0, PCL) == pytest.approx(0.0, abs=1e-5)
     assert transitions.extended(-0.02, PCL) == pytest.approx(0.0, abs=0.3)
     assert transitions.extended(1.0, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
     assert transitions.extended(1.02, PCL) == pytest.approx(np.log(1e4) ** (1.0 / 3.0), rel=0.01)
     assert transitions.solid_fraction(-0.05, PCL) == pytest.approx(0.0, abs=1e-12)
+    psi = float(transitions.extended(0.5, PCL))
+    assert transitions.rate(CELSIUS + 35.0, psi, PCL, MELTING) > 1e-3
+    assert transitions.rate(CELSIUS + 62.0, psi, PCL, MELTING) < -0.1
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0])
@@ -148,19 +153,13 @@ def test_heated_solid_melts_half_a_second_behind_equilibrium(speed: float) -> No
     assert np.mean(lag) == pytest.approx(0.5 * speed, abs=0.05)
 
 
-def test_part_molten_polymer_freezes_on_or_melts_on() -> None:
-    psi = float(transitions.extended(0.5, PCL))
-    assert transitions.rate(CELSIUS + 35.0, psi, PCL, MELTING) > 1e-3
-    assert transitions.rate(CELSIUS + 62.0, psi, PCL, MELTING) < -0.1
-
-
 @given(celsius=st.floats(-20.0, 200.0), fraction=st.floats(0.0, 1.0))
 def test_temperature_is_the_enthalpy_solved_for_it(celsius: float, fraction: float) -> None:
     enthalpy = transitions.enthalpy(CELSIUS + celsius, fraction, MELTING)
     assert transitions.temperature(enthalpy, fraction, MELTING) == pytest.approx(CELSIUS + celsius, abs=1e-9)
 
 
-def test_heat_of_freezing_follows_kirchhoffs_law() -> None:
+def test_heats_follow_kirchhoffs_law_and_the_melting_curve() -> None:
     # 76.75 kJ/kg and half the window's sensible heat difference at 57.5 degC; d L/dT = c_melt - c_solid = 250 J/kg K.
     def latent(celsius: float) -> float:
         return transitions.enthalpy(CELSIUS + celsius, 0.0, MELTING) - transitions.enthalpy(
@@ -169,9 +168,6 @@ def test_heat_of_freezing_follows_kirchhoffs_law() -> None:
 
     assert latent(57.5) == pytest.approx(76.75e3, rel=1e-9)
     assert latent(27.5) == pytest.approx(76.75e3 - 30.0 * 250.0, rel=1e-9)
-
-
-def test_pure_solid_and_pure_melt_have_the_enthalpies_of_the_melting_curve() -> None:
     for celsius, fraction in ((20.0, 1.0), (49.9, 1.0), (65.1, 0.0), (120.0, 0.0)):
         found = transitions.enthalpy(CELSIUS + celsius, fraction, MELTING)
         assert found == pytest.approx(polymer.enthalpy(CELSIUS + celsius, MELTING), rel=1e-12)
@@ -201,8 +197,3 @@ def test_slope_of_the_rate_is_what_differences_show(celsius: float, psi: float) 
     at, step = CELSIUS + celsius, 1e-4
     around = [transitions.rate(at + shift, psi, PCL, MELTING) for shift in (-step, step)]
     assert float(slope(at)) == pytest.approx((around[1] - around[0]) / (2.0 * step), rel=1e-4, abs=1e-7)
-
-
-def test_slower_cooling_freezes_at_a_higher_temperature() -> None:
-    peaks = [peak(rate, PCL) for rate in (0.5, 2.0, 10.0, 20.0)]
-    assert all(hotter > colder + 3.0 for hotter, colder in pairwise(peaks))

@@ -67,24 +67,15 @@ def test_temperature_rises_and_the_solid_fraction_falls_with_enthalpy(first: flo
     assert polymer.solid_fraction(low, MELTING) >= polymer.solid_fraction(high, MELTING) - 1e-12
 
 
-def test_heat_between_50_and_65_degrees() -> None:
+def test_heats_between_temperatures_by_hand() -> None:
     taken = polymer.enthalpy(CELSIUS + 65.0, MELTING) - polymer.enthalpy(CELSIUS + 50.0, MELTING)
     assert taken == pytest.approx(76.75e3 + 15.0 * 0.5 * (1850.0 + 2100.0), rel=1e-9)
     assert polymer.solid_fraction(polymer.enthalpy(CELSIUS + 57.5, MELTING), MELTING) == pytest.approx(0.5, abs=1e-6)
-
-
-def test_heat_from_22_to_100_degrees() -> None:
     taken = polymer.enthalpy(CELSIUS + 100.0, MELTING) - polymer.enthalpy(CELSIUS + 22.0, MELTING)
     assert taken == pytest.approx(231e3, rel=5e-3)
     assert MELTING.latent_heat / taken == pytest.approx(1.0 / 3.0, rel=0.02)
-
-
-def test_zero_of_enthalpy_is_the_solid_at_0_degrees() -> None:
     assert polymer.enthalpy(CELSIUS, MELTING) == 0.0
     assert polymer.enthalpy(CELSIUS + 10.0, MELTING) == pytest.approx(18.5e3, rel=1e-12)
-
-
-def test_slopes_outside_the_window_are_the_specific_heats() -> None:
     for celsius, specific_heat in ((10.0, 1850.0), (120.0, 2100.0)):
         rise = polymer.enthalpy(CELSIUS + celsius + 1.0, MELTING) - polymer.enthalpy(CELSIUS + celsius, MELTING)
         assert rise == pytest.approx(specific_heat, rel=1e-9)
@@ -144,11 +135,14 @@ def test_spectrum_of_a_melt_is_the_power_law_by_hand() -> None:
     assert soft * slow + stiff * fast == pytest.approx(1000.0)
 
 
-def test_viscosity_moves_the_times_and_plateau_modulus_the_moduli() -> None:
+def test_viscosity_moves_times_and_falls_as_arrhenius_says() -> None:
     one, thicker, stiffer = (polymer.melt_spectrum(*how, 6) for how in ((1e3, 1e6), (1e2, 1e6), (1e3, 1e4)))
     for (time, modulus), (own_time, own_modulus), (longer, softer) in zip(one, thicker, stiffer, strict=True):
         assert (own_time, own_modulus) == pytest.approx((0.1 * time, modulus))
         assert (longer, softer) == pytest.approx((100.0 * time, 0.01 * modulus))
+    # 35 kJ/mol from 100 to 120 degC: exp(35000/8.3145 (1/393.15 - 1/373.15)) = exp(-0.57388) = 0.5633.
+    assert polymer.arrhenius_shift(393.15, 373.15, 35e3) == pytest.approx(0.5633, rel=1e-3)
+    assert polymer.arrhenius_shift(373.15, 373.15, 35e3) == 1.0
 
 
 @pytest.mark.parametrize("grade", GRADES)
@@ -156,12 +150,6 @@ def test_fast_melt_is_a_rubber_of_its_plateau_modulus(grade: str) -> None:
     storage, loss = polymer.maxwell_moduli(1e9, modes_of(Catalog().record("polymers", grade)))
     assert storage == pytest.approx(0.95e6, rel=0.06)  # 0.9-1.0 MPa
     assert loss < 1e-2 * storage
-
-
-def test_melt_viscosity_falls_with_temperature_as_arrhenius_says() -> None:
-    # 35 kJ/mol from 100 to 120 degC: exp(35000/8.3145 (1/393.15 - 1/373.15)) = exp(-0.57388) = 0.5633.
-    assert polymer.arrhenius_shift(393.15, 373.15, 35e3) == pytest.approx(0.5633, rel=1e-3)
-    assert polymer.arrhenius_shift(373.15, 373.15, 35e3) == 1.0
 
 
 @given(celsius=st.floats(70.0, 160.0))

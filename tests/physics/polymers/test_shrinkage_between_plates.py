@@ -58,14 +58,11 @@ def test_the_edge_of_a_free_rotor_pulls_as_the_force_at_the_hub_asks() -> None:
     assert found == pytest.approx(expected, rel=1e-3)
 
 
-def test_a_real_arc_is_long_enough_for_the_formula() -> None:
+def test_arcs_are_long_enough_and_spans_limit_what_gives_way() -> None:
     # Arcs of 14 mm between plates of 4 mm PETG; the formula's have no end.
     rigidity, foundation = 12.0, 1.77e11
     expected = beam(foundation, rigidity, 2.4e6, 12.6e-3, 14e-3, 65e-6, 0.0)
     assert transitions.edge_traction(65e-6, foundation, rigidity, 2.4e6, 12.6e-3) == pytest.approx(expected, rel=0.1)
-
-
-def test_without_a_span_nothing_gives_way_and_far_from_the_hub_all_does() -> None:
     assert transitions.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 0.0) == pytest.approx(65e-6 * 1.8e11)
     assert transitions.edge_traction(65e-6, 1.8e11, 12.0, 2.4e6, 1.0) < 1e-3 * 65e-6 * 1.8e11
 

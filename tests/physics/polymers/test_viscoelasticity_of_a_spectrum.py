@@ -1,16 +1,19 @@
-"""One spectrum in every test: creep against relaxation, time against frequency, storage against loss."""
+"""One spectrum in every test, and across its glass transition: creep against relaxation, time against frequency."""
 
 import math
 from itertools import pairwise
 
+import casadi as ca
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from tvimdesign.physics.polymers import viscoelasticity
-from tvimdesign.physics.polymers.polymer import maxwell_moduli
+from tvimdesign.catalog import Catalog
+from tvimdesign.device.core.impedance.joint_impedance import solid_modes
+from tvimdesign.physics.polymers import polymer, transitions, viscoelasticity
+from tvimdesign.physics.polymers.polymer import PINNED_FREQUENCY, maxwell_moduli
 from tvimdesign.physics.polymers.viscoelasticity import creep_compliance, relaxation_modulus, retardation
 
 Modes = list[tuple[float, float]]
@@ -64,22 +67,16 @@ def test_creep_and_relaxation_convolve_to_the_time(modes: Modes, time: float) ->
     assert whole == pytest.approx(time, rel=1e-6)
 
 
-def test_one_mode_creeps_as_maxwells_body() -> None:
+def test_one_mode_creeps_as_textbook_bodies_do() -> None:
     # J = 1/G + t/(G tau).
     response = retardation([(2.0, 5.0)])
     assert response.modes == ()
     assert creep_compliance(3.0, response) == pytest.approx(0.2 + 0.3, rel=1e-12)
-
-
-def test_spring_beside_one_mode_creeps_as_the_standard_linear_solid() -> None:
     # Findley, ch. 5: J = 1/R - (1/R - 1/(R + G)) exp(-t R/((R + G) tau)), here R = 2, G = 6, tau = 0.5.
     response = retardation([(1e14, 2.0), (0.5, 6.0)])
     for time in (0.0, 0.4, 3.0, 100.0):
         expected = 0.5 - (0.5 - 0.125) * math.exp(-time * 2.0 / (8.0 * 0.5))
         assert creep_compliance(time, response) == pytest.approx(expected, rel=1e-9)
-
-
-def test_modes_of_one_time_are_one_mode() -> None:
     together, apart = retardation([(1.0, 5.0), (0.1, 7.0)]), retardation([(1.0, 2.0), (0.1, 7.0), (1.0, 3.0)])
     assert np.allclose(together.modes, apart.modes, rtol=1e-12)
     assert together.viscosity == pytest.approx(apart.viscosity)
@@ -153,11 +150,14 @@ def test_start_up_adds_the_relaxation_modulus_up_and_ends_at_the_viscosity(modes
     assert end == pytest.approx(sum(tau * g for tau, g in modes), rel=1e-9)
 
 
-def test_slow_melt_flows_with_its_zero_shear_viscosity_however_it_is_moved() -> None:
+def test_a_slow_melt_flows_with_its_viscosity_and_keeps_a_tiny_stress() -> None:
     viscosity = viscoelasticity.zero_shear_viscosity(MELT)
     assert viscoelasticity.complex_viscosity(1e-3, MELT) == pytest.approx(viscosity, rel=1e-6)
     assert retardation(MELT).viscosity == pytest.approx(viscosity, rel=1e-12)
     assert viscoelasticity.loss_factor(1e-3, MELT) > 1e3
+    # One mode by hand: s' = G g' - s/tau gives G g' tau (1 - exp(-t_r/tau)) at the end of the rise, fading from there.
+    by_hand = 1e5 * (0.1 / 0.1) * 0.02 * (1.0 - math.exp(-5.0)) * math.exp(-0.9 / 0.02)
+    assert viscoelasticity.ramped_stress(1.0, 0.1, 0.1, [(0.02, 1e5)]) == pytest.approx(by_hand, rel=1e-9, abs=0.0)
 
 
 @NAMED
@@ -168,7 +168,60 @@ def test_a_quick_ramp_is_a_step_and_a_slow_one_a_flow(modes: Modes) -> None:
     assert slow == pytest.approx(0.1 * viscoelasticity.start_up_viscosity(0.5, modes), rel=1e-12)
 
 
-def test_long_after_a_ramp_a_melt_has_a_tiny_stress_and_not_none() -> None:
-    # One mode by hand: s' = G g' - s/tau gives G g' tau (1 - exp(-t_r/tau)) at the end of the rise, fading from there.
-    by_hand = 1e5 * (0.1 / 0.1) * 0.02 * (1.0 - math.exp(-5.0)) * math.exp(-0.9 / 0.02)
-    assert viscoelasticity.ramped_stress(1.0, 0.1, 0.1, [(0.02, 1e5)]) == pytest.approx(by_hand, rel=1e-9, abs=0.0)
+CELSIUS = 273.15
+TRANSITION = transitions.GlassTransition(CELSIUS + 60.0, 17.44, 51.6, 300e3)
+
+
+def pla() -> transitions.Glass:
+    record = Catalog().record("polymers", "pla")
+    names = ("glass_transition", "wlf_c1", "wlf_c2", "glass_activation_energy")
+    transition = transitions.GlassTransition(*(record.value(name) for name in names))
+    return transitions.Glass(1e9, record.value("reference_temperature"), transition, solid_modes(record))
+
+
+@pytest.mark.parametrize(
+    ("above", "decades"),
+    [(10.0, -2.8312), (20.0, -4.8715), (40.0, -7.6157)],  # 17.44 dT/(51.6 + dT) by hand
+)
+def test_above_the_transition_times_shift_by_wlf(above: float, decades: float) -> None:
+    found = np.log10(transitions.shift(TRANSITION.temperature + above, TRANSITION))
+    assert found == pytest.approx(decades, abs=0.01)
+
+
+def test_below_the_transition_times_shift_by_arrhenius_round_the_corner() -> None:
+    # 300 kJ/mol, 60 and 20 degC: 300000/8.314463 (1/293.15 - 1/333.15)/ln 10 = 6.4182 decades, by hand.
+    assert np.log10(transitions.shift(CELSIUS + 20.0, TRANSITION)) == pytest.approx(6.4182, abs=0.01)
+    around = np.log10(transitions.shift(TRANSITION.temperature + np.linspace(-3.0, 3.0, 241), TRANSITION))
+    assert np.all(np.diff(around) < 0.0)
+    # The WLF law has 0.338 decades a kelvin there, the Arrhenius law 0.141: half of a kelvin off at most.
+    assert abs(around[120]) < 0.5 * 0.34
+
+
+def test_a_glass_has_its_reference_modulus_whatever_is_frozen() -> None:
+    one = pla()
+    at = polymer.maxwell_moduli(PINNED_FREQUENCY, one.at(one.reference_temperature))
+    assert at[0] == pytest.approx(1e9, rel=1e-12)
+    rubber = polymer.moduli(CELSIUS + 110.0, 0.0, PINNED_FREQUENCY, one)[0]
+    assert rubber == pytest.approx(1e9 * 1.2 / 1045.7, rel=0.02)
+    assert polymer.spectrum(CELSIUS + 60.0, 0.0, pla()) == polymer.spectrum(CELSIUS + 60.0, 1.0, pla())
+
+
+def test_slower_at_a_warmer_place_is_the_same() -> None:
+    """Time-temperature superposition: a faster test stands for a colder one."""
+    one = pla()
+    colder, warmer = CELSIUS + 65.0, CELSIUS + 70.0
+    faster = transitions.shift(colder, one.transition) / transitions.shift(warmer, one.transition)
+    cold = polymer.maxwell_moduli(1.0, one.at(colder))
+    warm = polymer.maxwell_moduli(faster, one.at(warmer))
+    assert warm == pytest.approx(cold, rel=1e-9)
+
+
+def test_arrays_and_symbols_are_the_same_as_floats() -> None:
+    one, kelvin = pla(), CELSIUS + np.array([20.0, 58.0, 60.6, 75.0, 100.0])
+    floats = [polymer.moduli(float(at), 0.5, 6.0, one) for at in kelvin]
+    arrays = polymer.moduli(kelvin, 0.5, 6.0, one)
+    symbol = ca.SX.sym("T")
+    function = ca.Function("moduli", [symbol], list(polymer.moduli(symbol, 0.5, 6.0, one)))
+    for i, found in enumerate(floats):
+        assert [part[i] for part in arrays] == pytest.approx(list(found), rel=1e-12)
+        assert [float(part) for part in function(float(kelvin[i]))] == pytest.approx(list(found), rel=1e-12)

@@ -20,19 +20,13 @@ def by_strips(height: Callable[[float], float], start: float, end: float) -> sha
     return shapes.Section(area, polar)
 
 
-def test_sector_is_its_thin_arcs() -> None:
+def test_sectors_are_their_thin_arcs_and_have_the_papers_area() -> None:
     span, inner, outer = 0.85, 26e-3, 40e-3
     area = integrate(lambda r: span * r, inner, outer)
     polar = integrate(lambda r: span * r**3, inner, outer)
     assert shapes.sector(span, inner, outer) == pytest.approx((area, polar), rel=1e-9)
-
-
-def test_four_sectors_of_49_degrees_have_the_papers_contact_area() -> None:
     # Exley et al., table I: 1579.2 mm^2. The arcs from 26 to 40 mm are the reference layout.
     assert shapes.sector(4.0 * np.radians(49.0), 26e-3, 40e-3).area == pytest.approx(1579.2e-6, rel=5e-3)
-
-
-def test_ring_is_a_disc_less_a_disc() -> None:
     disc = by_strips(lambda x: np.sqrt(40e-3**2 - x**2), -40e-3, 40e-3)
     hole = by_strips(lambda x: np.sqrt(26e-3**2 - x**2), -26e-3, 26e-3)
     assert shapes.ring(26e-3, 40e-3) == pytest.approx(disc - hole, rel=1e-8)

@@ -17,12 +17,9 @@ INERTIA = 4.156e-4  # kg*m^2, Exley et al., table I (there as kg/mm^2)
 STIFFNESS = 5.61  # N*m/rad, four springs of 1.4023
 
 
-def test_springs_alone_ring_at_18_5_hertz() -> None:
+def test_the_papers_springs_ring_at_18_5_hertz_and_their_damping() -> None:
     # sqrt(5.61/4.156e-4)/(2 pi) = 116.2/6.2832.
     assert motion.natural_frequency(STIFFNESS, INERTIA) == pytest.approx(18.5, rel=5e-3)
-
-
-def test_damping_of_0_0966_is_critical() -> None:
     # 2 sqrt(5.61 * 4.156e-4) = 0.0966 N*m*s/rad.
     assert motion.damping_ratio(0.0966, STIFFNESS, INERTIA) == pytest.approx(1.0, rel=5e-3)
 
@@ -45,22 +42,20 @@ def test_free_swing_rings_and_decays_as_frequency_and_damping_ratio_say(ratio: f
     assert np.log(abs(peaks[0] / peaks[1])) == pytest.approx(np.pi * zeta / np.sqrt(1.0 - zeta**2), rel=1e-6)
 
 
-def test_shear_modulus_of_6061_is_that_of_the_handbook() -> None:
+def test_shafts_have_the_handbooks_stiffness_and_strength() -> None:
     # 6061-T6: E 68.9 GPa, nu 0.33, G 26 GPa (MIL-HDBK-5: 3.8e6 psi = 26.2 GPa).
     assert structure.shear_modulus(68.9e9, 0.33) == pytest.approx(26e9, rel=0.01)
-
-
-def test_shaft_stiffness_is_modulus_times_polar_moment_over_length() -> None:
     modulus, radius, length = 0.76e9, 10e-3, 9e-3
     polar, _ = quad(lambda r: 2.0 * np.pi * r**3, 0.0, radius, epsabs=0.0, epsrel=1e-12)
     assert structure.shaft_stiffness(modulus, radius, length) == pytest.approx(modulus * polar / length, rel=1e-9)
-
-
-def test_shaft_yields_where_the_stress_at_its_surface_does() -> None:
     # Stress rises with the radius: tau r/R on the rings 2 pi r dr, each on the arm r.
     shear_yield, radius = 30e6, 8e-3
     torque, _ = quad(lambda r: shear_yield * r / radius * 2.0 * np.pi * r**2, 0.0, radius, epsabs=0.0)
     assert structure.shaft_torque(shear_yield, radius) == pytest.approx(torque, rel=1e-9)
+    # Mises: sqrt(3/2 s:s) of the deviator, here of shear alone in two planes of the tensor.
+    shear = structure.shear_yield(47.5e6)
+    tensor = np.array([[0.0, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    assert np.sqrt(1.5 * np.sum(tensor**2)) == pytest.approx(47.5e6, rel=1e-12)
 
 
 def test_ring_stiffness_is_the_series_of_its_thin_rings() -> None:
@@ -78,29 +73,22 @@ def test_a_force_beyond_two_bearings_is_balanced_by_them() -> None:
     assert far > 0.0  # the farther one pulls the other way
 
 
-def test_shear_yield_has_the_equivalent_stress_of_tensile_yield() -> None:
-    # Mises: sqrt(3/2 s:s) of the deviator, here of shear alone in two planes of the tensor.
-    shear = structure.shear_yield(47.5e6)
-    tensor = np.array([[0.0, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    assert np.sqrt(1.5 * np.sum(tensor**2)) == pytest.approx(47.5e6, rel=1e-12)
-
-
-def test_compliance_of_two_ledges() -> None:
+def test_ledges_and_holes_add_their_compliance() -> None:
     assert structure.under_ledges_compliance((1.0, 1.0), 1e9, 3.0) == pytest.approx(3.0, rel=1e-6)
     # Compliances of 6 and 4 inside and 2 outside: the inner way bears 2/12, which costs 4 (2/12)^2.
     assert structure.under_ledges_compliance((6.0, 2.0), 4.0, 0.0) == pytest.approx(4.0 / 36.0, rel=1e-12)
-
-
-def test_a_hole_in_even_shear_costs_twice_its_own_share() -> None:
     # A small hole of radius r at b in a shaft of radius R: its own polar moment is pi r^2 b^2 of pi R^4/2.
     own = np.pi * 0.1**2 * 5.0**2 / (0.5 * np.pi * 10.0**4)
     assert structure.hole_weakening(0.1, 5.0, 3, 10.0) == pytest.approx(3 * 2.0 * own, rel=1e-12)
 
 
-def test_a_foot_between_two_floors_moves_as_timoshenkos_beam() -> None:
+def test_a_foot_moves_as_timoshenkos_beam_built_in_below_a_thick_floor() -> None:
     # Steel pin of 10 mm, 300 mm long, both ends built in: 12 E I/h^3 = 4.494e4 N/m; the shear adds under 1 %.
     found = structure.foot_stiffness(206e9, 79e9, 5e-3, 0.0, 300e-3)
     assert found == pytest.approx(12.0 * 206e9 * 4.9087e-10 / 27e-3, rel=0.01)
+    # A cantilever bends four times as far as a beam whose ends keep their directions: h^3/(3 E I) for h^3/(12 E I).
+    assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1.0) == pytest.approx(1.0, abs=1e-3)
+    assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1e-6) == pytest.approx(4.0, rel=1e-3)
 
 
 def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> None:
@@ -113,19 +101,16 @@ def test_a_spot_at_the_edge_of_a_sheet_moves_as_a_force_on_a_half_plane() -> Non
     assert found == pytest.approx(0.5 * whole, rel=1e-9)
 
 
-def test_a_foot_is_built_in_below_a_thick_floor_only() -> None:
-    # A cantilever bends four times as far as a beam whose ends keep their directions: h^3/(3 E I) for h^3/(12 E I).
-    assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1.0) == pytest.approx(1.0, abs=1e-3)
-    assert structure.foot_tilt(3.5e-3, 1.7e-3, 6e-3, 1e-6) == pytest.approx(4.0, rel=1e-3)
-
-
-def test_an_evenly_pushed_bar_keeps_a_twelfth() -> None:
+def test_pushed_bars_and_driven_plates_keep_their_shares() -> None:
     # Energy of N = q x from -L/2 to L/2, twice over the moment squared: by quadrature, of three bars at 15 mm.
     length, section, youngs, count, radius = 22e-3, 4e-6, 2.1e9, 3, 15e-3
     push = 1.0 / (count * radius * length)
     x = (np.arange(1000) + 0.5) / 1000 * length - 0.5 * length
     energy = count * np.mean((push * x) ** 2) * length / (youngs * section)
     assert structure.hoop_compliance(youngs, section, length, count, radius) == pytest.approx(energy, rel=1e-4)
+    # A block of 10 by 10 mm, 3 mm thick, its shear falling from 1 N/mm^2 to nothing; its strain energy by integral.
+    energy, _ = quad(lambda z: 0.5 * (1.0 - z / 3.0) ** 2 * 100.0 / 7.0, 0.0, 3.0)
+    assert structure.face_compliance(7.0, 3.0, 100.0) == pytest.approx(2.0 * energy / 100.0**2, rel=1e-9)
 
 
 def stepped_bar(plate: float, reach: float, fine: int) -> float:
@@ -180,9 +165,3 @@ def test_a_ring_that_a_layer_relieves_evenly_gives_as_its_energy_says() -> None:
     worked, _ = quad(lambda r: left(r) ** 2 / r**3, inner, outer)
     plain, _ = quad(lambda r: r**-3, inner, outer)
     assert structure.evenly_relieved(inner, outer) == pytest.approx(worked / plain, rel=1e-9)
-
-
-def test_a_plate_driven_on_one_face_gives_by_a_third_of_its_thickness() -> None:
-    # A block of 10 by 10 mm, 3 mm thick, its shear falling from 1 N/mm^2 to nothing; its strain energy by integral.
-    energy, _ = quad(lambda z: 0.5 * (1.0 - z / 3.0) ** 2 * 100.0 / 7.0, 0.0, 3.0)
-    assert structure.face_compliance(7.0, 3.0, 100.0) == pytest.approx(2.0 * energy / 100.0**2, rel=1e-9)

@@ -94,13 +94,10 @@ def test_two_vanes_under_a_block_stand_where_their_energy_and_its_is_least() -> 
     assert vane.compliance(other, one, block) == pytest.approx(found[1] * arm / 10.0, rel=1e-5)
 
 
-def test_a_soft_block_leaves_its_vanes_alone() -> None:
+def test_soft_blocks_leave_vanes_alone_and_stiff_ones_hold_them() -> None:
     one, other = vane.Vane(3e-7, 1e-8, 4e-3), vane.Vane(8e-7, 0.0, 6e-3)
     assert vane.compliance(one, other, between(1e-3)) == pytest.approx(one.leaning + one.aside, rel=1e-9)
     soft = vane.BlockBetween((140e6, 1e-3), (4e-3, 1e-3, 0.0), (WIDTH, HEIGHT), 0.4e-3)
     assert vane.compliance(one, other, soft) == pytest.approx(one.leaning + one.aside, rel=1e-9)
-
-
-def test_a_stiff_vane_holds_the_other_upright_through_a_stiff_block() -> None:
     one, other = vane.Vane(3e-7, 0.0, 4e-3), vane.Vane(1e-15, 0.0, 6e-3)
     assert vane.compliance(one, other, between(1e15)) < 1e-3 * one.leaning

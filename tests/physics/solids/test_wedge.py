@@ -28,14 +28,11 @@ def test_a_rectangular_bar_twists_as_saint_venant_s_series_says(ratio: float) ->
     assert wedge.torsion_constant(1.0, ratio) == wedge.torsion_constant(ratio, 1.0)
 
 
-def test_a_plate_that_all_vanes_cup_turns_as_far_as_its_strips_bend() -> None:
+def test_plates_and_vanes_bend_as_strips_do() -> None:
     # No vane of its own: the work of the moments on the slopes that 12 m/(E h^3) adds up to from the core outwards.
     between, arm = block(1e6), 0.4e-3 + 0.5 * HEIGHT
     slope = quad(lambda r: 12.0 * 3.0 * arm / (2.0 * np.pi * r) / (YOUNGS * 3e-3**3), 6.6e-3, RADIUS)[0]
     assert sideways(between, 0.0).along == pytest.approx(arm * slope, rel=1e-9)
-
-
-def test_a_vane_bends_along_its_width_as_a_turned_one() -> None:
     between = block(1e6)
     bent = sideways(between, 1.0).along - sideways(between, 0.0).along
     stiff = vane.stiffness(YOUNGS, SHEAR, THICKNESS, WIDTH, HEIGHT, 0.4e-3)
@@ -88,16 +85,13 @@ def test_a_cupped_plate_stresses_the_core_s_foot_besides() -> None:
     assert wedge.foot_bending(angle, arm, core, PLATE) == pytest.approx(bending / plain, rel=1e-12)
 
 
-def test_a_slender_vane_yields_in_bending_and_a_stub_in_shear() -> None:
+def test_vanes_yield_where_mises_says_in_bending_or_shear() -> None:
     strength, arm = 31e6, 80e-3
     # Stress at the surface of a cantilever: F a (t/2)/I.
     bending = strength * (WIDTH * THICKNESS**3 / 12.0) / (arm * 0.5 * THICKNESS)
     assert wedge.force_at_yield(strength, (WIDTH, THICKNESS), arm) == pytest.approx(bending, rel=1e-3)
     stub = strength / np.sqrt(3.0) * WIDTH * THICKNESS
     assert wedge.force_at_yield(strength, (WIDTH, THICKNESS), 1e-6) == pytest.approx(stub, rel=1e-5)
-
-
-def test_a_vane_yields_where_mises_says() -> None:
     force = wedge.force_at_yield(31e6, (WIDTH, THICKNESS), 6e-3)
     bending, shear = 6.0 * force * 6e-3 / (WIDTH * THICKNESS**2), force / (WIDTH * THICKNESS)
     stress = np.array([[bending, shear, 0.0], [shear, 0.0, 0.0], [0.0, 0.0, 0.0]])

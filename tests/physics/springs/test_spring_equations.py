@@ -22,24 +22,12 @@ WIRE = 0.072 * INCH
 COIL = (19.0 / 32.0 - 0.072) * INCH
 
 
-def test_active_coils_of_shigleys_example_10_8() -> None:
+def test_a_spring_is_that_of_shigleys_example_10_8() -> None:
     assert spring.active_coils(4.25, COIL, 2.0 * INCH) == pytest.approx(4.6567, rel=1e-4)
-
-
-def test_rate_of_shigleys_example_10_8() -> None:
     rate = spring.rate(28_500 * KPSI, WIRE, COIL, spring.active_coils(4.25, COIL, 2.0 * INCH), "smi")
     assert rate * TURN / POUND_FORCE_INCH == pytest.approx(29.2, rel=HALF_PERCENT)
-
-
-def test_inner_fibre_factor_of_shigleys_example_10_8() -> None:
     assert spring.inner_fibre_factor(spring.spring_index(WIRE, COIL)) == pytest.approx(1.1146, rel=1e-4)
-
-
-def test_coil_diameter_under_load_of_shigleys_example_10_8() -> None:
     assert spring.loaded_coil_diameter(COIL, 4.25, 0.236 * TURN) / INCH == pytest.approx(0.4943, rel=1e-3)
-
-
-def test_stress_of_shigleys_example_10_8() -> None:
     # The example winds the body by .236 turn because .78 S_ut allows it, S_ut = 201 kpsi/.072^.145 (d in inch).
     torque = 0.236 * TURN * spring.rate(28_500 * KPSI, WIRE, COIL, 4.25, "smi")
     stress = spring.bending_stress(torque, WIRE, spring.inner_fibre_factor(COIL / WIRE))
@@ -63,16 +51,15 @@ def test_rate_agrees_with_published_springs(
     assert spring.rate(modulus, wire, coil, count, model) == pytest.approx(expected, rel=HALF_PERCENT)
 
 
-def test_rate_in_bending_is_that_of_the_straightened_wire() -> None:
+def test_rate_and_stress_are_those_of_the_straightened_wire() -> None:
     # Castigliano: a wire of the length pi D n turns by M L/(E I) under a constant moment, I = pi d^4/64.
     wire, coil, count, modulus = 1.7e-3, 15e-3, 6.2, 200e9
     straight = modulus * np.pi * wire**4 / 64.0 / (np.pi * coil * count)
     assert spring.rate(modulus, wire, coil, count) == pytest.approx(straight, rel=1e-12)
-
-
-def test_a_bending_leg_counts_a_third_of_its_length() -> None:
     # Cantilever with a load at its end: the slope's work is M^2 L/(6 E I), that of a coil M^2 (pi D)/(2 E I).
     assert spring.active_coils(5.0, 20e-3, 3.0 * np.pi * 20e-3) == pytest.approx(6.0, rel=1e-12)
+    # 10 N*m on a round bar of 10 mm: W = pi d^3/32 = 98.17 mm^3, 101.86 MPa.
+    assert spring.bending_stress(10.0, 10e-3, 1.0) == pytest.approx(101.86e6, rel=1e-4)
 
 
 @given(
@@ -102,11 +89,6 @@ def test_stress_factors_are_those_of_a_curved_bar(index: float) -> None:
     exact = stress / (32.0 / np.pi)
     assert spring.inner_fibre_factor(index) == pytest.approx(exact, rel=5e-4)
     assert spring.inner_fibre_factor_en(index) == pytest.approx(exact, rel=0.02)
-
-
-def test_bending_stress_of_a_straight_bar_is_moment_over_section_modulus() -> None:
-    # 10 N*m on a round bar of 10 mm: W = pi d^3/32 = 98.17 mm^3, 101.86 MPa.
-    assert spring.bending_stress(10.0, 10e-3, 1.0) == pytest.approx(101.86e6, rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -154,14 +136,11 @@ def test_gerber_safety_solves_gerbers_equation(amplitude: float, mean: float, en
     assert spring.gerber_safety(amplitude, mean, endurance, tensile) == pytest.approx(root, rel=1e-9)
 
 
-def test_a_spring_wound_up_keeps_its_wire() -> None:
+def test_a_spring_wound_up_keeps_its_wire_and_grows_by_it() -> None:
     # pi D n is the length of the wire; a turn of winding adds a turn of coil.
     coil, count, angle = 24e-3, 3.25, 1.2
     wound = spring.loaded_coil_diameter(coil, count, angle)
     assert wound * (count + angle / TURN) == pytest.approx(coil * count, rel=1e-12)
-
-
-def test_body_length_grows_by_a_wire_for_each_turn() -> None:
     # Shigley, section 10-12: d (n_b + 1 + theta).
     assert spring.body_length(2e-3, 4.25, 0.0) == pytest.approx(10.5e-3, rel=1e-12)
     assert spring.body_length(2e-3, 4.25, TURN) == pytest.approx(12.5e-3, rel=1e-12)

@@ -83,7 +83,9 @@ def test_every_test_runs_on_a_compression_module(test: str, trial: Callable[[str
     )
 
 
-def test_energy_never_rises_in_a_release(trial: Callable[[str], Trial]) -> None:
+def test_energy_never_rises_and_a_link_that_rattles_on_is_said_to(
+    trial: Callable[[str], Trial], resolved: ResolvedModule
+) -> None:
     release = trial("release")
     for one in release.sheets:
         if not one.name.endswith("_events"):
@@ -92,6 +94,14 @@ def test_energy_never_rises_in_a_release(trial: Callable[[str], Trial]) -> None:
     for point in POINTS:
         found = next(one for one in release.findings if one.name == f"energy_gain@{point}")
         assert max(found.value, found.high or 0.0) <= 1e-9
+    # A hot link has nothing but lossless springs over most of its way, and a frozen one hardly any damping.
+    assert not np.isfinite(value(trial("release"), "settling_time@hot"))
+    assert any(
+        note.startswith("At cold and hot") and "the link still swings" in note for note in trial("release").notes
+    )
+    assert not any(
+        "still swings" in note for note in release_test.release(with_rows(resolved, parting_share=0.0)).notes
+    )
 
 
 def test_hot_blocks_leave_the_link_to_its_springs(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
@@ -121,18 +131,7 @@ def test_first_flat_of_the_loop_is_as_wide_as_the_backlash(
     assert 0.9 * gap < way <= gap * (1.0 + 1e-9)
 
 
-def test_link_that_rattles_on_is_said_to(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:
-    # A hot link has nothing but lossless springs over most of its way, and a frozen one hardly any damping.
-    assert not np.isfinite(value(trial("release"), "settling_time@hot"))
-    assert any(
-        note.startswith("At cold and hot") and "the link still swings" in note for note in trial("release").notes
-    )
-    assert not any(
-        "still swings" in note for note in release_test.release(with_rows(resolved, parting_share=0.0)).notes
-    )
-
-
-def test_loop_that_is_drawn_is_the_first_swing(trial: Callable[[str], Trial]) -> None:
+def test_the_loop_and_contact_lost_are_those_of_the_first_swing(trial: Callable[[str], Trial]) -> None:
     release = trial("release")
     loops = [panel for panel in release.panels if panel.x_label.startswith("Angle")]
     assert len(loops) == 3
@@ -141,6 +140,12 @@ def test_loop_that_is_drawn_is_the_first_swing(trial: Callable[[str], Trial]) ->
     swing = sheet(release, "release_melting_nominal_first_swing").column("time").values
     assert np.array_equal(swing, whole[: len(swing)])
     assert swing[-1] == pytest.approx(1.0 / value(release, "ringing_frequency@melting"), rel=1e-9)
+    # By the events of the sheet: left at the first, met at the second, and once more on the way back.
+    events = sheet(trial("release"), "release_melting_nominal_events")
+    times, swing = events.column("time").values, 1.0 / value(trial("release"), "ringing_frequency@melting")
+    lost = (times[1] - times[0]) + (times[3] - times[2])
+    assert times[3] < swing < times[4] + swing
+    assert value(trial("release"), "contact_lost@melting") == pytest.approx(lost / swing, rel=1e-9)
 
 
 def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> None:
@@ -153,15 +158,6 @@ def test_events_are_where_the_columns_change(trial: Callable[[str], Trial]) -> N
         changes = np.flatnonzero(np.diff(one.column(column).values)) + 1
         assert times[changes] == pytest.approx(moments, abs=1e-12)
         assert np.array_equal(one.column(column).values[changes], touches)
-
-
-def test_contact_lost_is_the_time_without_contact_over_the_swing(trial: Callable[[str], Trial]) -> None:
-    # By the events of the sheet: left at the first, met at the second, and once more on the way back.
-    events = sheet(trial("release"), "release_melting_nominal_events")
-    times, swing = events.column("time").values, 1.0 / value(trial("release"), "ringing_frequency@melting")
-    lost = (times[1] - times[0]) + (times[3] - times[2])
-    assert times[3] < swing < times[4] + swing
-    assert value(trial("release"), "contact_lost@melting") == pytest.approx(lost / swing, rel=1e-9)
 
 
 def test_rows_say_what_the_release_says(resolved: ResolvedModule, trial: Callable[[str], Trial]) -> None:

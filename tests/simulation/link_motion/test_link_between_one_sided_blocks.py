@@ -222,7 +222,7 @@ def test_elastic_blocks_never_lose_a_link_that_is_swung() -> None:
     assert inside == pytest.approx(np.repeat(np.arange(1, 6) / 6.0, 2), abs=1e-9)
 
 
-def test_block_that_is_only_grazed_between_two_samples_is_found() -> None:
+def test_blocks_grazed_or_left_between_two_samples_are_found() -> None:
     # Faces 0.0999 rad away on either side, ten samples a period: the crests of 0.1 rad lie between samples.
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
     moved = link.swung(Plant(JOINT, blocks), 0.1, 1.0, 1, 10, precompression=-0.0999)
@@ -231,9 +231,6 @@ def test_block_that_is_only_grazed_between_two_samples_is_found() -> None:
     assert [event.time for event in moved.events] == pytest.approx(expected, rel=1e-9)
     assert [(event.side, event.touching) for event in moved.events] == [(0, True), (0, False), (1, True), (1, False)]
     assert moved.lost_share(0.0, 1.0) == pytest.approx(1.0 - 4.0 * reach, rel=1e-9)
-
-
-def test_link_left_again_within_a_step_is_found() -> None:
     # Blocks squeezed by as much as the swing but for its crest: the one behind is left there alone.
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
     moved = link.swung(Plant(JOINT, blocks), 0.1, 1.0, 1, 10, precompression=0.0999)
@@ -244,16 +241,13 @@ def test_link_left_again_within_a_step_is_found() -> None:
     assert moved.lost_share(0.0, 1.0) == 0.0
 
 
-def test_first_swing_between_faces_out_of_reach_is_a_period_of_the_springs() -> None:
+def test_releases_last_one_swing_or_until_their_energy_is_gone() -> None:
     blocks = Blocks([(1e16, 300.0)], [(1e16, 300.0)])
     moved = link.released(Plant(JOINT, blocks), 0.1, np.array([0.2, 0.2]))
     assert moved.events == ()
     step = np.max(np.diff(moved.motion.times))
     assert moved.first_swing() == pytest.approx(2.0 * np.pi / SWING, abs=1.01 * step)
     assert moved.lost_share(0.0, moved.first_swing()) == 1.0
-
-
-def test_release_ends_when_its_energy_is_gone() -> None:
     moved = link.released(Plant(JOINT, PAIRS["melt"]), 0.1, link.squeezed(Plant(JOINT, PAIRS["melt"]), 0.5))
     share = moved.motion.energy / moved.motion.energy[0]
     assert share[-1] <= DEAD**2 < share[-2 * SAMPLES_A_PERIOD]

@@ -1,4 +1,4 @@
-"""A link released against dry friction: textbook decay, scipy on equations of its own with friction made smooth."""
+"""A link released against dry friction and one behind a lossy structure, against textbooks and scipy."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from tvimdesign.physics.motions import motion
+from tvimdesign.physics.motions.motion import Joint, Modes
 from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.link import released
+from tvimdesign.simulation.link_motion.lossy_structure import in_series, spectrum, with_loss
 from tvimdesign.simulation.link_motion.sampled_motion import OneSided, turns_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
@@ -139,3 +141,57 @@ def test_the_release_of_the_published_module_shows_its_hysteresis() -> None:
     held = next(one.value for one in trial.findings if one.name == "held_torque@hot")
     assert held == pytest.approx(0.1 * resolved.quantity("spring_stiffness") - friction, rel=1e-3)
     assert any("Friction of" in note for note in trial.notes)
+
+
+LOSSY_MELT = [(1.0, 1.0), (0.1, 20.0), (0.01, 200.0)]
+LOSSY_FROZEN = [(1e10, 2e5), (10.0, 2e4), (1.0, 2e4), (0.1, 2e4), (0.01, 2e4), (0.001, 3e4)]
+
+
+def star(spring: float, modes: Modes, hertz: np.ndarray) -> np.ndarray:
+    s = 2j * np.pi * hertz
+    return spring + sum(k * s * tau / (1.0 + s * tau) for tau, k in modes)
+
+
+@pytest.mark.parametrize("loss_factor", [1e-4, 0.04, 0.3, 1.5])
+@pytest.mark.parametrize("hertz", [0.1, 1.0, 100.0])
+def test_loss_factor_is_the_same_over_three_decades_and_exact_at_the_point(loss_factor: float, hertz: float) -> None:
+    spring, elements = spectrum(700.0, 700.0 * loss_factor, hertz)
+    assert spring >= 0.0
+    assert all(stiffness > 0.0 for _, stiffness in elements)
+    band = np.geomspace(0.1, 100.0, 300)
+    found = star(spring, elements, band)
+    assert found.imag / found.real == pytest.approx(loss_factor, rel=0.01)
+    # The law a constant loss factor leaves: (i omega)^alpha, alpha = 2/pi atan(eta).
+    law = 700.0 * (1.0 + 1j * loss_factor) * (band / hertz) ** (2.0 / np.pi * np.arctan(loss_factor))
+    assert np.max(np.abs(found / law - 1.0)) < 5e-3
+    assert star(spring, elements, np.array([hertz]))[0] == pytest.approx(700.0 * (1.0 + 1j * loss_factor), rel=1e-6)
+
+
+@pytest.mark.parametrize("layer", [LOSSY_MELT, LOSSY_FROZEN, [(0.01, 3.0)]])
+@pytest.mark.parametrize("loss_factor", [0.04, 1.5])
+def test_modes_in_series_are_those_of_both_one_behind_the_other(layer: Modes, loss_factor: float) -> None:
+    spring, elements = spectrum(700.0, 700.0 * loss_factor, 1.0)
+    together = in_series(layer, spring, elements)
+    assert all(stiffness > 0.0 and tau > 0.0 for tau, stiffness in together)
+    hertz = np.geomspace(1e-8, 1e5, 400)
+    one, other = star(0.0, layer, hertz), star(spring, elements, hertz)
+    assert np.max(np.abs(star(0.0, together, hertz) / (one * other / (one + other)) - 1.0)) < 1e-9
+
+
+@pytest.mark.parametrize("layer", [LOSSY_MELT, LOSSY_FROZEN])
+def test_modes_behind_a_spring_alone_are_those_of_both(layer: Modes) -> None:
+    hertz = np.geomspace(1e-8, 1e5, 400)
+    together = star(0.0, in_series(layer, 700.0, []), hertz)
+    one = star(0.0, layer, hertz)
+    assert np.max(np.abs(together / (one * 700.0 / (one + 700.0)) - 1.0)) < 1e-9
+
+
+def test_structures_may_share_a_time_with_the_layer_or_lose_nothing() -> None:
+    spring, elements = spectrum(700.0, 28.0, 1.0)
+    layer = [(elements[3][0], 90.0), (1e-3, 500.0)]
+    hertz = np.geomspace(1e-3, 1e3, 100)
+    one, other = star(0.0, layer, hertz), star(spring, elements, hertz)
+    together = star(0.0, in_series(layer, spring, elements), hertz)
+    assert np.max(np.abs(together / (one * other / (one + other)) - 1.0)) < 1e-5
+    joint = Joint(4e-4, 5.0, 700.0)
+    assert with_loss(joint, LOSSY_MELT, 0.0, 1.0) == (joint, LOSSY_MELT)

@@ -40,13 +40,10 @@ def named(trial: Trial, name: str) -> Finding:
     return next(found for found in trial.findings if found.name == name)
 
 
-def test_standard_points_give_the_papers_temperatures(resolved: ResolvedModule) -> None:
+def test_standard_points_and_the_interval_of_the_solid_fraction(resolved: ResolvedModule) -> None:
     assert [at.temperature - CELSIUS for at in specimens(resolved)] == pytest.approx([30.0, 60.0, 100.0])
     own = rig_of("operating_points: {hot: {temperature: 80 degC}}\n")
     assert [at.temperature - CELSIUS for at in specimens(own)] == pytest.approx([30.0, 80.0])
-
-
-def test_inside_melting_the_solid_fraction_is_an_interval(resolved: ResolvedModule) -> None:
     # The record: melting starts at 50 (45-55) and ends at 65 (62-70) degC.
     assert melting_range(resolved) == pytest.approx((CELSIUS + 45.0, CELSIUS + 70.0))
     low, nominal, high = fractions_at(resolved, CELSIUS + 60.0)
@@ -55,9 +52,6 @@ def test_inside_melting_the_solid_fraction_is_an_interval(resolved: ResolvedModu
     assert high == pytest.approx(10.0 / 15.0, abs=2e-3)
     for celsius, frozen in ((30.0, 1.0), (44.0, 1.0), (71.0, 0.0), (100.0, 0.0)):
         assert fractions_at(resolved, CELSIUS + celsius) == pytest.approx((frozen,) * 3, abs=2e-3)
-
-
-def test_a_studys_own_melting_range_moves_the_interval_with_it() -> None:
     moved = rig_of("module: {pcl_melting_start: 52 degC, pcl_melting_end: 67 degC}\n")
     assert melting_range(moved) == pytest.approx((CELSIUS + 47.0, CELSIUS + 72.0))
     assert fractions_at(moved, CELSIUS + 62.0)[1:] == pytest.approx((5.0 / 15.0, 10.0 / 15.0), abs=2e-3)
@@ -154,7 +148,7 @@ def test_stress_after_the_ramp_is_what_its_internal_equations_integrate_to(
     assert named(done("relaxation"), "stress_after_1_s@30_degC").value == pytest.approx(expected, rel=2e-3)
 
 
-def test_kelvin_voigt_cannot_relax_as_the_melt_and_maxwell_can(done: Done) -> None:
+def test_bodies_cannot_do_what_the_melt_does(done: Done) -> None:
     trial = done("relaxation")
     assert named(trial, "kelvin_voigt_residual@100_degC").value > 10.0 * named(trial, "maxwell_residual@100_degC").value
     # Its best stress is the geometric mean of the melt's, clipped at a millionth of the first.
@@ -163,9 +157,6 @@ def test_kelvin_voigt_cannot_relax_as_the_melt_and_maxwell_can(done: Done) -> No
     logs = np.log(np.maximum(full, 1e-6 * full[0]))
     assert np.allclose(np.log(sheet.column("relaxation_modulus_kelvin_voigt").values), logs.mean(), atol=1e-4)
     assert named(trial, "kelvin_voigt_residual@100_degC").value == pytest.approx(logs.std(), rel=1e-4)
-
-
-def test_maxwell_cannot_hold_a_load_that_kelvin_voigt_holds(done: Done) -> None:
     trial = done("creep")
     assert named(trial, "maxwell_after_a_day@30_degC").value > 10.0
     assert 0.8 < named(trial, "kelvin_voigt_after_a_day@30_degC").value < 1.25
@@ -173,6 +164,9 @@ def test_maxwell_cannot_hold_a_load_that_kelvin_voigt_holds(done: Done) -> None:
     # And under the melt's load it is the other way round.
     assert named(trial, "kelvin_voigt_after_a_day@100_degC").value < 0.1
     assert named(trial, "maxwell_after_a_day@100_degC").value == pytest.approx(1.0, rel=0.05)
+    sheet = next(sheet for sheet in done("creep").sheets if sheet.name == "simple_bodies")
+    melt = int(np.argmax(sheet.column("temperature").values))
+    assert sheet.column("maxwell_viscosity").values[melt] == pytest.approx(4200.0, rel=0.02)
 
 
 @pytest.mark.parametrize("celsius", [30, 60, 100])
@@ -188,12 +182,6 @@ def test_after_the_load_maxwell_flows_and_kelvin_voigt_recovers(done: Done, cels
     begin = 50.0 / stiffness * -np.expm1(-300.0 * stiffness / viscosity)
     back = begin * np.exp(-(time[after] - 300.0) * stiffness / viscosity)
     assert np.allclose(curves.column("strain_kelvin_voigt").values[after], back, rtol=1e-6, atol=1e-12 * begin)
-
-
-def test_maxwells_body_of_the_slow_melt_has_its_viscosity(done: Done) -> None:
-    sheet = next(sheet for sheet in done("creep").sheets if sheet.name == "simple_bodies")
-    melt = int(np.argmax(sheet.column("temperature").values))
-    assert sheet.column("maxwell_viscosity").values[melt] == pytest.approx(4200.0, rel=0.02)
 
 
 def test_more_parameters_never_fit_worse(done: Done) -> None:
@@ -251,23 +239,21 @@ def test_cooled_from_the_melt_it_freezes_below_where_it_melts(
     assert 27.4 < halves[2] - CELSIUS < 31.8
 
 
-def test_temperatures_that_do_not_rise_are_refused(resolved: ResolvedModule) -> None:
+def test_bad_temperatures_tests_and_numbers_are_refused_with_their_place(resolved: ResolvedModule) -> None:
     for test in (oscillation.frequency, oscillation.amplitude, transient.creep, transient.relaxation):
         with pytest.raises(InputError, match="the temperatures of the test: value 2 is 30 °C and follows 60 °C"):
             test(resolved, [CELSIUS + 60.0, CELSIUS + 30.0])
-
-
-def test_a_temperature_at_which_there_is_no_spectrum_is_named(resolved: ResolvedModule) -> None:
     with (
         pytest.raises(InputError, match=r"pcl_grade pcl_80k at -272.15 °C: mode \d has the relaxation time inf s"),
         np.errstate(over="ignore"),
     ):
         specimen(resolved, 1.0)
-
-
-def test_an_unknown_test_is_refused_with_the_nearest_name() -> None:
     with pytest.raises(InputError, match="no test is named 'crep'; did you mean creep"):
         find_test("crep")
+    check_rising([1.0, 2.0, 3.0], "there", "K")
+    for values in ([1.0, 3.0, 2.0], [1.0, 3.0, 3.0], [1.0, 3.0, math.nan]):
+        with pytest.raises(InputError, match=r"there: value 3 is \S+ K and follows 3 K; expected rising values"):
+            check_rising(values, "there", "K")
 
 
 @pytest.mark.parametrize(
@@ -284,10 +270,3 @@ def test_what_is_no_spectrum_is_refused_with_its_place(modes: list[tuple[float, 
     with pytest.raises(InputError) as caught:
         check_spectrum(modes, "here")
     assert str(caught.value).startswith(said)
-
-
-def test_numbers_that_do_not_rise_are_refused_with_the_value_and_its_place() -> None:
-    check_rising([1.0, 2.0, 3.0], "there", "K")
-    for values in ([1.0, 3.0, 2.0], [1.0, 3.0, 3.0], [1.0, 3.0, math.nan]):
-        with pytest.raises(InputError, match=r"there: value 3 is \S+ K and follows 3 K; expected rising values"):
-            check_rising(values, "there", "K")

@@ -22,28 +22,29 @@ def evenly(duration: float, sizes: tuple[float, ...]) -> CurrentProfile:
     return CurrentProfile.in_pieces(0.0, duration, sizes)
 
 
-def test_a_profile_begins_with_a_ramp_from_zero() -> None:
+def test_a_profile_rises_from_zero_straight_between_nodes_and_lasts() -> None:
     assert ramp_time(1.5, 0.5) == pytest.approx(3.0)
     profile = CurrentProfile.in_pieces(2.0, 10.0, (-1.0, -0.5, -0.5))
     assert profile.at(np.array([0.0, 1.0, 2.0, 4.5, 7.0, 50.0])) == pytest.approx([0.0, -0.5, -1.0, -0.75, -0.5, -0.5])
     assert profile.steepest == pytest.approx(0.5)
     assert profile.next_corner(0.0) == pytest.approx(2.0)
     assert profile.mean == pytest.approx((-1.0 - 3.75 - 2.5) / 12.0)
-
-
-def test_a_profile_is_straight_between_nodes_and_its_last_current_lasts() -> None:
     profile = evenly(120.0, (2.0, 1.0, 1.5))
     assert profile.at(np.array([0.0, 30.0, 60.0, 90.0, 120.0, 500.0])) == pytest.approx([2.0, 1.5, 1.0, 1.25, 1.5, 1.5])
     assert profile.mean == pytest.approx((60.0 * 1.5 + 60.0 * 1.25) / 120.0)
 
 
-def test_the_corners_of_a_profile_come_one_after_the_other_and_end() -> None:
+def test_the_corners_of_a_profile_come_in_order_and_end() -> None:
     profile, time, corners = evenly(90.0, (1.0, 2.0, 0.5, 0.5)), 0.0, []
     while np.isfinite(time := profile.next_corner(time)):
         corners.append(time)
     assert corners == pytest.approx([30.0, 60.0, 90.0])
     assert profile.next_corner(29.9) == pytest.approx(30.0)
     assert profile.next_corner(90.1) == np.inf
+    profile = CurrentProfile.constant(-0.7)
+    assert profile.next_corner(0.0) == profile.next_corner(1e6) == np.inf
+    assert np.all(profile.at(np.array([0.0, 3.0, 1e6])) == -0.7)
+    assert profile.mean == -0.7
 
 
 @given(duration=durations, pieces=st.integers(1, 64))
@@ -52,13 +53,6 @@ def test_going_from_corner_to_corner_meets_each_once(duration: float, pieces: in
     while np.isfinite(time := profile.next_corner(time)) and len(corners) < 100:
         corners.append(time)
     assert corners == pytest.approx(list(np.linspace(0.0, duration, pieces + 1)[1:]), rel=1e-9)
-
-
-def test_a_constant_current_has_no_corners() -> None:
-    profile = CurrentProfile.constant(-0.7)
-    assert profile.next_corner(0.0) == profile.next_corner(1e6) == np.inf
-    assert np.all(profile.at(np.array([0.0, 3.0, 1e6])) == -0.7)
-    assert profile.mean == -0.7
 
 
 @given(duration=durations, sizes=currents)

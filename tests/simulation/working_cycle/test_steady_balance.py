@@ -90,14 +90,13 @@ def test_less_current_lets_the_layer_cool_and_more_heats_it(
         assert sign * gap > 0.01
 
 
-def test_holding_takes_less_than_the_switch_does(switch_of: Callable[[str], Cycle]) -> None:
+def test_holding_takes_less_than_the_switch_and_never_without_one(
+    switch_of: Callable[[str], Cycle], build: Callable[..., DeviceFunctions]
+) -> None:
     for design in DESIGNS:
         values = switch_of(design).values
         assert 0.0 < values["hold_power"] < values["peak_power"]
         assert 0.0 < values["hold_current"] < values["peak_current"]
-
-
-def test_a_switch_that_never_ends_has_no_hold_power(build: Callable[..., DeviceFunctions]) -> None:
     model = build()
     inputs = model.start.copy()
     inputs[model.index["current"]] = 0.4

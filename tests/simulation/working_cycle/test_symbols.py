@@ -38,13 +38,10 @@ def test_an_expression_of_symbols_is_what_numpy_computes(what: str, values: list
     assert float(written(values)) == pytest.approx(float(WRITTEN[what](np.array(values))), rel=1e-13, abs=1e-13)
 
 
-def test_what_is_elementwise_stays_quick() -> None:
+def test_elementwise_expressions_are_quick_and_lengths_must_agree() -> None:
     x = symbols(ca.SX.sym("x", 3))
     for value in (x[0] * 2.0, 2.0 / x[1], np.sqrt(x), np.append(x, x[0]), np.sum(x), x[1:], np.fmax(x, 0.0)):
         assert isinstance(value, Symbols)
-
-
-def test_arrays_of_different_lengths_are_refused() -> None:
     x = symbols(ca.SX.sym("x", 3))
     with pytest.raises(RuntimeError, match="Dimension mismatch"):
         x[1:] * x

@@ -127,14 +127,6 @@ def test_a_list_whose_entries_are_as_good_as_one_another_is_divided_last() -> No
     assert search._division(near).axis == 1
 
 
-def test_neighbours_in_an_enumeration_differ_by_one_size() -> None:
-    sizes = Sizes(("a", "b", "c"), ((1.0, 2.0), (1.0, 2.0, 3.0), (1.0, 2.0)))
-    boxes = list(sizes.each())
-    assert len(set(boxes)) == sizes.count == 12
-    for one, other in itertools.pairwise(boxes):
-        assert sum(abs(a - b) for (a, _), (b, _) in zip(one, other, strict=True)) == 1
-
-
 def _bowl(first: tuple[float, ...], second: tuple[float, ...], centre: tuple[float, ...]) -> Bowl:
     return Bowl(0, Sizes(("a", "b"), (first, second)), centre, (1.0, 1.0), 5.0, 0.0)
 
@@ -163,10 +155,21 @@ def test_a_box_is_split_where_a_number_is_farthest_from_its_sizes(
     assert BranchAndBound(cast("list[Relaxation]", [bowl]), 1)._division(node).halves(node.box) == halves
 
 
-def test_an_unsolved_box_is_split_in_the_middle_of_its_longest_list() -> None:
+def test_unsolved_boxes_are_split_in_the_middle_and_lists_ascend() -> None:
     bowl = _bowl((1.0, 2.0, 8.0), (10.0, 20.0, 30.0, 40.0), (2.1, 13.0))
     search, node = BranchAndBound(cast("list[Relaxation]", [bowl]), 1), _node(bowl, solved=False)
     assert search._division(node).halves(node.box) == (((0, 2), (0, 1)), ((0, 2), (2, 3)))
+    study = read_study_text(
+        "mode: shear\nminimize: module_mass\nvary:\n  wire_diameter: {choose: [2.5 mm, 2 mm]}\n"
+        "  pcl_grade: {choose: [pcl_80k, pcl_50k]}\n  current: [1 A, 2 A]\n",
+        "a test",
+    )
+    assert discrete_sizes(study, study.table) == Sizes(("wire_diameter",), ((0.002, 0.0025),))
+    sizes = Sizes(("a", "b", "c"), ((1.0, 2.0), (1.0, 2.0, 3.0), (1.0, 2.0)))
+    boxes = list(sizes.each())
+    assert len(set(boxes)) == sizes.count == 12
+    for one, other in itertools.pairwise(boxes):
+        assert sum(abs(a - b) for (a, _), (b, _) in zip(one, other, strict=True)) == 1
 
 
 @pytest.mark.parametrize("fails", [False, True])
@@ -191,12 +194,3 @@ def test_a_combination_solved_afresh_counts_where_it_is_better(again: float | No
     search._begin_afresh()
     assert search.found[0, ((0, 0),)].start.objective == kept
     assert search.inside == pytest.approx(inside)
-
-
-def test_listed_numbers_have_ascending_sizes_and_records_have_none() -> None:
-    study = read_study_text(
-        "mode: shear\nminimize: module_mass\nvary:\n  wire_diameter: {choose: [2.5 mm, 2 mm]}\n"
-        "  pcl_grade: {choose: [pcl_80k, pcl_50k]}\n  current: [1 A, 2 A]\n",
-        "a test",
-    )
-    assert discrete_sizes(study, study.table) == Sizes(("wire_diameter",), ((0.002, 0.0025),))

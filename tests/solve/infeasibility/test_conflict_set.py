@@ -1,4 +1,4 @@
-"""Studies without a design: bounds or the solver name a conflicting set, and the way out that they name works."""
+"""Studies without a design: the conflicting limits or the nearest target are named, and the way out works."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import re
 
 import pytest
 
-from tvimdesign.base.errors import InfeasibleError
+from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import table_for
+from tvimdesign.solve.infeasibility import reach
 from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -198,3 +199,67 @@ def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> 
     again = SecondTry(optimizer).from_conflict_search(run)
     assert again.start.second_try
     assert again.start.objective == pytest.approx(run.start.objective, rel=1e-6)
+
+
+FINGER = """
+mode: shear
+module: {{
+  stock_spring: central_t10160, process: print_pc, placement_radius: 18 mm,
+  pcl_inner_radius: 8 mm, pcl_outer_radius: 13 mm, core_radius: 5 mm,
+  pin_diameter: 2 mm, leg_overhang: 1.5 mm, key_count: 0}}
+vary: {{{vary}}}
+require: {{{limit}}}
+minimize: module_mass
+solver: {{starts: 1}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("vary", "limit"),
+    [
+        ("preload_angle: [0.2 rad, 0.8 rad]", 'spring_stiffness: ">= 5 N.m/rad"'),
+        ("pcl_thickness: [0.5 mm, 1 mm]", 'spring_rate: ">= 1 N.m/rad"'),  # nothing that is varied changes it
+    ],
+)
+def test_another_spring_is_named_and_no_number_of_it(vary: str, limit: str) -> None:
+    with pytest.raises(InfeasibleError) as caught:
+        refuse_infeasible(read_study_text(FINGER.format(vary=vary, limit=limit), "test"))
+    said = str(caught.value)
+    assert "choose another `stock_spring`" in said, said
+    assert "vary wire_diameter" not in said
+    assert "wire_diameter," not in said
+
+
+STUDY = """
+mode: shear
+module: {impedance_targets: stated, soft_impedance: 5 N.m/rad, stiff_impedance: 100 N.m/rad,
+         softening_band: 2, stiffening_band: 2}
+"""
+
+
+def refuse(monkeypatch: pytest.MonkeyPatch, hot: float | None, cold: float | None) -> None:
+    extremes = {"joint_impedance@hot": hot, "joint_impedance@cold": cold}
+    monkeypatch.setattr(reach, "_extreme", lambda _study, row, _sign, _deadline: extremes[row])
+    reach.refuse_unreachable(read_study_text(STUDY, "a test"))
+
+
+@pytest.mark.parametrize(
+    ("hot", "cold", "said"),
+    [
+        # Soft is twice 5 N*m/rad, stiff half of 100.
+        (10.5, 80.0, r"soft_impedance 5 .* the softest joint .* has 10.5 .*; the least target is 5.25"),
+        (4.0, 40.0, r"stiff_impedance 100 .* the stiffest joint .* has 40 .*; the largest target is 80"),
+    ],
+)
+def test_a_target_beyond_reach_is_refused_with_the_nearest_one(
+    monkeypatch: pytest.MonkeyPatch, hot: float, cold: float, said: str
+) -> None:
+    with pytest.raises(InputError, match=said):
+        refuse(monkeypatch, hot, cold)
+
+
+@pytest.mark.parametrize(("hot", "cold"), [(9.5, 51.0), (10.0, 50.0), (None, None), (None, 51.0)])
+def test_a_target_within_reach_or_of_unknown_reach_is_not(
+    monkeypatch: pytest.MonkeyPatch, hot: float | None, cold: float | None
+) -> None:
+    refuse(monkeypatch, hot, cold)

@@ -1,4 +1,4 @@
-"""The problem in the space of the free numbers: its derivatives, what ends a driven phase, and its own rows."""
+"""The problem in the space of the free numbers: derivatives, ends of driven phases, currents, kinks, own rows."""
 
 from __future__ import annotations
 
@@ -10,14 +10,17 @@ from small_studies import COMPRESSION_BLOCKS, FOUR_SIZES_IN_SHEAR
 from support import fine
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.infeasibility.inspection import row_names, unknown_names
+from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import LATEST
-from tvimdesign.solve.nlp.problem_parts import Parameters
+from tvimdesign.solve.nlp.problem_parts import FreeCurrent, Parameters
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import NO_DESIGN
-from tvimdesign.study import read_study_text
+from tvimdesign.study import given, read_study_text
 
 ASKED = """
 require:
@@ -212,3 +215,53 @@ def test_a_peak_of_a_profile_has_no_least() -> None:
     text = PROFILE.replace('peak_power: "<= 9 W"', 'peak_power: ">= 5 W"')
     with pytest.raises(InputError, match="peak_power: a peak can be kept below a limit, not above one"):
         Optimizer(read_study_text(text, "a test"))
+
+
+STUDY = """
+mode: {mode}
+vary: {{current: [0.5 A, 2.5 A], core_radius: [7 mm, 16 mm], coil_count: [3, 8], link_thickness: [3 mm, 8 mm]}}
+minimize: {{switch_energy: 1, peak_power: 1}}
+require: {{holding_torque: ">= 10.8 N.m"}}
+solver: {{cells: 6, starts: 1}}
+"""
+
+
+@pytest.mark.parametrize("mode", ["shear", "compression"])
+def test_a_torque_limit_applies_at_the_core_s_foot_and_at_all_holes(mode: str) -> None:
+    study = read_study_text(STUDY.format(mode=mode), "test")
+    limited = {limit.output for limit in constraints_of(study, study.table)}
+    assert set(CORE_PARTS) < limited
+    assert not {"core_holding_torque", "holding_torque"} & limited
+    parts = study.table.evaluate(given(study), [*CORE_PARTS, "core_holding_torque"])
+    assert parts["core_holding_torque"] == min(parts[name] for name in CORE_PARTS)
+
+
+def test_a_search_over_the_kink_between_foot_and_holes_ends() -> None:
+    """As one limit on the core it runs out of 300 iterations; its foot and its holes apart take some thirty."""
+    run = Optimizer(read_study_text(STUDY.format(mode="shear").replace("[7 mm", "[6 mm"), "test")).solve()
+    assert run.start.converged
+    assert run.start.iterations < 100
+
+
+CURRENTS_STUDY = """
+mode: shear
+module: {current_slew: %s A/s}
+vary: {current: [0.5 A, 2 A], cooling_current: [0.1 A, 0.9 A]}
+minimize: module_mass
+profile: {softening: 3, stiffening: 2}
+"""
+
+
+def freed(slew: str, phase: str, pieces: int) -> FreeCurrent:
+    """Return the current of a phase, without a problem around it."""
+    optimizer = object.__new__(Optimizer)
+    optimizer.study = read_study_text(CURRENTS_STUDY % slew, "a test")
+    optimizer.table = optimizer.study.table
+    points = tuple(optimizer.study.operating_points)
+    optimizer.model = DeviceFunctions(optimizer.table, given(optimizer.study), points, 4)
+    return optimizer._current(phase, pieces)
+
+
+def test_each_phase_frees_its_own_current_between_the_study_s_bounds() -> None:
+    assert freed("2", "softening", 3) == FreeCurrent("softening", "current", 3, 0.5, 2.0, 2.0)
+    assert freed("2", "stiffening", 2) == FreeCurrent("stiffening", "cooling_current", 2, 0.1, 0.9, 2.0)

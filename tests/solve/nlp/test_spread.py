@@ -1,15 +1,22 @@
-"""Worst case, root-sum-square and Monte Carlo, on functions whose answers are known."""
+"""Worst case, root-sum-square and Monte Carlo on functions whose answers are known; points are scipy's."""
 
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy import stats
+from scipy.stats import qmc
 
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.spread import Contributor
+from tvimdesign.solve.uncertainty.intervals import draw
+from tvimdesign.solve.uncertainty.sobol_points import sobol_points
+from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput
 
 PARTS = [Contributor("a", 1.0, 0.3), Contributor("b", 2.0, 0.3, "uniform"), Contributor("c", -1.0, 0.2, sigma=2.0)]
 SLOPES = np.array([[2.0, -3.0, 1.0], [0.0, 0.0, 5.0]])
@@ -35,10 +42,16 @@ def test_of_a_linear_function_all_three_agree_with_algebra() -> None:
     assert worst.corners == 8
 
 
-def test_a_normal_part_has_the_quantiles_of_its_distribution() -> None:
+def test_a_normal_part_has_the_quantiles_and_yield_of_its_distribution() -> None:
     drawn = spread.monte_carlo(lambda x: x, PARTS[:1], 1 << 16, seed=1)
     assert drawn.low[0] == pytest.approx(1.0 - 3.0 * 0.1, abs=2e-3)
     assert drawn.high[0] == pytest.approx(1.0 + 3.0 * 0.1, abs=2e-3)
+    drawn = spread.monte_carlo(lambda x: x, PARTS[:1], 1 << 16, seed=2)
+    found = spread.share_kept(drawn.values[0] <= 1.1)  # one standard deviation above the mean
+    assert found.share == pytest.approx(0.841345, abs=1e-4)
+    assert found.low < 0.841345 < found.high
+    assert spread.capability(1.0, 0.1, 1.3, "<=") == pytest.approx(1.0)
+    assert spread.capability(1.0, 0.1, 1.3, ">=") == pytest.approx(-1.0)
 
 
 def test_the_worst_case_bounds_every_module_within_tolerance() -> None:
@@ -73,15 +86,6 @@ def test_sobol_indices_of_ishigamis_function_are_the_published_ones() -> None:
     assert total[0] == pytest.approx([0.5576, 0.4424, 0.2437], abs=5e-3)
 
 
-def test_the_yield_of_a_normal_output_is_its_distributions() -> None:
-    drawn = spread.monte_carlo(lambda x: x, PARTS[:1], 1 << 16, seed=2)
-    found = spread.share_kept(drawn.values[0] <= 1.1)  # one standard deviation above the mean
-    assert found.share == pytest.approx(0.841345, abs=1e-4)
-    assert found.low < 0.841345 < found.high
-    assert spread.capability(1.0, 0.1, 1.3, "<=") == pytest.approx(1.0)
-    assert spread.capability(1.0, 0.1, 1.3, ">=") == pytest.approx(-1.0)
-
-
 @pytest.mark.parametrize(("good", "count"), [(0, 50), (37, 50), (50, 50), (999, 1000)])
 def test_the_interval_of_a_yield_is_wilsons(good: int, count: int) -> None:
     found = spread.share_kept(np.arange(count) < good)
@@ -97,13 +101,10 @@ def test_what_never_happens_is_counted_and_left_out_of_the_mean() -> None:
     assert spread.share_kept(drawn.values[0] <= 9.0).share == pytest.approx(0.75, abs=1e-3)
 
 
-def test_draws_stay_within_the_limits_of_the_row() -> None:
+def test_draws_stay_within_limits_and_samples_are_a_power_of_two() -> None:
     part = Contributor("a", 0.1, 0.3, lower=0.0)
     assert part.ends == (0.0, pytest.approx(0.4))
     assert part.ppf(np.array([1e-6, 0.5])) == pytest.approx([0.0, 0.1])
-
-
-def test_samples_are_a_power_of_two() -> None:
     assert [spread.power_of_two(n) for n in (256, 257, 100_000)] == [256, 512, 131_072]
 
 
@@ -120,3 +121,32 @@ def test_the_last_of_several_chunks_has_what_is_left(monkeypatch: pytest.MonkeyP
     assert chunks == [8, 8, 4]
     assert drawn.values.shape == (2, 20)
     assert np.array_equal(drawn.values[:, :8], whole)
+
+
+@pytest.mark.parametrize(("inputs", "count", "seed"), [(1, 8, 1), (7, 64, 3), (40, 512, 11)])
+def test_ranges_are_drawn_as_scipys_latin_hypercube(inputs: int, count: int, seed: int) -> None:
+    shares = [UnmeasuredInput(f"share_{i}", 0.5, 0.0, 1.0, "assumed") for i in range(inputs)]
+    expected = qmc.LatinHypercube(inputs, rng=np.random.default_rng(seed)).random(count).T
+    assert np.array_equal(draw(shares, count, seed), expected)
+
+
+def test_kept_points_are_scipys_and_scipy_is_not_loaded_for_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path))
+    expected = qmc.Sobol(5, rng=np.random.default_rng(2)).random(64)
+    assert np.array_equal(sobol_points(5, 64, 2), expected)
+    again = (
+        "import sys\nfrom tvimdesign.solve.uncertainty.sobol_points import sobol_points\n"
+        "points = sobol_points(5, 64, 2)\nassert 'scipy.stats' not in sys.modules\nprint(points.tobytes().hex())"
+    )
+    said = subprocess.run([sys.executable, "-c", again], capture_output=True, text=True, check=True).stdout
+    assert bytes.fromhex(said.strip()) == expected.tobytes()
+
+
+def test_points_of_another_seed_or_count_are_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TVIMDESIGN_CACHE", str(tmp_path))
+    first = sobol_points(3, 16, 1)
+    assert not np.array_equal(first, sobol_points(3, 16, 2))
+    assert sobol_points(3, 32, 1).shape == (32, 3)
+    assert np.array_equal(first, sobol_points(3, 32, 1)[:16])

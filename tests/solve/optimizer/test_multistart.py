@@ -1,18 +1,25 @@
-"""Starts of searches, of a made-up module of one number: its switch takes that long, or never ends."""
+"""Starting points: evenly spread, the same for a seed, and only where a module switches."""
 
 from __future__ import annotations
 
+import itertools
+import subprocess
+import sys
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
 import pytest
+from scipy.stats import qmc
+from support import ROOT
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.solve.nlp.problem_parts import Free
 from tvimdesign.solve.optimizer.multistart import MAX_DRAWS, Multistart
-from tvimdesign.study import SolverOptions
+from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.starting_points import FEW, unit_points
+from tvimdesign.study import SolverOptions, read_study, read_study_text
 
 LOWER, UPPER, SEED = 1.0, 100.0, 3
 
@@ -123,3 +130,65 @@ def test_where_no_point_can_be_simulated_the_error_says_what_to_do() -> None:
 
     with pytest.raises(SimulationError, match=r"it cannot be simulated; neither can 100 points .* set `module` to"):
         searches(2, takes=takes)
+
+
+def _points(starts: int, size: int, seed: int, count: int) -> np.ndarray:
+    return np.array(list(itertools.islice(unit_points(starts, size, seed), count)))
+
+
+def test_a_seed_gives_its_points_evenly_spread_if_many() -> None:
+    for starts in (3, 64):
+        assert np.array_equal(_points(starts, 4, 1, 50), _points(starts, 4, 1, 50))
+        assert not np.allclose(_points(starts, 4, 1, 50), _points(starts, 4, 2, 50))
+    # numpy's generator, number for number.
+    assert np.array_equal(_points(FEW, 3, 7, 10), np.random.default_rng(7).random((10, 3)))
+    # A Sobol sequence of 2^k points has one in each of 2^k slices; random points leave a third of them empty.
+    points = _points(64, 12, 1, 64)
+    for column in points.T:
+        assert len(set((column * 64).astype(int))) == 64
+    assert qmc.discrepancy(points) < 0.5 * qmc.discrepancy(np.random.default_rng(1).random((64, 12)))
+
+
+def test_few_starts_leave_the_sobol_sequence_unloaded() -> None:
+    code = (
+        "import sys; from tvimdesign.solve import search; "
+        "from tvimdesign.solve.optimizer.starting_points import unit_points; "
+        "next(unit_points(16, 3, 1)); assert 'scipy.stats' not in sys.modules"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+STUDY = """
+mode: shear
+vary:
+  core_radius: [6 mm, 30 mm]
+  pcl_inner_radius: [15 mm, 30 mm]
+  placement_radius: [30 mm, 60 mm]
+minimize: response_time
+solver: {starts: 8}
+"""
+
+
+def test_no_search_begins_with_a_core_wider_than_the_layer_s_inner_edge() -> None:
+    """Nor with a wall inside the rotor's rim: heat would flow from cold to hot there."""
+    optimizer = Optimizer(read_study_text(STUDY, "test"))
+    place = optimizer.model.index
+    begins = list(optimizer.multistart.points())
+    assert len(begins) == 8
+    for begin in begins:
+        values = optimizer.model.values(begin, optimizer.multistart.cycle)
+        assert begin[place["core_radius"]] < begin[place["pcl_inner_radius"]]
+        assert values["rotor_radius"] < values["housing_inner_radius"]
+    assert optimizer.multistart.passed_over["no such module"] > 0
+
+
+def test_starts_of_a_module_with_links_that_correct_others_differ() -> None:
+    # A link that corrects another is below zero at the study's start, too: no reason to pass over a point.
+    study = read_study(ROOT / "studies/wrist_compression.yaml")
+    study = study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 3})})
+    multistart = Optimizer(study).multistart
+    begins = list(multistart.points())
+    assert not multistart.heats(begins[0])
+    assert len({begin.tobytes() for begin in begins}) == 3
+    assert all(multistart.trial(begin) is not None for begin in begins)

@@ -29,24 +29,15 @@ def test_two_lines_cross_where_their_equations_say() -> None:
     assert found[2].most == pytest.approx(4.25 / 2.0)
 
 
-def test_a_front_is_infinite_below_its_first_point_and_flat_past_its_last() -> None:
+def test_fronts_lead_from_their_first_point_on() -> None:
     assert reached(FALLING, 0.99) == math.inf
     assert reached(FALLING, 3.0) == pytest.approx(6.0)
     assert reached(FALLING, 50.0) == 2.0
-
-
-def test_a_front_against_its_copy_leads_nowhere() -> None:
     found = leads({"one": FALLING, "other": list(reversed(FALLING))})
     assert [lead.best for lead in found] == [None]
-
-
-def test_of_three_the_lowest_leads() -> None:
     found = leads({"falling": FALLING, "flat": FLAT, "low": [(3.0, 1.0)]})
     assert [lead.best for lead in found] == ["falling", "flat", "low"]
     assert found[2].least == pytest.approx(2.0)  # against the next best, which ends at 2
-
-
-def test_a_single_point_is_a_front_from_there_on() -> None:
     found = leads({"point": [(2.0, 3.0)]})
     assert [(lead.lower, lead.upper, lead.best, lead.alone) for lead in found] == [(2.0, math.inf, "point", True)]
 

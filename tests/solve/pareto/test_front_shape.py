@@ -24,18 +24,16 @@ def test_kept_points_are_those_no_other_is_better_than(rows: list[tuple[int, int
         assert (row in kept) == (not beaten)
 
 
-def test_the_knee_of_a_quarter_circle_is_half_way() -> None:
+def test_knees_lie_half_way_or_nowhere() -> None:
     assert shape.knee(QUARTER) == 4
-
-
-def test_the_knee_of_an_eighth_of_a_sphere_is_nearest_its_corner() -> None:
     ends = np.array([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
     inside = 1.0 - np.array([[0.8, 0.6, 0.0], [1.0, 1.0, 1.0] / np.sqrt(3.0), [0.0, 0.6, 0.8]])
     assert shape.knee(np.vstack([ends, inside])) == 4
-
-
-def test_a_straight_front_has_no_knee() -> None:
     assert shape.knee(np.array([[0.0, 1.0], [0.4, 0.6], [1.0, 0.0]])) is None
+    # The plane through the ends has the normal (0.36, 0.2, 0.2); the fifth point has the smallest sum, the fourth lies
+    # 0.144 below the plane in that measure, the fifth 0.088.
+    ends = [[0.0, 1.0, 1.0], [1.0, 0.0, 0.2], [1.0, 0.2, 0.0]]
+    assert shape.knee(np.array([*ends, [0.1, 0.5, 0.6], [0.7, 0.15, 0.15]])) == 3
 
 
 @pytest.mark.parametrize(("second", "little"), [([1.0, 1.02], [1]), ([1.0, 1.05], []), ([-1.02, -1.0], [1])])
@@ -45,14 +43,14 @@ def test_an_output_that_spans_less_than_three_hundredths_is_hardly_traded(
     assert shape.little_traded(np.array([[1.0, 2.0], second]).T) == little
 
 
-def test_of_a_single_point_nothing_is_said() -> None:
-    assert shape.little_traded(np.array([[1.0, 2.0]])) == []
-
-
-def test_spread_is_the_largest_gap_over_the_mean_one_whatever_the_order() -> None:
+def test_spread_is_the_largest_gap_over_the_mean_one_and_lines_are_thin() -> None:
     points = np.array([[0.0, 0.0], [4.0, 0.0], [1.0, 0.0], [2.0, 0.0]])  # gaps 1, 1, 2
     assert shape.spread(points) == pytest.approx(1.5)
     assert shape.spread(points[::-1]) == pytest.approx(1.5)
+    line = np.outer([0.0, 0.4, 1.0], [1.0, -0.5, -0.5])
+    assert shape.thin(line)
+    assert not shape.thin(np.array([[-2.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -2.0]]))
+    assert shape.little_traded(np.array([[1.0, 2.0]])) == []
 
 
 def test_every_output_falls_alike_along_the_line_through_a_place() -> None:
@@ -94,16 +92,3 @@ def test_the_corners_of_a_hull_are_those_of_qhull(points: list[tuple[int, int]])
     found = [(int(x), int(y)) for x, y in shape._hull(places)]
     assert set(found) == expected
     assert len(found) == len(expected)
-
-
-def test_ends_on_a_line_make_a_thin_front() -> None:
-    line = np.outer([0.0, 0.4, 1.0], [1.0, -0.5, -0.5])
-    assert shape.thin(line)
-    assert not shape.thin(np.array([[-2.0, 1.0, 1.0], [1.0, -2.0, 1.0], [1.0, 1.0, -2.0]]))
-
-
-def test_the_knee_is_deepest_below_any_plane_of_the_ends() -> None:
-    # The plane through the ends has the normal (0.36, 0.2, 0.2); the fifth point has the smallest sum, the fourth lies
-    # 0.144 below the plane in that measure, the fifth 0.088.
-    ends = [[0.0, 1.0, 1.0], [1.0, 0.0, 0.2], [1.0, 0.2, 0.0]]
-    assert shape.knee(np.array([*ends, [0.1, 0.5, 0.6], [0.7, 0.15, 0.15]])) == 3

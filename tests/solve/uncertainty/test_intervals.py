@@ -179,13 +179,13 @@ def test_what_may_never_happen_has_no_upper_end() -> None:
     assert one.swings[0].size == math.inf
 
 
-def test_noise_has_no_share() -> None:
+def test_noise_has_no_share_and_even_steps_all() -> None:
     noise = np.random.default_rng(2)
     assert share_of_variance(noise.random(512), noise.random(512)) < 0.03
     assert share_of_variance(noise.random(512), np.full(512, 3.0)) == 0.0
-
-
-def test_no_two_of_fifty_inputs_are_drawn_together() -> None:
+    # Variance (16^2 - 1)/12 = 21.25, between groups 21; as many groups of noise would have 7/15 of it.
+    steps = np.arange(16.0)
+    assert share_of_variance(steps, steps) == pytest.approx(1.0 - 0.25 / 21.25 * 15.0 / 8.0, rel=1e-12)
     inputs = [unknown(f"input_{i}", 0.0, 1.0) for i in range(57)]
     drawn = draw(inputs, 512, 1)
     shares = [share_of_variance(a, b) for i, a in enumerate(drawn) for b in drawn[:i]]
@@ -234,23 +234,15 @@ def test_a_limit_is_held_in_the_share_of_the_range_that_keeps_it() -> None:
     assert held[name] == pytest.approx(np.mean(np.array(times) <= middle), abs=0.2)
 
 
-def test_what_was_found_is_not_changed_afterwards() -> None:
+def test_intervals_are_frozen_and_the_fewest_inputs_halve_them() -> None:
     (found,) = intervals(lambda x: x, [unknown("a", 0.0, 1.0)], np.array([[0.2, 0.8]]), np.array([[0.2, 0.8]]), 1.0)
     for one, name in ((found, "low"), (found.swings[0], "at_low")):
         with pytest.raises(FrozenInstanceError):
             setattr(one, name, 0.0)
 
-
-def test_the_fewest_that_halve_an_interval_leave_a_quarter_of_its_variance() -> None:
     def of(*shares: float) -> tuple[str, ...]:
         return Interval(0.0, 0.0, 1.0, (), dict(zip("abc", shares, strict=False))).to_halve
 
     assert of(0.75, 0.2) == ("a",)  # half the width is a quarter of the variance
     assert of(0.5, 0.24, 0.02) == ("a", "b", "c")
     assert of(0.5, 0.2) == ()
-
-
-def test_of_sixteen_even_steps_eight_groups_leave_what_is_within_them() -> None:
-    # Variance (16^2 - 1)/12 = 21.25, between groups 21; as many groups of noise would have 7/15 of it.
-    steps = np.arange(16.0)
-    assert share_of_variance(steps, steps) == pytest.approx(1.0 - 0.25 / 21.25 * 15.0 / 8.0, rel=1e-12)

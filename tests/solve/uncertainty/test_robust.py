@@ -1,4 +1,4 @@
-"""A robust optimum keeps its limits by so many standard deviations, and Monte Carlo finds that yield."""
+"""A robust optimum keeps its limits by margins of one quantile, and Monte Carlo finds that yield."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.run.yield_words import below_yield, cost_of_margins, yield_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
+from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, trace_front
@@ -20,7 +21,8 @@ from tvimdesign.solve.pareto.tradeoff import Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize
 from tvimdesign.solve.uncertainty.tolerance import Spread, Tolerancing
-from tvimdesign.solve.uncertainty.yields import yields_of
+from tvimdesign.solve.uncertainty.yield_search import _moves
+from tvimdesign.solve.uncertainty.yields import MODULES, Drawn, yields_of
 from tvimdesign.study import read_study_text
 
 ALGEBRAIC = """
@@ -169,3 +171,32 @@ def test_times_are_kept_too() -> None:
     robust, spread = _solved(f"{TIMED}robust: {{sigma: 1.5}}\n")
     assert robust.feasible
     assert _share(spread, "response_time") == pytest.approx(NormalDist().cdf(1.5), abs=0.015)
+
+
+A, B = Constraint("a", "<=", 1.0, 1.0, "require"), Constraint("b", ">=", 1.0, 1.0, "require")
+
+
+def _drawn(first: float, second: float) -> Drawn:
+    """Two limits whose residuals are independent and normal, with these deviations about zero."""
+    rng = np.random.default_rng(3)
+    return Drawn((A, B), np.array([[first], [second]]) * rng.standard_normal((2, MODULES)))
+
+
+def test_two_independent_limits_share_what_may_be_lost() -> None:
+    """Both at a share q keep q squared together: 97.5 % each for 95 %, where 95 % each would be 90 %."""
+    moves = _moves(_drawn(0.1, 0.1), 0.95, {}, {A.name, B.name})
+    expected = 0.1 * NormalDist().inv_cdf(0.957**0.5)  # 95.7 %: the lower end of the interval of 4096 modules is 95 %
+    assert moves[A.name] == pytest.approx(expected, rel=0.05)
+    assert moves[B.name] == pytest.approx(expected, rel=0.05)
+
+
+def test_a_limit_whose_spread_is_small_against_its_size_has_its_margin_too() -> None:
+    # A diameter of 90 mm that spreads by 0.05 mm.
+    moves = _moves(_drawn(5e-4, 0.1), 0.95, {}, {A.name, B.name})
+    assert moves[A.name] == pytest.approx(moves[B.name] * 5e-3, rel=0.1)
+
+
+def test_a_limit_that_does_not_hold_the_design_gets_no_less_than_it_has() -> None:
+    drawn = Drawn((A, B), _drawn(0.1, 0.1).residuals - np.array([[0.0], [1.0]]))
+    assert set(_moves(drawn, 0.95, {}, {A.name})) == {A.name}
+    assert _moves(drawn, 0.95, {B.name: 0.3}, {A.name})[B.name] == pytest.approx(-0.3)

@@ -16,15 +16,12 @@ def _read(text: str) -> Study:
     return read_study_text(f"mode: shear\n{text}", "x.yaml")
 
 
-def test_a_tolerance_is_a_quantity_or_a_share() -> None:
+def test_a_tolerance_is_a_quantity_a_share_or_all_that_can_be_stated() -> None:
     result = _read("tolerances: {wire_diameter: 0.025 mm, peltier_seebeck: 10 %, temperature@hot: 2 K}").tolerances
     assert result["wire_diameter"].plus_minus == pytest.approx(25e-6)
     assert (result["peltier_seebeck"].share, result["peltier_seebeck"].plus_minus) == (pytest.approx(0.1), None)
     assert result["temperature@hot"].plus_minus == 2.0
     assert {item.status for item in result.values()} == {"stated"}
-
-
-def test_everything_of_a_tolerance_can_be_stated() -> None:
     text = "{plus_minus: 5 deg, distribution: uniform, sigma: 2, adjustable: true, adjusted_to: 1 deg}"
     item = _read(f"tolerances: {{preload_angle: {text}}}").tolerances["preload_angle"]
     assert (item.distribution, item.sigma, item.adjustable) == ("uniform", 2.0, True)
@@ -64,8 +61,5 @@ def test_robust_is_a_count_of_deviations_or_a_yield() -> None:
     assert robust is not None
     assert robust.share == pytest.approx(0.95)
     assert _read(request).robust is None
-
-
-def test_a_study_with_tolerances_survives_json() -> None:
     study = _read(f"{SEARCH}tolerances: standard\nrobust: {{sigma: 2}}")
     assert Study.model_validate_json(study.model_dump_json()) == study

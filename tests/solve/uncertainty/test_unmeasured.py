@@ -1,7 +1,8 @@
-"""Benefit of measurements: the ranges that measured inputs had before, and the intervals from them."""
+"""Inputs that are assumed or measured: their ranges before and after, and a freezing time's interval."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
 from tvimdesign.solve.uncertainty.unmeasured import before_measuring, unmeasured_inputs
-from tvimdesign.study import read_study
+from tvimdesign.study import read_study, read_study_text
 
 RECORD = """title: "bench module"
 based_on: handbook
@@ -31,7 +32,7 @@ def module(tmp_path: Path) -> ResolvedModule:
     return resolve_study(read_study(path))
 
 
-def test_a_measured_input_knows_the_range_of_the_record_it_is_based_on(module: ResolvedModule) -> None:
+def test_a_measured_input_knows_its_range_before_and_others_have_none(module: ResolvedModule) -> None:
     inputs = {one.name: one for one in unmeasured_inputs(module)}
     handbook = Catalog().record("heat_paths", "handbook").entry("rotor_contact")
     measured = inputs["rotor_contact"]
@@ -40,9 +41,6 @@ def test_a_measured_input_knows_the_range_of_the_record_it_is_based_on(module: R
     assert [name for name, one in inputs.items() if one.before is not None] == ["rotor_contact"]
     (before,) = [one for one in before_measuring(list(inputs.values())) if one.name == "rotor_contact"]
     assert (before.low, before.high) == (handbook.low, handbook.high)
-
-
-def test_nothing_is_before_where_nothing_was_measured() -> None:
     module = resolve_study(read_study(ROOT / "studies" / "paper_as_published.yaml"))
     assert all(one.before is None for one in unmeasured_inputs(module))
 
@@ -53,3 +51,39 @@ def test_the_interval_was_wider_before(module: ResolvedModule) -> None:
     low, high = found.before["softening_time"]
     now = found.intervals["softening_time"]
     assert now.high - now.low < high - low
+
+
+KINETICS = {"pcl_crystallization_half_time", "pcl_nucleation_constant", "pcl_avrami_exponent"}
+TEXT = """mode: shear
+module: {cold_side: sink, cooling_current: 1.5 A, current: 2 A, response_criterion: softening, pcl_thickness: 0.6 mm}
+solver: {cells: 8}
+"""
+
+
+@pytest.fixture(scope="module")
+def freezing_module() -> ResolvedModule:
+    return resolve_study(read_study_text(TEXT, "a test"))
+
+
+def test_half_time_and_slope_of_freezing_move_without_their_dependents(
+    freezing_module: ResolvedModule,
+) -> None:
+    names = {one.name for one in unmeasured_inputs(freezing_module)}
+    assert names >= KINETICS
+    assert "pcl_zero_shear_viscosity" in names
+    # With K_g these would be counted twice: only the pair of K_g and T_m0 is known.
+    assert not names & {"pcl_equilibrium_melting_temperature", "pcl_glass_transition", "pcl_transport_energy"}
+
+
+@pytest.mark.gate
+def test_freezing_time_is_an_interval_until_a_user_fits_his_own(freezing_module: ResolvedModule) -> None:
+    interval = UncertaintyModel(freezing_module, ["frozen_time"]).at(freezing_module, 4).intervals["frozen_time"]
+    swings = {swing.moved.name: swing for swing in interval.swings}
+    assert interval.low < interval.nominal < interval.high
+    assert KINETICS - {"pcl_avrami_exponent"} <= swings.keys()
+    slow = swings["pcl_crystallization_half_time"]
+    assert 0.0 < slow.at_low < slow.at_high  # a longer half-time freezes later
+    steep = swings["pcl_nucleation_constant"]
+    assert 0.0 < steep.at_high < steep.at_low  # a steeper slope below the reference freezes sooner
+    own = replace(freezing_module, values={**freezing_module.values, "pcl_crystallization_half_time": 60.0})
+    assert "pcl_crystallization_half_time" not in {one.name for one in unmeasured_inputs(own)}

@@ -1,14 +1,24 @@
-"""The benchmark of optimisers gives all contenders the same problem, and tells a right answer from a wrong one."""
+"""Benchmarks give all contenders the same problem, and tell a right answer from a wrong one."""
 
 from __future__ import annotations
 
+from itertools import islice
+from typing import Any, cast
+
 import numpy as np
 import pytest
+import switch
+from aiohttp import ClientWebSocketResponse
 from as_plain_python import by_hand, hand_module
 from contenders import Once, by_tvimdesign, lsoda
+from explore_drags import Hand
 from front import ManyDesigns
 from optimum import exact
 from reference_problem import Reference, study
+from support import ROOT
+
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.study import given, read_study
 
 SEAT = ("thermistor_window_gap", "thermistor_arc_gap")
 """Of a thermistor that this module does not have."""
@@ -103,3 +113,62 @@ def test_a_generation_is_given_the_same_problem(reference: Reference) -> None:
         assert outputs[0, i] == pytest.approx(seconds, rel=2e-3)
         assert residuals[:-1, i] == pytest.approx(reference.rows(design, seconds)[1:], rel=1e-9, abs=1e-12)
         assert residuals[-1, i] < 0.0
+
+
+@pytest.fixture
+def hand() -> Hand:
+    """A hand that nobody answers."""
+    return Hand(cast(ClientWebSocketResponse, None), read_study(ROOT / "studies/paper_shear.yaml"))
+
+
+def test_no_drag_says_what_was_said_before_for_it_would_not_be_answered(hand: Hand) -> None:
+    for drags in (hand.variables(), hand.requirements()):
+        told: dict[str, Any] = {}
+        for drag in islice(drags, 3000):
+            said = drag.get("text", drag.get("texts"))
+            assert told.get(drag["name"]) != said
+            told[drag["name"]] = said
+
+
+def test_a_drag_to_where_there_is_no_module_is_taken_back_to_where_one_was(hand: Hand) -> None:
+    drags = hand.variables()
+    for _ in range(50):
+        hand.is_refused = False
+        there = next(drags)
+        hand.is_refused = True
+        back = next(drags)
+        assert back["name"] == there["name"]
+        assert float(back["text"].split()[0]) == pytest.approx(hand.values[back["name"]], rel=1e-8)
+        assert back["text"] != there["text"]
+
+
+@pytest.fixture(scope="module")
+def model() -> DeviceFunctions:
+    study = read_study(switch.STUDY)
+    table = study.table
+    return DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
+
+
+def test_equations_by_hand_and_compiled_are_the_same(model: DeviceFunctions) -> None:
+    hand, machine = switch.written_by_hand(model, sparse=True), switch.compiled(model)
+    assert hand.start == pytest.approx(machine.start)
+    generator = np.random.default_rng(1)
+    for _ in range(5):
+        state = hand.start * generator.uniform(0.9, 4.0, hand.start.size)
+        assert hand.rates(0.0, state) == pytest.approx(machine.rates(0.0, state), rel=1e-9, abs=1e-12)
+        gaps = np.asarray(hand.gaps(0.0, state)) / np.array([100.0, 100.0, 100.0, 1.0])
+        assert gaps == pytest.approx(machine.gaps(0.0, state), rel=1e-9, abs=1e-12)
+        slope = machine.jacobian(0.0, state)
+        assert np.all((slope == 0.0) | (hand.sparsity == 1.0))
+        shift = 1e-6 * generator.standard_normal(state.size)
+        change = machine.rates(0.0, state + shift) - machine.rates(0.0, state - shift)
+        assert change == pytest.approx(2.0 * slope @ shift, rel=1e-4, abs=1e-10)
+
+
+@pytest.mark.gate
+def test_all_rows_find_the_same_times(model: DeviceFunctions) -> None:
+    machine = switch.compiled(model)
+    ours = switch.by_tvimdesign(model)(0.0)
+    assert switch.by_scipy(machine, "LSODA")(1e-9) == pytest.approx(ours, rel=1e-4)
+    assert switch.by_scipy(machine, "BDF")(1e-7) == pytest.approx(ours, rel=1e-4)
+    assert switch.by_scipy(switch.written_by_hand(model, sparse=True), "BDF")(1e-5) == pytest.approx(ours, rel=1e-4)

@@ -1,12 +1,15 @@
-"""A search ends when it is interrupted, though CasADi takes a signal for a function that cannot be evaluated."""
+"""Ends of runs: every status of IPOPT has words, and an interrupt ends a search."""
 
 from __future__ import annotations
 
 import os
+import re
 import signal
 import threading
 from contextlib import suppress
+from pathlib import Path
 
+import casadi
 import pytest
 from explored import SMALL
 
@@ -15,6 +18,7 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.optimizer.optimizer import Optimizer
+from tvimdesign.solve.optimizer.statuses import MEANINGS, meaning
 from tvimdesign.study import given, read_study_text
 
 
@@ -60,3 +64,22 @@ def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optim
             simulator.run(simulator.model.start)
         with pytest.raises(KeyboardInterrupt):
             screen.impossible({}, [optimizer.model.start])
+
+
+def _statuses() -> set[str]:
+    """Return the statuses in CasADi's interface to IPOPT, read off the library itself."""
+    found = sorted(Path(casadi.__file__).parent.glob("*casadi_nlpsol_ipopt*"))
+    assert found, "CasADi keeps its interface to IPOPT elsewhere: look there"
+    words = re.findall(rb"\0([A-Z][A-Za-z]+(?:_[A-Za-z]+)+)(?=\0)", found[0].read_bytes())
+    return {word.decode() for word in words if not word.decode().isupper()}
+
+
+def test_every_status_of_ipopt_has_words_and_most_a_next_step() -> None:
+    statuses = _statuses()
+    assert {"Solve_Succeeded", "Infeasible_Problem_Detected", "Restoration_Failed"} <= statuses
+    assert statuses <= set(MEANINGS)
+    for status, found in MEANINGS.items():
+        assert found.words
+        assert "_" not in found.words
+        assert found.step or status == "Solve_Succeeded"
+    assert "phase of the moon" in meaning("Phase_Of_The_Moon").words

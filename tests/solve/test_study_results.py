@@ -1,0 +1,151 @@
+"""Results of studies: a feasible design without optimality, its account, walls that a process can make, a yardstick."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from answers import shipped_answer
+from comparable import COMPRESSION, SHEAR
+
+from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.solve import normalization, result, search
+from tvimdesign.solve.discrete.relaxation import Relaxation
+from tvimdesign.solve.nlp.solution import Start
+from tvimdesign.solve.nlp.solver_run import Array, Run
+from tvimdesign.solve.optimizer.statuses import FEASIBLE
+from tvimdesign.solve.result import _plain, answer
+from tvimdesign.study import Study, read_study_text
+
+STUDY = """
+mode: shear
+vary: {current: {from: 0.8 A, to: 2.5 A, start: 1.5 A}}
+require: {peak_power: "<= 60 W"}
+minimize: {response_time: 1}
+solver: {cells: 6, starts: 2}
+"""
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_a_feasible_design_is_reported_before_a_better_infeasible_one(
+    monkeypatch: pytest.MonkeyPatch, first: bool
+) -> None:
+    study = read_study_text(STUDY, "test")
+    made: list[Run] = []
+
+    def failing(self: Relaxation, begin: Array) -> Run:
+        run = self.optimizer.solve(begin=begin)
+        kept = first is not bool(made)
+        status, objective = (FEASIBLE, run.start.objective) if kept else ("Maximum_Iterations_Exceeded", 0.0)
+        inputs = run.inputs.copy()
+        if not kept:
+            inputs[self.optimizer.model.index["current"]] = 2.5
+        run = replace(run, inputs=inputs)
+        run.start = replace(run.start, status=status, objective=objective, converged=False)
+        made.append(run)
+        return run
+
+    monkeypatch.setattr(Relaxation, "_from_one_of_each", failing)
+    monkeypatch.setattr(Relaxation, "from_all_over", lambda _: [])
+    monkeypatch.setattr(search, "find_conflicts", lambda *_: None)
+    found = answer(study)
+    assert len(made) == 2
+    assert not found.found
+    assert found.solution is not None
+    assert found.solution.feasible
+    assert complaint(found, study.table).startswith(
+        "test: no design known to be the best one (not converged: a feasible design"
+    )
+
+
+def account(seconds: float) -> dict[str, Any]:
+    """Return the account of a search of two starts that took as long each."""
+    starts = [
+        Start(number, "Solve_Succeeded", True, 20 + number, 0.5, seconds, {"wire_diameter": 1e-3}, {"wire_diameter": w})
+        for number, w in ((1, 1.1e-3), (2, 1.3e-3))
+    ]
+    found: Any = SimpleNamespace(
+        objective=0.5, reference={"module_mass": 0.1}, starts=starts, held=[], distinct_optima=lambda: starts[:1]
+    )
+    return _plain(found)
+
+
+def test_an_account_lists_every_start_whatever_time_it_took() -> None:
+    assert account(0.7) == account(31.0)
+    first, second = account(0.7)["starts"]
+    assert (first["number"], first["iterations"], first["end"]) == (1, 21, {"wire_diameter": 1.1e-3})
+    assert (second["number"], second["converged"], second["begin"]) == (2, True, {"wire_diameter": 1e-3})
+    assert account(0.7)["distinct_optima"] == [1]
+    assert _plain(None) == {}
+
+
+@pytest.mark.gate
+def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.MonkeyPatch) -> None:
+    study = Study.model_validate(shipped_answer("paper_as_published").design.study)
+    order: list[Any] = []
+    histories = result._histories
+    monkeypatch.setattr(result, "_histories", lambda *of: order.append("histories") or histories(*of))
+    found = answer(study, designed=order.append)
+    assert order[0] is found.design
+    assert order[1:] == ["histories"]
+
+
+@pytest.mark.gate
+def test_where_a_search_ends_without_a_design_nothing_is_handed_on() -> None:
+    known = shipped_answer("paper_shear")
+    assert known.solution
+    study = Study.model_validate(known.design.study)
+    for status, is_design in (("optimal", True), ("infeasible: this design breaks its limits least", False)):
+        told: list[Any] = []
+        solution = replace(known.solution, status=status)
+        found = answer(study, search=lambda *_, of=solution: of, designed=told.append)
+        assert (bool(told), found.found) == (is_design, is_design)
+
+
+PROCESS_STUDY = """
+mode: shear
+module: {{process: {process}, key_count: 0}}
+vary:
+  wall_thickness: [0.8 mm, 5 mm]
+  rotor_thickness: [1 mm, 6 mm]
+  floor_thickness: [2.5 mm, 6 mm]
+accept: [peltier_temperature_margin, structure_temperature_margin, stiffening_structure_margin]
+minimize: {{module_mass: 1}}
+solver: {{starts: 1}}
+"""
+
+
+@pytest.mark.parametrize(("process", "wall"), [("print_petg", 1.2e-3), ("machine_6061", 1.0e-3)])
+def test_walls_end_where_the_process_ends(process: str, wall: float) -> None:
+    found = answer(read_study_text(PROCESS_STUDY.format(process=process), "a test")).design
+    assert found.status == "optimal"
+    assert found.values["wall_thickness"] == pytest.approx(wall, rel=1e-4)
+    # Keys in the plate would want more of it; they are left out.
+    assert found.values["rotor_thickness"] == pytest.approx(wall, rel=1e-4)
+    # The floor keeps that wall below a pad of 1.5 mm; in metal the screws in the core ask for more.
+    assert found.values["floor_thickness"] >= 1.5e-3 + wall - 1e-7
+
+
+def test_one_yardstick_is_the_geometric_mean_and_one_of_zeros() -> None:
+    starts = [{"module_mass": 0.2, "response_time": 50.0}, None, {"module_mass": 0.8, "response_time": 200.0}]
+    for order in (starts, starts[::-1]):
+        assert normalization.common(order) == pytest.approx({"module_mass": 0.4, "response_time": 100.0})
+    assert normalization.common([{"backlash@hot": 0.0}, {"backlash@hot": 0.0}]) == {"backlash@hot": 1.0}
+    assert normalization.common([{"backlash@hot": 0.0}, {"backlash@hot": 0.1}]) == pytest.approx({"backlash@hot": 0.1})
+
+
+def test_a_switch_that_never_ends_counts_as_long_as_it_is_followed() -> None:
+    cold = SHEAR.replace("current: 1.5 A", "current: 0.1 A\n  horizon: 900 s")
+    found = normalization.at_its_start(read_study_text(cold, "test"))
+    assert found is not None
+    assert found["response_time"] == 900.0
+
+
+@pytest.mark.parametrize("text", [SHEAR, COMPRESSION], ids=["shear", "compression"])
+def test_only_what_is_minimised_is_measured(text: str) -> None:
+    found = normalization.at_its_start(read_study_text(text, "test"))
+    assert found is not None
+    assert found.keys() == {"module_mass", "response_time"}
+    assert all(value > 0.0 for value in found.values())

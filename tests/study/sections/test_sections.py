@@ -1,0 +1,198 @@
+"""The sections `vary`, `require`, `minimize`, `profile` and `accept`: good and bad entries."""
+
+from collections.abc import Callable
+from typing import Any
+
+import jsonschema
+import pytest
+import yaml
+
+from tvimdesign.device import table_for
+from tvimdesign.study import Options, Range, Study, StudyError, Vary, read_study_text
+from tvimdesign.study.schema import json_schema
+
+Read = Callable[..., Study]
+Refuse = Callable[..., list[str]]
+
+
+def _study(name: str, form: str, module: str = "") -> str:
+    return f"mode: shear\nminimize: module_mass\nmodule: {{{module}}}\nvary:\n  {name}: {form}\n"
+
+
+def _flat(vary: Vary) -> list[Any]:
+    return [*vary.values, vary.source] if isinstance(vary, Options) else [vary.lower, vary.upper, vary.start]
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "expected"),
+    [
+        ("wire_diameter", "[1.5 mm, 3.2 mm]", Range(lower=1.5e-3, upper=3.2e-3)),
+        ("wire_diameter", "[0.5 mm, 5 mm]", Range(lower=0.5e-3, upper=5e-3)),
+        ("wire_diameter", "{from: 1.5 mm, to: 0.32 cm}", Range(lower=1.5e-3, upper=3.2e-3)),
+        ("coil_count", "{from: 2, to: 4, start: 4}", Range(lower=2, upper=4, start=4)),
+        ("coil_count", "{choose: [3.25, '4.25']}", Options(values=(3.25, 4.25))),
+        ("coil_count", "{catalog: quarter_coils}", Options(values=(3.25,), source="quarter_coils")),
+        ("coil_count", "{from: 3, to: 4, step: 0.25}", Options(values=(3.0, 3.25, 3.5, 3.75, 4.0))),
+        ("coil_count", "{from: 3, to: 3.9, step: 0.5}", Options(values=(3.0, 3.5))),
+        ("wire_diameter", "{from: 1 mm, to: 1.3 mm, step: 0.1 mm}", Options(values=(1e-3, 1.1e-3, 1.2e-3, 1.3e-3))),
+        ("arc_count", "{choose: [3, 4]}", Options(values=(3.0, 4.0))),
+        ("arc_count", "{from: 3, to: 6}", Options(values=(3.0, 4.0, 5.0, 6.0))),
+        ("arc_count", "{from: 2, to: 6, step: 2}", Options(values=(2.0, 4.0, 6.0))),
+        ("peltier", "{choose: [qc_17]}", Options(values=("qc_17",))),
+        ("rate_model", "{choose: [smi, bending]}", Options(values=("smi", "bending"))),
+        ("wire_diameter", "{catalog: metric}", Options(values=(1e-3, 1.6e-3, 2e-3, 2.413e-3, 3.2e-3), source="metric")),
+        ("wire_diameter", "{catalog: metric, from: 1.6 mm, to: 2 mm}", Options(values=(1.6e-3, 2e-3), source="metric")),
+        ("wire_diameter", "{catalog: metric, to: 1.7 mm}", Options(values=(1e-3, 1.6e-3), source="metric")),
+        ("wire_diameter", "{catalog: metric, from: 2.1 mm}", Options(values=(2.413e-3, 3.2e-3), source="metric")),
+    ],
+)
+def test_forms(read: Read, name: str, form: str, expected: Vary) -> None:
+    result = read(_study(name, form)).vary[name]
+    assert type(result) is type(expected)
+    for found_value, value in zip(_flat(result), _flat(expected), strict=True):
+        assert found_value == (value if isinstance(value, str | None) else pytest.approx(value))
+
+
+def test_the_modules_value_is_the_start(read: Read) -> None:
+    def start(module: str, form: str = "[1 mm, 2 mm]") -> float | None:
+        result = read(_study("wire_diameter", form, module)).vary["wire_diameter"]
+        assert isinstance(result, Range)
+        return result.start
+
+    assert start("") is None
+    assert start("wire_diameter: 1.5 mm") == pytest.approx(1.5e-3)
+    assert start("wire_diameter: 2 mm") == pytest.approx(2e-3)
+    assert start("wire_diameter: 1.5 mm", "{from: 1 mm, to: 2 mm, start: 1.2 mm}") == pytest.approx(1.2e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "value"),
+    [
+        ("arc_count", "{choose: [3, 6]}", "3"),
+        ("arc_count", "{choose: [3, 6]}", "4"),
+        ("wire_diameter", "{catalog: metric}", "1.2 mm"),
+        ("peltier", "{choose: [qc_17]}", "qc_17"),
+    ],
+)
+def test_the_modules_value_may_lie_within_the_options(read: Read, name: str, form: str, value: str) -> None:
+    assert read(_study(name, form, f"{name}: {value}")).module[name] is not None
+
+
+SCHEMA = json_schema({mode: table_for(mode) for mode in ("shear", "compression")})
+
+
+@pytest.mark.parametrize(
+    ("written", "read"),
+    [
+        ("[structure_temperature_margin, current_margin]", ("structure_temperature_margin", "current_margin")),
+        ("pcl_temperature_margin", ("pcl_temperature_margin",)),
+        ("[]", ()),
+        ("", ()),
+    ],
+)
+def test_ratings_are_read_by_name(written: str, read: tuple[str, ...]) -> None:
+    text = f"mode: shear\naccept: {written}\n"
+    assert read_study_text(text).accept == read
+    jsonschema.validate(yaml.safe_load(text), SCHEMA)
+
+
+@pytest.mark.parametrize(
+    "written",
+    ["[module_mass]", "[stroke]", "[current_margin, current_margin]", "{current_margin: true}", "[[current_margin]]"],
+)
+def test_other_names_are_refused(written: str) -> None:
+    text = f"mode: shear\naccept: {written}\n"
+    with pytest.raises(StudyError):
+        read_study_text(text)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(yaml.safe_load(text), SCHEMA)
+
+
+def test_ratings_are_those_of_both_modes_and_no_rules() -> None:
+    of = {mode: [row for row in table_for(mode).outputs if row.ratings] for mode in ("shear", "compression")}
+    assert [row.name for row in of["shear"]] == [row.name for row in of["compression"]]
+    assert not [row.name for row in of["shear"] if row.rules or row.advice]
+
+
+@pytest.mark.parametrize(
+    ("written", "sense", "limit"),
+    [
+        ("'>= 5 g'", ">=", 5e-3),
+        ("'>=5 g'", ">=", 5e-3),
+        ("<= 5 kg", "<=", 5.0),
+        ("'<=   5e-1 kg'", "<=", 0.5),
+        ("' <= 5 g '", "<=", 5e-3),
+    ],
+)
+def test_limits(read: Read, written: str, sense: str, limit: float) -> None:
+    (requirement,) = read(f"mode: shear\nrequire: {{module_mass: {written}}}").require
+    assert (requirement.output, requirement.sense) == ("module_mass", sense)
+    assert requirement.limit == pytest.approx(limit)
+    assert requirement.text == written.strip("' ")
+
+
+def test_equal_limits_are_no_contradiction(read: Read) -> None:
+    assert len(read("mode: shear\nrequire: {module_mass: ['>= 5 g', '<= 0.005 kg']}").require) == 2
+
+
+def test_minimize_by_one_name_and_by_events_and_paths(read: Read) -> None:
+    study = read("mode: shear\nvary: {coil_count: [2, 3]}\nminimize: joint_stiffness@hot")
+    assert study.minimize == {"joint_stiffness@hot": 1.0}
+    study = read(
+        "mode: shear\nvary: {coil_count: [2, 3]}\nminimize: {response_time: 1}\nrequire: {switch_energy: '<= 400 J'}"
+    )
+    assert study.minimize == {"response_time": 1.0}
+    assert study.require[0].limit == 400.0
+
+
+FREE = "mode: shear\nvary: {current: [1 A, 2 A]}\nminimize: module_mass\n"
+
+
+def test_a_front_is_two_or_three_outputs_and_a_count(read: Read) -> None:
+    front = read(FREE + "front: {of: [response_time, joint_stiffness@hot, module_mass], points: 30}\n").front
+    assert front is not None
+    assert front.of == ("response_time", "joint_stiffness@hot", "module_mass")
+    assert front.points == 30
+    assert read(FREE + "front: {of: [response_time, module_mass]}\n").front is not None
+    assert read(FREE).front is None
+
+
+VARY = "mode: shear\nvary: {current: [0.5 A, 3 A], coil_count: [2, 3]}\nminimize: response_time\n"
+
+
+def test_pieces_by_stage(read: Read) -> None:
+    study = read(VARY + "profile: {softening: 8}")
+    assert study.profile.pieces() == {"softening": 8}
+    both = VARY.replace("coil_count: [2, 3]", "cooling_current: [0 A, 2 A]")
+    assert read(both + "profile: {softening: 8, stiffening: 4}").profile.pieces() == {"softening": 8, "stiffening": 4}
+    text = "mode: shear\nvary: {current: {from: 1 A, to: 2 A}}\nminimize: response_time\nprofile: {softening: 4}"
+    assert read(text).profile.pieces() == {"softening": 4}
+
+
+@pytest.mark.parametrize(
+    "section", ["", "profile:", "profile: {}", "profile: {softening: 0}", "profile: {stiffening: 0}"]
+)
+def test_zero_pieces_are_a_constant_current(read: Read, section: str) -> None:
+    assert read(VARY + section).profile.pieces() == {}
+    assert read("mode: shear\n" + section).profile.pieces() == {}
+
+
+STUDY = "tvimdesign: 1\nname: x\nmode: shear\nvary: {{{}}}\nminimize: module_mass\n"
+
+
+@pytest.mark.parametrize(
+    ("row", "record", "lengths"),
+    [
+        # ISO 7380-1 M4 and ISO 4762 M2 as commonly sold; ISO 8734 pins of 2.5 mm between 8 and 12 mm.
+        ("retainer_screw_length", "{catalog: iso_7380_m4, to: 16 mm}", (8, 10, 12, 16)),
+        ("link_screw_length", "{catalog: iso_7380_m3, from: 10 mm, to: 12 mm}", (10, 12)),
+        ("link_dowel_length", "{catalog: iso_8734_2_5, from: 8 mm, to: 12 mm}", (8, 10, 12)),
+    ],
+)
+def test_the_lengths_a_screw_or_pin_is_sold_in_are_those_that_are_tried(
+    row: str, record: str, lengths: tuple[int, ...]
+) -> None:
+    study = read_study_text(STUDY.format(f"{row}: {record}"), "x.yaml")
+    result = study.vary[row]
+    assert isinstance(result, Options)
+    assert result.values == pytest.approx([1e-3 * length for length in lengths])
