@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numba
 import numpy as np
 import pytest
 from hypothesis import given
@@ -43,6 +44,13 @@ def factored(case: Case) -> tuple[Pattern, Array]:
     w[diagonal] = np.diagonal(case.matrix)
     factor(pattern, w)
     return pattern, w
+
+
+@given(case=cases())
+def test_one_compiled_program_takes_every_pattern(case: Case) -> None:
+    usual, _, _ = pattern_of(2, np.array([0]), np.array([1]))
+    pattern, _, _ = pattern_of(len(case.matrix), case.rows, case.columns)
+    assert numba.typeof(pattern) == numba.typeof(usual)
 
 
 @given(case=cases(), lanes=st.integers(0, 5), seed=st.integers(0, 2**32 - 1))

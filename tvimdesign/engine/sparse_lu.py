@@ -67,12 +67,13 @@ def pattern_of(size: int, rows: Integers, columns: Integers) -> tuple[Pattern, I
         updates.append((entry[one, other], entry[one, k], entry[k, other]))
     lower, upper = np.tril(filled, -1), np.triu(filled, 1)
     target, left, upper_of = (np.concatenate([part[i] for part in updates]) for i in range(3))
+    # Contiguous and writable whatever the size: of another layout, numba would compile every step anew.
     pattern = Pattern(
-        order, int(np.count_nonzero(filled)), np.ascontiguousarray(np.diagonal(entry)),
+        order, int(np.count_nonzero(filled)), np.diagonal(entry).copy(),
         np.concatenate(below), _starts([len(part) for part in below]),
         target, left, upper_of, _starts([len(part[0]) for part in updates]),
-        entry[lower], np.nonzero(lower)[1], _starts(lower.sum(axis=1).tolist()),
-        entry[upper], np.nonzero(upper)[1], _starts(upper.sum(axis=1).tolist()),
+        entry[lower], np.nonzero(lower)[1].copy(), _starts(lower.sum(axis=1).tolist()),
+        entry[upper], np.nonzero(upper)[1].copy(), _starts(upper.sum(axis=1).tolist()),
     )  # fmt: skip
     return pattern, entry[place[rows], place[columns]], entry[place, place]
 
