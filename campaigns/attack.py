@@ -11,9 +11,9 @@ from scipy.optimize import differential_evolution, minimize
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.device import Event, Input, Path, Steady, Table
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp.constraints import constraints_of
-from tvimdesign.study import Study, given
+from tvimdesign.study import Study
 from tvimdesign.study.study import Options, Range
 
 RANDOM, EACH = 80, 5
@@ -35,7 +35,7 @@ class Attack:
     def __init__(self, study: Study) -> None:
         """Compile the module."""
         self.study = study
-        self.model = DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+        self.model = resolve_study(study).functions
         self.simulator = Simulator(self.model)
         self.limits = constraints_of(study, study.table, self.model.words)
         self.outputs = list(dict.fromkeys([limit.output for limit in self.limits]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
@@ -22,6 +23,7 @@ from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
 from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
 from tvimdesign.solve.infeasibility.reach import refuse_unreachable
+from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.solution import (
     Choosing,
     ConflictSet,
@@ -383,10 +385,12 @@ def _with_alternatives(
 
 def _standard(relaxation: Relaxation, run: Run) -> Standard:
     """Return a simulated design for the report."""
-    optimizer = relaxation.optimizer
-    cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles)
-    values = optimizer.model.values(run.inputs, cycle.values)
+    optimizer, minimized = relaxation.optimizer, list(relaxation.optimizer.study.minimize)
+    if any(on_cycle(optimizer.table, name) for name in minimized):
+        cycle = optimizer.simulator.run_to_show(run.inputs, run.current_profiles).values
+    else:
+        cycle = dict.fromkeys(optimizer.model.switch_names, math.inf)
     choices: dict[str, str | float] = {**relaxation.records, **relaxation.values(run)}
     if relaxation.sizes.mixtures:
         choices = run.start.choices
-    return Standard(choices, run.start.objective, {name: values[name] for name in optimizer.study.minimize})
+    return Standard(choices, run.start.objective, optimizer.model.some_values(minimized, run.inputs, cycle))

@@ -9,8 +9,8 @@ from typing import Any
 
 from tvimdesign.report.paper.published_module import published_model, published_values
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.study import given, read_study
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
+from tvimdesign.study import read_study
 
 Values = Mapping[str, Any]
 STUDIES = Path(__file__).resolve().parents[2] / "studies"
@@ -20,7 +20,7 @@ STUDIES = Path(__file__).resolve().parents[2] / "studies"
 def _times(study: str) -> Mapping[str, float]:
     """Values of one working cycle of a study as it starts."""
     read = read_study(STUDIES / f"{study}.yaml")
-    model = DeviceFunctions(read.table, given(read), tuple(read.operating_points), read.solver.cells)
+    model = resolve_study(read).functions
     return Simulator(model).run(model.start.copy()).values
 
 

@@ -12,8 +12,9 @@ from support import ROOT, STUDIES, fine
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Drive, Grid
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.simulation.working_cycle.trajectory import Array
-from tvimdesign.study import drawn, given, read_study
+from tvimdesign.study import drawn, read_study
 
 EXACT = 3e-3
 """Relative error of values that an optimum is sought with; those that are told are within 2e-4."""
@@ -105,7 +106,7 @@ def test_values_an_optimum_is_sought_with_are_near_those_of_cvodes(
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
 def test_values_of_a_study_s_optimum_are_near_those_of_cvodes(path: Path) -> None:
     study = drawn(read_study(path))
-    model = DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+    model = resolve_study(study).functions
     grids: dict[str, Grid] = {}
     found = CycleEngine(model).run(model.start, np.zeros((len(model.start), 0)), None, grids).values
     judge = fine(model).run(model.start).values
@@ -162,7 +163,7 @@ def test_a_phase_takes_no_more_steps_than_it_did(build: Callable[..., DeviceFunc
 def test_a_steady_state_that_changes_steeply_is_found(study: str) -> None:
     # Newton's method alone goes to and fro between currents that melt a part of the elbow's layer and that do not.
     read = drawn(read_study(ROOT / "studies" / f"{study}.yaml"))
-    model = DeviceFunctions(read.table, given(read), tuple(read.operating_points), read.solver.cells)
+    model = resolve_study(read).functions
     engine, along = CycleEngine(model), np.zeros((len(model.start), 1))
     along[model.index["ambient_temperature"]] = 1.0
     found = engine.run(model.start, along, {"hold_current", "hold_power"})

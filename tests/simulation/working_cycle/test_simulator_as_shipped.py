@@ -12,8 +12,9 @@ from support import STUDIES, fine
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.cycle import SAMPLES, Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.simulation.working_cycle.trajectory import Array, Cycle
-from tvimdesign.study import drawn, given, read_study
+from tvimdesign.study import drawn, read_study
 
 QUICK = ("fast_switch", "paper_shear", "wrist_compression")
 PROMISED = 2e-4
@@ -21,7 +22,7 @@ PROMISED = 2e-4
 
 def model_of(path: Path) -> DeviceFunctions:
     study = drawn(read_study(path))
-    return DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+    return resolve_study(study).functions
 
 
 def agree(one: Cycle, other: Cycle) -> None:

@@ -15,11 +15,11 @@ from explored import SMALL
 
 from tvimdesign.base.interrupts import interrupt_came, interrupt_handler
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.statuses import MEANINGS, meaning
-from tvimdesign.study import given, read_study_text
+from tvimdesign.study import read_study_text
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +54,7 @@ def test_no_run_of_the_solver_comes_back_after_an_interrupt(optimizer: Optimizer
 
 def test_nothing_is_begun_after_an_interrupt_that_was_swallowed(optimizer: Optimizer) -> None:
     study = optimizer.study
-    simulator = Simulator(DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells))
+    simulator = Simulator(resolve_study(study).functions)
     screen = FeasibilityScreen(optimizer)
     with interrupt_handler():
         _swallowed()

@@ -10,7 +10,6 @@ import pytest
 from support import fine
 
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities, entries, output_sensitivities
 from tvimdesign.study import read_study, read_study_text
@@ -28,7 +27,7 @@ STEP = 4e-3
 
 
 def _rig(text: str = "mode: shear\n") -> ResolvedModule:
-    study = read_study_text(text, "a test")
+    study = read_study_text(f"{text}solver: {{cells: {CELLS}}}\n", "a test")
     return resolve_study(study)
 
 
@@ -40,18 +39,16 @@ def resolved() -> ResolvedModule:
 
 @pytest.fixture(scope="module")
 def found(resolved: ResolvedModule) -> OutputSensitivities:
-    return output_sensitivities(resolved, CELLS, [*OF_CYCLE, *OF_GEOMETRY, *TEMPERATURES])
+    return output_sensitivities(resolved, [*OF_CYCLE, *OF_GEOMETRY, *TEMPERATURES])
 
 
 def _logarithmic(found: OutputSensitivities, resolved: ResolvedModule) -> dict[tuple[str, str], float | None]:
     return {(one.output, one.variable): one.logarithmic for one in entries(found, resolved)}
 
 
-def _simulated(
-    resolved: ResolvedModule, cells: int, name: str, wanted: Sequence[str], share: float = STEP
-) -> dict[str, float]:
+def _simulated(resolved: ResolvedModule, name: str, wanted: Sequence[str], share: float = STEP) -> dict[str, float]:
     """Exponents of outputs by an input, from two simulations of changed designs."""
-    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, cells)
+    model = resolved.functions
     simulator, ends = fine(model), []
     for factor in (1.0 - share, 1.0 + share):
         inputs = model.start.copy()
@@ -78,7 +75,7 @@ def test_outputs_of_the_cycle_change_as_simulations_of_changed_designs_do(
     name: str, found: OutputSensitivities, resolved: ResolvedModule
 ) -> None:
     by = _logarithmic(found, resolved)
-    shown = _simulated(resolved, CELLS, name, OF_CYCLE)
+    shown = _simulated(resolved, name, OF_CYCLE)
     for output in OF_CYCLE:
         assert by[output, name] == pytest.approx(shown[output], rel=3e-3, abs=3e-3), output
 
@@ -96,7 +93,7 @@ def test_a_temperature_has_a_derivative_and_no_logarithm(found: OutputSensitivit
 
 def test_what_never_happens_is_left_out_by_name() -> None:
     weak = _rig("mode: shear\nmodule: {current: 0.2 A}\n")
-    found = output_sensitivities(weak, CELLS, ["response_time", "cycle_time", "module_mass"])
+    found = output_sensitivities(weak, ["response_time", "cycle_time", "module_mass"])
     assert found.outputs == ("module_mass",)
     assert found.left_out == ("response_time", "cycle_time")
     assert np.all(np.isfinite(found.derivatives))
@@ -105,7 +102,7 @@ def test_what_never_happens_is_left_out_by_name() -> None:
 def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -> None:
     # A profile divides the time its stage takes, so the current is no one number there.
     driven = ResolvedModule(resolved.study, resolved.values, {"stiffening": CurrentProfile.constant(-0.5)})
-    found = output_sensitivities(driven, CELLS, ["response_time", "stiffening_time", "module_mass"])
+    found = output_sensitivities(driven, ["response_time", "stiffening_time", "module_mass"])
     assert found.left_out == ("stiffening_time",)
     assert "cooling_current" not in found.variables
     assert "current" in found.variables
@@ -114,10 +111,10 @@ def test_what_hangs_on_a_profile_is_left_out_by_name(resolved: ResolvedModule) -
 def test_the_compression_module_is_differentiated_alike() -> None:
     # The far face is never at 100 degC: too much goes from the vanes into the housing.
     resolved = _rig("mode: compression\nmodule: {response_criterion: softening, current: 2 A}\n")
-    found = output_sensitivities(resolved, CELLS, ["response_time", "module_mass", "block_strain"])
+    found = output_sensitivities(resolved, ["response_time", "module_mass", "block_strain"])
     by = _logarithmic(found, resolved)
     # Differences go 0.9142, 0.9092, 0.9078, 0.9074 as the step is halved from 0.8 %.
-    shown = _simulated(resolved, CELLS, "block_depth", ["response_time"], STEP / 4)
+    shown = _simulated(resolved, "block_depth", ["response_time"], STEP / 4)
     assert by["block_strain", "block_depth"] == pytest.approx(-1.0, rel=1e-9)
     assert by["response_time", "block_depth"] == pytest.approx(shown["response_time"], rel=3e-3)
 
@@ -127,8 +124,7 @@ def test_the_compression_module_is_differentiated_alike() -> None:
 def test_a_layer_that_freezes_at_a_sharp_edge_is_differentiated_too(name: str) -> None:
     study = read_study(Path(__file__).parents[3] / "studies" / "wrist_compression.yaml")
     resolved = resolve_study(study)
-    cells = study.solver.cells
-    by = _logarithmic(output_sensitivities(resolved, cells, ["frozen_time"], [name]), resolved)
+    by = _logarithmic(output_sensitivities(resolved, ["frozen_time"], [name]), resolved)
     # By the radius 0.4 % is too far: differences go 1.367, 1.305, 1.284, 1.279 as it is halved.
-    shown = _simulated(resolved, cells, name, ["frozen_time"], STEP / 8.0)
+    shown = _simulated(resolved, name, ["frozen_time"], STEP / 8.0)
     assert by["frozen_time", name] == pytest.approx(shown["frozen_time"], rel=3e-2)

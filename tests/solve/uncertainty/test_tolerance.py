@@ -102,7 +102,7 @@ def test_the_moments_are_those_of_differences_of_the_table(resolved: Callable[[s
 def test_many_modules_are_what_each_is_by_itself(resolved: Callable[[str], ResolvedModule]) -> None:
     module = resolved(f"tolerances:\n{SPRINGS}")
     names = ["wire_diameter", "coil_diameter"]
-    many = BatchModel(module, names, OUTPUTS)
+    many = BatchModel(module.functions, names, OUTPUTS)
     columns = np.array([[module.values[name] * factor for factor in (0.99, 1.0, 1.02)] for name in names])
     found = many(columns)
     for i in range(3):

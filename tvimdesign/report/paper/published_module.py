@@ -12,7 +12,7 @@ from tvimdesign.base.yaml_data import plain_data
 
 if TYPE_CHECKING:
     from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
+    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
     from tvimdesign.study import Study
 
 
@@ -57,11 +57,9 @@ def _study() -> Study:
 @cache
 def published_model() -> DeviceFunctions:
     """Return the module, compiled."""
-    from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-    from tvimdesign.study import given
 
     study = _study()
-    return DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+    return resolve_study(study).functions
 
 
 @cache

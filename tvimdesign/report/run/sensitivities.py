@@ -30,7 +30,7 @@ def sensitivities(answer: StudyResult, deadline: Deadline) -> tuple[OutputSensit
         if resolved.table.output(name).headline or name in outputs
     ]
     deadline.check("the outputs were differentiated")
-    return output_sensitivities(resolved, answer.design.study["solver"]["cells"], wanted), resolved
+    return output_sensitivities(resolved, wanted), resolved
 
 
 def sensitivities_csv(sensitivities_of_outputs: OutputSensitivities, resolved: ResolvedModule) -> str:

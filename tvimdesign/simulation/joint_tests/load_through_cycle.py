@@ -14,7 +14,6 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests.case import joint_of
 from tvimdesign.simulation.link_motion.lossy_structure import RIGID, spectrum
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 Array = NDArray[np.float64]
@@ -61,7 +60,7 @@ class Carried:
 
 def slice_histories(resolved: ResolvedModule) -> SliceHistory:
     """Return temperatures and solid fractions of the layer's cells over the working cycle."""
-    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
+    model = resolved.functions
     cycle = Simulator(model).run(model.start, resolved.current_profiles, ["stiffening"])
     begins = 0.0
     pieces: list[tuple[Array, Array, Array]] = []

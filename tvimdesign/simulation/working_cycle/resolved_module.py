@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from tvimdesign.device import Table
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.study import Study, brought_along, given
 from tvimdesign.study.design import Design
 
@@ -35,6 +37,11 @@ class ResolvedModule:
     def replaced(self) -> set[str]:
         """Inputs in whose place a current follows a profile: nothing depends on them."""
         return {self.table.phase(phase).current_input for phase in self.current_profiles}
+
+    @cached_property
+    def functions(self) -> DeviceFunctions:
+        """Its table and working cycle as functions of the numbers among its inputs."""
+        return DeviceFunctions(self.table, self.values, self.points, self.study.solver.cells)
 
     def quantity(self, name: str) -> Any:
         """Return the value of one quantity by full name; hidden quantities too."""

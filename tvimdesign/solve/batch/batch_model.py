@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -11,7 +12,6 @@ from numpy.typing import NDArray
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
 from tvimdesign.solve.batch.kernel import Kernel, of_columns
 
@@ -24,10 +24,9 @@ SLOW = 0.1
 class BatchModel:
     """Some outputs of one module as a function of columns of some of its inputs."""
 
-    def __init__(self, resolved: ResolvedModule, moving: Sequence[str], outputs: Sequence[str]) -> None:
+    def __init__(self, model: DeviceFunctions, moving: Sequence[str], outputs: Sequence[str]) -> None:
         """Record. All inputs but the `moving` are constants."""
-        model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
-        needed = {base for name in outputs for base in (name.partition("@")[0], *resolved.table.ancestors(name))}
+        needed = {base for name in outputs for base in (name.partition("@")[0], *model.table.ancestors(name))}
         supplied = [name for name in model.switch_names if name in needed]
         self.cycle = CycleKernel(model, moving, supplied) if supplied else None
         names = self.cycle.names if self.cycle else ()
@@ -42,8 +41,11 @@ class BatchModel:
         """That of the module as drawn, for who gives none."""
         return self.pace_at(self._simulator.model.start)
 
-    def pace_at(self, inputs: Array) -> Pace | None:
-        """Return how the design with these inputs goes through its cycle; None if nothing depends on it."""
+    def pace_at(self, inputs: Array, beside: Pace | None = None) -> Pace | None:
+        """Return how the design with these inputs goes through its cycle; None if nothing depends on it.
+
+        Its steps are those of a design `beside` it, if given, and chosen anew otherwise.
+        """
         if self.cycle is None:
             return None
         model = self._simulator.model
@@ -51,7 +53,10 @@ class BatchModel:
         slow = SLOW * float(inputs[model.index["horizon"]])
         ends = {name: cycle.values[phase.phase.ends] for name, phase in model.phases.items()}
         pace = Pace({n: t if 0.0 < t < np.inf else slow for n, t in ends.items()}, cycle.balances)
-        return self.cycle.fitted(pace, inputs[self._places])
+        column = inputs[self._places]
+        if beside is None:
+            return self.cycle.fitted(pace, column)
+        return replace(pace, fits={name: replace(fit, about=column) for name, fit in beside.fits.items()})
 
     def __call__(
         self, columns: Array, workers: int = 1, pace: Pace | None = None, only: Collection[str] | None = None,

@@ -14,7 +14,6 @@ from tvimdesign.engine.lane_events import NOWHERE
 from tvimdesign.engine.lanes import evaluate, lanes_of
 from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.simulation.working_cycle.phase_engine import PhaseEngine
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.solve.batch.steps import LONGEST, Fit, Steps
 
@@ -44,7 +43,7 @@ class PhaseKernel:
         paths: Sequence[str], steadies: Sequence[str], steps: Steps,
     ) -> None:  # fmt: skip
         """Record the motion, and what is looked at: all of it, as threads share it later."""
-        self.engine, self.steps, self.after = PhaseEngine(phase), steps, phase.phase.after
+        self.engine, self.steps, self.after = model.engines[phase.phase.name], steps, phase.phase.after
         self.events, self.steadies = list(events), list(steadies)
         reduced = {row.name: row.reduce for row in phase.paths if row.name in paths}
         self.integrals, self.highest, self.at_end = (

@@ -8,10 +8,10 @@ import numpy as np
 
 from tvimdesign.device import Path, Table
 from tvimdesign.simulation.working_cycle.cycle import Simulator
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, on_cycle, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
-from tvimdesign.study import Study, given
+from tvimdesign.study import Study
 
 
 def happened(name: str, values: Mapping[str, float], table: Table) -> bool:
@@ -48,7 +48,7 @@ def exceeded_at_start(study: Study) -> dict[str, float]:
 
     One working cycle is simulated. A rating that the study requires to be kept is left out. Raises SimulationError.
     """
-    model = DeviceFunctions(study.table, given(study), tuple(study.operating_points), study.solver.cells)
+    model = resolve_study(study).functions
     values = model.values(model.start, Simulator(model).run(model.start).values)
     required = {limit.output for limit in study.require if limit.sense == ">=" and limit.limit >= 0.0}
     names = (limit.output for limit in exceeded(values, study.table))

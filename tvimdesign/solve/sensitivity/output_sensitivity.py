@@ -57,10 +57,10 @@ class OutputSensitivities:
 
 
 def output_sensitivities(
-    resolved: ResolvedModule, cells: int, wanted: Sequence[str], by: Sequence[str] | None = None
+    resolved: ResolvedModule, wanted: Sequence[str], by: Sequence[str] | None = None
 ) -> OutputSensitivities:
     """Differentiate the wanted outputs by every variable of the module, or `by` some inputs. Raises SimulationError."""
-    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, cells)
+    model = resolved.functions
     names = [n for n in wanted if not isinstance(resolved.table.quantity(n), FirstOscillation)]
     variables = by or [row.name for row in resolved.table.inputs if _is_variable(resolved, model, row.name)]
     variables = [name for name in variables if name not in resolved.replaced]

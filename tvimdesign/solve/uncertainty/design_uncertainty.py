@@ -71,7 +71,7 @@ class UncertaintyModel:
         self.names = [name for name in moving if isinstance(resolved.values.get(name), int | float)]
         self._early = _phases_of(table, limited)
         drawn = bool(self.outputs and self.names)
-        self._model = BatchModel(resolved, self.names, self.outputs) if drawn else None
+        self._model = BatchModel(resolved.functions, self.names, self.outputs) if drawn else None
         self._pace: Pace | None = None
 
     def fits(self, resolved: ResolvedModule) -> bool:

@@ -162,6 +162,6 @@ def _deviations(optimizer: Optimizer, run: Run, wanted: list[str]) -> dict[str, 
     resolved = ResolvedModule(study, {**numbers, **model.words}, run.current_profiles)
     contributors = contributors_of(resolved)
     names = [contributor.name for contributor in contributors]
-    exact = output_sensitivities(resolved, study.solver.cells, wanted, names)
+    exact = output_sensitivities(resolved, wanted, names)
     known = [contributors[names.index(name)] for name in exact.variables]
     return dict(zip(exact.outputs, spread.shares(known, exact.derivatives)[0].tolist(), strict=True))

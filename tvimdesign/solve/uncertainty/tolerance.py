@@ -128,13 +128,13 @@ class Tolerancing:
                 "give tolerances of other inputs, or require what depends on these"
             )
         progress("differentiating the outputs by what spreads")
-        exact = output_sensitivities(resolved, resolved.study.solver.cells, list(wanted), names)
+        exact = output_sensitivities(resolved, list(wanted), names)
         progress("recording the module for many designs")
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
         self.asked = tuple(name for name in dict.fromkeys(self._requested()) if name in self.outputs)
         self.limits = [limit for limit in self.limits if limit.output in self.outputs]
-        self.many = BatchModel(resolved, names, self.outputs)
+        self.many = BatchModel(resolved.functions, names, self.outputs)
         self.horizon = float(resolved.values["horizon"])
 
     def _requested(self) -> list[str]:
@@ -192,7 +192,7 @@ class Tolerancing:
 
         def drawn(draw: Draw) -> Array:
             if draw.outputs not in models:
-                models[draw.outputs] = BatchModel(self.resolved, self.names, list(draw.outputs))
+                models[draw.outputs] = BatchModel(self.resolved.functions, self.names, list(draw.outputs))
             columns = columns_of(self.resolved, self.names, models[draw.outputs], draw, self.workers)
             return spread.drawn_values(columns, draw.contributors, samples, seed)
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.batch.batch_model import BatchModel
+from tvimdesign.solve.batch.cycle_kernel import Pace
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, on_cycle
 from tvimdesign.solve.optimizer.optimizer import Optimizer
@@ -85,7 +86,10 @@ class Yields:
         start = dict(zip(optimizer.model.names, optimizer.model.start, strict=True))
         self._drawn: dict[tuple[bytes, int | None], Drawn] = {}
         self._first_orders: dict[bytes, Array] = {}
-        self._many = BatchModel(self._rig(start), self._moving, self._outputs) if self._outputs else None
+        self._pace: Pace | None = None
+        """That of the last design of which modules were drawn."""
+        functions = self._rig(start).functions if optimizer.mixtures else optimizer.model
+        self._many = BatchModel(functions, self._moving, self._outputs) if self._outputs else None
 
     def _rig(self, values: Mapping[str, Any]) -> ResolvedModule:
         numbers = {name: float(values[name]) for name in self._model.names}
@@ -139,7 +143,8 @@ class Yields:
             return Drawn((), np.zeros((0, MODULES)))
         places = [self._moving.index(contributor.name) for contributor in contributors]
         drawn = np.array([inputs[model.index[name]] for name in self._moving])
-        many, pace = self._many, self._many.pace_at(inputs)
+        many = self._many
+        self._pace = pace = many.pace_at(inputs, beside=self._pace)
         columns_drawn: list[Array] = []
 
         def outputs(columns: Array) -> Array:

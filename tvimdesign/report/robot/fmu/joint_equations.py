@@ -20,7 +20,6 @@ from tvimdesign.simulation.joint_tests.case import one_sided
 from tvimdesign.simulation.link_motion.lossy_structure import PER_DECADE
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.curves import temperature_names
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 MOVING = ("ambient_temperature", "frequency@hot")
@@ -68,7 +67,7 @@ class JointEquations:
 
 def joint_equations(resolved: ResolvedModule) -> JointEquations:
     """Return the equations of a module; the layer freezes with its history and melts, whatever the current."""
-    model = DeviceFunctions(resolved.table, resolved.values, resolved.points, resolved.study.solver.cells)
+    model = resolved.functions
     phase = model.either_way
     state, given = ca.SX.sym("state", phase.state_size), ca.SX.sym("given", 1 + len(MOVING))
     inputs = ca.SX(ca.DM(model.start))

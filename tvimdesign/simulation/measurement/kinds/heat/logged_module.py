@@ -15,7 +15,6 @@ import numpy as np
 
 from tvimdesign.simulation.measurement.reading.data_file import Array
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
@@ -39,8 +38,7 @@ class LoggedModule:
 
     def __init__(self, resolved: ResolvedModule, names: Sequence[str]) -> None:
         """Take the names of the inputs that are fitted; all others stay what the module has."""
-        study = resolved.study
-        self._model = DeviceFunctions(resolved.table, resolved.values, resolved.points, study.solver.cells)
+        self._model = resolved.functions
         self._names = list(names)
         self._fitted = ca.SX.sym("fitted", len(names))
         inputs = ca.SX(self._model.start)
