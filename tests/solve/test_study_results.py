@@ -87,7 +87,7 @@ def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.M
     order: list[Any] = []
     histories = result._histories
     monkeypatch.setattr(result, "_histories", lambda *of: order.append("histories") or histories(*of))
-    found = answer(study, designed=order.append)
+    found = answer(study, designed=lambda design, _: order.append(design))
     assert order[0] is found.design
     assert order[1:] == ["histories"]
 
@@ -100,7 +100,7 @@ def test_where_a_search_ends_without_a_design_nothing_is_handed_on() -> None:
     for status, is_design in (("optimal", True), ("infeasible: this design breaks its limits least", False)):
         told: list[Any] = []
         solution = replace(known.solution, status=status)
-        found = answer(study, search=lambda *_, of=solution: of, designed=told.append)
+        found = answer(study, search=lambda *_, of=solution: of, designed=lambda *given, told=told: told.append(given))
         assert (bool(told), found.found) == (is_design, is_design)
 
 

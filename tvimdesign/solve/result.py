@@ -38,7 +38,7 @@ from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
 from tvimdesign.study.result_study import started_at
 
-Designed = Callable[[Design], None]
+Designed = Callable[[Design, Solution | None], None]
 """Receiver of a design as soon as it exists."""
 
 
@@ -127,12 +127,12 @@ def answer(
     keep: Keep = lambda *_: None,
     objectives: Sequence[str] = (),
     search: Search = optimize,
-    designed: Designed = lambda _: None,
+    designed: Designed = lambda *_: None,
 ) -> StudyResult:
     """Evaluate or optimise a study, its outputs over a `reference` (its start). Raises InputError, InfeasibleError.
 
     What found the optimum is handed to `keep`, able to trade some outputs afterwards. A `search` may stand in place of
-    the usual one. `designed` receives a design as soon as it exists, before its whole account is computed. An
+    the usual one. `designed` receives a design and its solution as soon as they exist, before the whole account. An
     interrupt of the search, or once it has found a design, is SearchInterrupted.
     """
     refuse_impossible(study)
@@ -184,7 +184,7 @@ def _result(study: Study, solution: Solution | None, designed: Designed) -> Stud
         solution=_plain(solution),
     )
     if _is_found(design, solution):
-        designed(design)
+        designed(design, solution)
     checks = tuple(_check(limit, values, table, open_values) for limit in constraints_of(study, table, resolved.values))
     advice = [
         limit

@@ -78,7 +78,7 @@ def answer_study(
     folder: ResultsFolder | None = None,
     search: Search | None = None,
     early: Callable[[StudyResult], None] = lambda _: None,
-    designed: Designed = lambda _: None,
+    designed: Designed = lambda *_: None,
     deadline: Deadline | None = None,
 ) -> AnsweredStudy:
     """Read and answer a study: evaluate or optimise it, and seek its front, which a `folder` lets go on later.

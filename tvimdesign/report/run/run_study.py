@@ -6,6 +6,7 @@ import json
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from tvimdesign.report.run.answered_study import AnsweredStudy
     from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
     from tvimdesign.report.run.uncertainty_process import UncertaintyProcess
+    from tvimdesign.solve.nlp.solution import Solution
     from tvimdesign.solve.result import Designed
     from tvimdesign.study.design import Design
 
@@ -141,11 +143,11 @@ def _asked_of_design(
 ) -> Designed:  # fmt: skip
     """Return a function that begins the parts and the uncertainty of a design as soon as it is there."""
 
-    def asked(design: Design) -> None:
+    def asked(design: Design, solution: Solution | None) -> None:
         if making:
             making.begin(design, folder.path / "cad")
         if uncertainty:
-            uncertainty.begin(design)
+            uncertainty.begin(design, yield_known=solution is not None and solution.yield_reached is not None)
 
     return asked
 
@@ -155,12 +157,16 @@ def _wait_for_uncertainty(
 ) -> None:  # fmt: skip
     from tvimdesign.report.run.answered_study import note_left_out, note_no_uncertainty, note_uncertainty
     from tvimdesign.report.run.uncertainty_process import STEP
+    from tvimdesign.solve.nlp.spread import yield_of
 
     if process is None or not process.begun:
         return
     progress(f"computing {STEP}")
     try:
-        note_uncertainty(answered, process.finish(answered.deadline))
+        data, solution = process.finish(answered.deadline), answered.result.solution
+        if solution and (reached := solution.yield_reached):
+            data |= {"parts_yield": asdict(yield_of(reached.together, reached.modules)), "modules": reached.modules}
+        note_uncertainty(answered, data)
     except TimeOverError:
         answered.deadline.leave_out(STEP)
         note_left_out(answered)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.number_format import finite, number_entry
@@ -54,8 +56,10 @@ class Uncertainty:
         self._start = self._tolerant(resolve_study(study))
         self.model = UncertaintyModel(self._start, self.asked, list(study.vary))
 
-    def draw_ahead(self) -> None:
-        """Draw the modules, as shares of what varies, before there is a design: what does so takes long to load."""
+    def prepare(self) -> None:
+        """Do what needs no design: record the cycle, choose its steps and draw the modules as shares of what varies."""
+        with contextlib.suppress(SimulationError):
+            self.model.prepare()
         if contributors := contributors_of(self._start):
             sobol_points(len(contributors), MODULES, self.study.solver.seed)
 
@@ -65,7 +69,7 @@ class Uncertainty:
         return replace(resolved, study=resolved.study.model_copy(update={"tolerances": tolerances}))
 
     def of(self, design: Design, modules: int = MODULES, draws: int = DRAWS) -> DesignUncertainty:
-        """Return the uncertainty of one design; `modules` and `draws` are powers of two."""
+        """Return the uncertainty of one design; `modules` and `draws` are powers of two, without `modules` no yield."""
         resolved = self._tolerant(resolve_design(design))
         if not self.model.fits(resolved):  # another record was chosen
             self.model = UncertaintyModel(resolved, self.asked)

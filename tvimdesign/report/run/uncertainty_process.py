@@ -1,7 +1,7 @@
 """Uncertainty of a run's design, computed in a process that loads the compiler and scipy while the solver works.
 
-Run as `python -m tvimdesign.report.run.uncertainty_process`: reads two lines of JSON on
-standard input, a study, for which it compiles, and its design, and prints what `Uncertainty` says of that.
+Run as `python -m tvimdesign.report.run.uncertainty_process`: reads three lines of JSON on standard input, a study, for
+which it prepares, its design and whether its yield is known, and prints what `Uncertainty` says of that.
 `UncertaintyProcess` is the other end. An error of the package is printed as `{"error": ...}`.
 """
 
@@ -76,10 +76,10 @@ class UncertaintyProcess:
         self._writing.join()
         self._child.communicate()
 
-    def begin(self, design: Design) -> None:
-        """Ask for a design's, and come back at once."""
+    def begin(self, design: Design, *, yield_known: bool = False) -> None:
+        """Ask for a design's, without its yield if that is known, and come back at once."""
         self.begun = True
-        self._lines.put(design.model_dump_json() + "\n")
+        self._lines.put(f"{design.model_dump_json()}\n{json.dumps(yield_known)}\n")
         self._lines.put("")
 
     def _write(self) -> None:
@@ -132,15 +132,16 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a third of the time; the process is short
     import_module("scipy.special")  # loaded while the solver works, used when modules are drawn
-    from tvimdesign.report.run.uncertainty_data import Uncertainty
+    from tvimdesign.report.run.uncertainty_data import MODULES, Uncertainty
 
     study = Study.model_validate_json(sys.stdin.readline())
     try:
         uncertainty = Uncertainty(study)
-        uncertainty.draw_ahead()
+        uncertainty.prepare()
         line = sys.stdin.readline()
         if line:
-            print(json.dumps(uncertainty.data(Design.model_validate_json(line)), allow_nan=False))
+            design, yield_known = Design.model_validate_json(line), json.loads(sys.stdin.readline())
+            print(json.dumps(uncertainty.data(design, 0 if yield_known else MODULES), allow_nan=False))
     except TvimError as error:
         print(json.dumps({"error": str(error)}))
 

@@ -12,7 +12,7 @@ import numpy as np
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
 from tvimdesign.solve.infeasibility.feasibility_screen import NOWHERE, FeasibilityScreen
-from tvimdesign.solve.infeasibility.wide_search import designs_all_over, least_broken
+from tvimdesign.solve.infeasibility.wide_search import best_drawn, designs_all_over, least_broken
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
@@ -24,8 +24,6 @@ from tvimdesign.solve.optimizer.starting_points import FEW
 from tvimdesign.solve.optimizer.statuses import FEASIBLE, NO_DESIGN, NO_MODULE
 from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 
-_SHORT = 100
-"""Generations of a differential evolution that asks once more whether a box is empty."""
 _CLOSE = 0.02
 """Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked
 whether the limits can be kept there at all."""
@@ -279,12 +277,11 @@ class Relaxation:
     def _screened(self, ends: Mapping[str, Ends], begins: Sequence[Array]) -> bool:
         """Return whether the limits that depend on no switch cannot be satisfied from any of some inputs.
 
-        Nor from where a short differential evolution over the box leads: other optima mostly lie outside it, and are
-        put to its edge.
+        Nor from the best of many points drawn in the box: other optima mostly lie outside it, and are put to its edge.
         """
         if not self._screen.impossible(ends, self._modules(begins)):
             return False
-        begin, worst = least_broken(self.optimizer, self._screen, self.optimizer.study.solver.seed, ends, _SHORT)
+        begin, worst = best_drawn(self.optimizer, self._screen, ends)
         if worst <= 0.0 or not self._screen.impossible(ends, [self._mixed(begin, ends)]):
             return False
         self.work.screened += 1

@@ -22,6 +22,8 @@ _DRAWN, _DESIGNS = 12, 3
 _GENERATIONS = 150
 _EACH = 8
 """Designs of a generation for each free number."""
+_POINTS = 2048
+"""Points that are drawn where a whole evolution would take too long."""
 
 
 def designs_all_over(optimizer: Optimizer, mixed: Callable[[Array], Array] = lambda inputs: inputs) -> list[Array]:
@@ -60,10 +62,20 @@ def _one_design(optimizer: Optimizer, screen: FeasibilityScreen, seed: int) -> A
     return inputs if worst < 0.0 else None
 
 
+def best_drawn(optimizer: Optimizer, screen: FeasibilityScreen, within: Mapping[str, Ends]) -> tuple[Array, float]:
+    """Return the inputs of many random points that violate the arithmetic limits least, and the largest violation."""
+    count = len(optimizer.free)
+    lower, upper = (ends[:count, None] for ends in optimizer.vector.bounds(within))
+    points = lower + np.random.default_rng(optimizer.study.solver.seed).random((count, _POINTS)) * (upper - lower)
+    worst = screen.worst(points)
+    best = int(np.argmin(worst))
+    return _inputs_at(optimizer, points[:, best]), float(worst[best])
+
+
 def least_broken(
-    optimizer: Optimizer, screen: FeasibilityScreen, seed: int, within: Mapping[str, Ends], most: int = _GENERATIONS
+    optimizer: Optimizer, screen: FeasibilityScreen, seed: int, within: Mapping[str, Ends]
 ) -> tuple[Array, float]:
-    """Run a differential evolution of `most` generations, some numbers within ends of their own.
+    """Run a differential evolution, some numbers within ends of their own.
     Return the inputs at its end and the largest violation of an arithmetic limit. It ends at the first feasible design.
     """
     from scipy.optimize import Bounds, OptimizeResult, differential_evolution  # a search that ends well needs no scipy
@@ -80,10 +92,15 @@ def least_broken(
         return screen.worst(unknowns)
 
     answer = differential_evolution(
-        worst, Bounds(lower, upper), maxiter=most, popsize=_EACH, seed=seed,
+        worst, Bounds(lower, upper), maxiter=_GENERATIONS, popsize=_EACH, seed=seed,
         polish=False, tol=0.0, updating="deferred", vectorized=True, callback=look,
     )  # fmt: skip
+    return _inputs_at(optimizer, answer.x), float(answer.fun)
+
+
+def _inputs_at(optimizer: Optimizer, unknowns: Array) -> Array:
+    """Return the inputs of the study's start with the free numbers in their places."""
     inputs: Array = optimizer.model.start.copy()
-    for free, unknown in zip(optimizer.free, answer.x, strict=True):
+    for free, unknown in zip(optimizer.free, unknowns, strict=True):
         inputs[optimizer.model.index[free.name]] = free.to_value(unknown)
-    return inputs, float(answer.fun)
+    return inputs

@@ -223,7 +223,12 @@ def sobol_indices(
 
 def share_kept(satisfied: NDArray[np.bool_]) -> Yield:
     """Return the yield of modules from whether each satisfies a limit."""
-    count, share, z = len(satisfied), float(np.mean(satisfied)), _CONFIDENCE
+    return yield_of(float(np.mean(satisfied)), len(satisfied))
+
+
+def yield_of(share: float, count: int) -> Yield:
+    """Return the yield from the share of so many modules that satisfy a limit."""
+    z = _CONFIDENCE
     middle = (share + z**2 / (2.0 * count)) / (1.0 + z**2 / count)
     half = z / (1.0 + z**2 / count) * math.sqrt(share * (1.0 - share) / count + (z / (2.0 * count)) ** 2)
     return Yield(share, max(middle - half, 0.0), min(middle + half, 1.0))

@@ -74,6 +74,16 @@ class UncertaintyModel:
         self._model = BatchModel(resolved.functions, self.names, self.outputs) if drawn else None
         self._pace: Pace | None = None
 
+    def prepare(self) -> None:
+        """Choose the steps of the cycle at the recorded module; designs beside it take them."""
+        if self._model is not None:
+            self._pace = self._pace_at(self._resolved)
+
+    def _pace_at(self, resolved: ResolvedModule) -> Pace | None:
+        assert self._model is not None
+        inputs = np.array([float(value) for value in resolved.values.values() if isinstance(value, int | float)])
+        return self._model.pace_at(inputs, beside=self._pace)
+
     def fits(self, resolved: ResolvedModule) -> bool:
         """Return whether a module differs from the recorded one only in inputs that may change."""
         before, now = self._resolved.values, resolved.values
@@ -81,18 +91,20 @@ class UncertaintyModel:
         return same and all(before[name] == now[name] for name in before if name not in self.names)
 
     def at(self, resolved: ResolvedModule, modules: int, draws: int = DRAWS, workers: int = 1) -> DesignUncertainty:
-        """Draw `modules` (a power of two) of a design by the study's tolerances, `draws` from the ranges."""
+        """Draw `modules` (a power of two) of a design by the study's tolerances, `draws` from the ranges.
+
+        Without `modules` there is no yield.
+        """
         if self._model is None:
             return DesignUncertainty(None, 0, tuple(limit.name for limit in self.limits), {})
-        inputs = np.array([float(value) for value in resolved.values.values() if isinstance(value, int | float)])
-        self._pace = self._model.pace_at(inputs)
+        self._pace = self._pace_at(resolved)
         as_drawn = dict(zip(self.outputs, self._rows(resolved, np.zeros((0, 1)), (), workers)[:, 0], strict=True))
         counted = [limit for limit in self.limits if np.isfinite(as_drawn.get(limit.output, np.nan))]
         spreading = [limit for limit in counted if _behind(resolved.table, limit.output, self._spreading)]
         names = {limit.name for limit in counted}
         left_out = tuple(limit.name for limit in self.limits if limit.name not in names)
         result = self._of_ranges(resolved, counted, draws, workers)
-        parts = self._yield(resolved, spreading, modules, workers)
+        parts = self._yield(resolved, spreading, modules, workers) if modules else None
         return DesignUncertainty(parts, len(spreading), left_out, *result, self._before(resolved, draws, workers))
 
     def _rows(
