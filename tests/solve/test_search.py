@@ -156,6 +156,7 @@ def test_a_price_is_what_relaxing_the_limit_saves() -> None:
     assert checked >= 2
 
 
+@pytest.mark.gate
 def test_a_bound_s_price_is_what_moving_it_saves() -> None:
     study = _study(SMALL)
     before = _solve(study)
@@ -211,6 +212,7 @@ def test_every_response_time_can_be_required_and_minimised() -> None:
         assert solution.values["response_time"] == pytest.approx(solution.values[named], rel=1e-9)
 
 
+@pytest.mark.gate
 def test_a_limit_on_one_time_while_another_is_minimised_holds() -> None:
     free = _solve(_study(SMALL))
     limit = 0.9 * free.values["near_face_time"]
@@ -245,6 +247,7 @@ def test_a_peak_of_a_constant_current_can_have_a_least() -> None:
     assert solution.values["peak_power"] == pytest.approx(9.0, rel=1e-3)
 
 
+@pytest.mark.gate
 def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
     """Objectives are ratios to each study's own start, so the same goal is set with one output alone."""
     goal = SMALL.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "response_time")

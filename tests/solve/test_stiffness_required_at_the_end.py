@@ -103,7 +103,9 @@ def test_a_switch_that_never_ends_has_no_end_to_be_soft_at(
     assert np.all(np.isfinite(many[:, 1]))
 
 
-@pytest.mark.parametrize(("criterion", "reached"), [("far_face", True), ("softening", False)])
+@pytest.mark.parametrize(
+    ("criterion", "reached"), [("far_face", True), pytest.param("softening", False, marks=pytest.mark.gate)]
+)
 def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, reached: bool) -> None:
     # The thermometer at the far face waits for 100 degC, which is the hot point; the impedance does not.
     found = _answer(criterion=criterion)
@@ -112,6 +114,7 @@ def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, r
     assert all("never" in check.origin and "softened_stiffness" in check.origin for check in warned)
 
 
+@pytest.mark.gate
 def test_the_compression_module_has_them_too() -> None:
     study = read_study_text("mode: compression\nmodule: {response_criterion: softening, current: 2 A}\n", "test")
     values = answer(study).design.values

@@ -106,7 +106,7 @@ def test_solids_relax_with_the_textbook_s_times() -> None:
     assert -moved.torque[after] == pytest.approx(expected, rel=1e-5)
 
 
-@pytest.mark.parametrize("hold", [0.0, 0.02, 10.0])
+@pytest.mark.parametrize("hold", [0.0, 10.0])
 @pytest.mark.parametrize("layer", LAYERS)
 def test_hold_and_release_are_those_of_radau_on_the_torques_of_the_modes(layer: str, hold: float) -> None:
     # Other unknowns: torque of each mode, with the layer's angle from d/dt of the series' balance.
@@ -157,7 +157,7 @@ modes = st.lists(
 )
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(modes, st.floats(1.0, 5.0), st.floats(-4.0, 4.0))
 def test_energy_never_rises_once_the_link_is_let_go(
     layer: list[tuple[float, float]], structure: float, hold: float

@@ -76,6 +76,7 @@ def test_switch_at_the_usual_cells_is_within_the_promised_percent(
         assert switch_of("thin").values[name] == pytest.approx(pair[1][name], rel=1e-2), name
 
 
+@pytest.mark.gate
 def test_peak_of_the_rotor_is_that_of_its_face_to_the_layer(pair: tuple[Cycle, dict[str, float]]) -> None:
     cycle, reference = pair
     assert cycle.values["peak_rotor_temperature"] == pytest.approx(reference["rotor_face"], abs=1.0)

@@ -111,7 +111,10 @@ def changes_by_cells(build: Callable[..., DeviceFunctions], design: str, **input
     return np.abs(np.diff(found, axis=0)), np.array(found[-1])
 
 
-@COOLED
+@pytest.mark.parametrize(
+    ("design", "cooling"),
+    [("sink", 0.2), *(pytest.param(*case, marks=pytest.mark.gate) for case in (("as it is", 0.2), ("sink", 0.8)))],
+)
 def test_stiffening_converges_with_the_square_of_the_cell(
     design: str, cooling: float, build: Callable[..., DeviceFunctions]
 ) -> None:
@@ -135,6 +138,7 @@ def test_a_joint_that_is_half_as_stiff_is_as_sure(
     assert np.all(changes[-1] < 2e-4 * last)
 
 
+@pytest.mark.gate
 @settings(max_examples=15, deadline=None)
 @given(heating=st.floats(1.3, 3.0), cooling=st.floats(0.0, 1.5), design=st.sampled_from(["as it is", "sink"]))
 def test_kinetics_never_stiffen_sooner_than_the_melting_curve(

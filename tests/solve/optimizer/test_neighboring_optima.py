@@ -72,6 +72,7 @@ def test_a_start_is_led_to_what_is_as_good_as_the_best_of_all_turns() -> None:
     assert improved.start.iterations > run.start.iterations
 
 
+@pytest.mark.gate
 def test_the_best_turn_is_not_left(optimizer: Optimizer) -> None:
     run = _run_from(optimizer, **WIDE_ARCS, **SOFT_SPRINGS)
     best, *_ = NeighboringOptima(optimizer).improve([run])

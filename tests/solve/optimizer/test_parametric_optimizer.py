@@ -40,8 +40,9 @@ def test_a_moved_problem_has_the_optimum_of_one_built_for_it(built: ParametricOp
     moved = built.solve(study, first.run)
     fresh = Optimizer(study, built.optimizer.reference).solve()
     assert moved.converged
-    # Both are optima, each with the steps that were placed on its way.
-    assert moved.run.start.objective == pytest.approx(fresh.start.objective, rel=SETTLED)
+    # Both are optima, each with the steps that were placed on its way: these differ most where a range ends.
+    apart = SETTLED if name == "ends of a range" else 2e-6
+    assert moved.run.start.objective == pytest.approx(fresh.start.objective, rel=apart)
     for variable, value in fresh.start.end.items():
         assert moved.run.start.end[variable] == pytest.approx(value, rel=10.0 * SETTLED)
         assert abs(value / first.run.start.end[variable] - 1.0) > 1e-6 or name != "all of them"

@@ -90,7 +90,7 @@ def test_savings_are_what_optima_with_the_limit_moved_show(text: str) -> None:
 @pytest.mark.parametrize(
     "name",
     [
-        "paper_shear",
+        pytest.param("paper_shear", marks=pytest.mark.gate),
         pytest.param("fast_switch", marks=pytest.mark.slow),
         pytest.param("compare_compression", marks=pytest.mark.slow),
     ],
