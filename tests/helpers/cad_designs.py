@@ -30,7 +30,8 @@ WRIST = {
     "retainer_screw_length": 8.0 * MM, "notch_width": 8.0 * MM,
     "link_dowel": "iso_8734_1", "link_dowel_length": 8.0 * MM,
 }  # fmt: skip
-ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21}
+ODD = WRIST | {"coil_count": 4.6, "spring_pairs": 3, "arc_count": 3, "preload_angle": 0.21,
+               "stop_tooth_width": 4.0 * MM}  # fmt: skip
 BLOCKS = {
     "coil_diameter": 12.0198 * MM, "coil_count": 6.6, "core_radius": 8.0 * MM, "pcl_inner_radius": 13.0 * MM,
     "pcl_outer_radius": 24.0 * MM, "rotor_rim": 7.5 * MM, "block_height": 11.964 * MM, "block_depth": 4.0 * MM,
@@ -61,6 +62,7 @@ FLANGE = {"sensor_flange": "iso_9409_40_4_m6", "core_radius": 9.0 * MM, "foot_he
           "flange_screw_reach": 10.5 * MM}  # fmt: skip
 FLANGE_BLOCKS = BEARING_BLOCKS | {"sensor_flange": "iso_9409_50_4_m6", "pcl_inner_radius": 27.0 * MM,
                                   "pcl_outer_radius": 38.0 * MM, "rotor_rim": 2.0 * MM, "foot_height": 12.0 * MM,
+                                  "block_depth": 4.5 * MM,
                                   "flange_azimuth": 0.2, "flange_wall": 1.2 * MM, "hub_depth": 1.0 * MM,
                                   "cover": "none"}  # fmt: skip
 # A motor below the feet: with an encoder and printed, and the larger one without, milled, below blocks.

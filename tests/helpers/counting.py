@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,3 +38,13 @@ def stack_up(slabs: list[tuple[float, Inside]], outer: float, rims: list[float])
     """Volume and its polar moment of slabs, each a height and what lies inside it."""
     counted = [(height, *count(inside, outer, rims)) for height, inside in slabs]
     return sum(h * area for h, area, _ in counted), sum(h * polar for h, _, polar in counted)
+
+
+def in_stops(x: Array, y: Array, p: dict[str, Any]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Inside the housing's posts, and the rotor's teeth at rest: one tooth in each half circle, between two posts."""
+    inner = p["rotor_radius"] + max(p["running_clearance"], p["corner_radius"])
+    outer, middle = inner + p["stop_width"], inner + 0.5 * p["stop_width"]
+    r, off = np.hypot(x, y), np.abs((np.arctan2(y, x) - np.pi / p["spring_count"] + 0.5 * np.pi) % np.pi - 0.5 * np.pi)
+    tooth, way = 0.5 * p["stop_tooth_width"] / middle, p["stroke"] + p["stop_margin"]
+    post = (off > tooth + way) & (off < tooth + way + p["stop_post_length"] / middle)
+    return post & (r > inner) & (r < outer), (off < tooth) & (r > p["rotor_radius"]) & (r < outer)

@@ -205,12 +205,14 @@ def stiffness(module: Numbers, angle: float) -> float:
 def statics(module: Numbers) -> dict[str, float]:
     """Return what the springs do over the stroke and bear, by the names of the product's outputs.
 
-    Windings are the extremes over the stroke, stresses those at the inner fibre at full winding. `yield_strength`,
-    `tensile_strength` [Pa] and `fatigue_ratio` are the wire's.
+    Windings are the extremes from stop to stop, stresses those at the inner fibre; fatigue is that of the stroke.
+    `yield_strength`, `tensile_strength` [Pa] and `fatigue_ratio` are the wire's.
     """
     wire, stroke = module["wire_diameter"], module["stroke"]
     over = np.linspace(-stroke, stroke, 2 * ANGLES - 1)
     wound = module["preload_angle"] + np.array([winding(module, angle) for angle in over])
+    stop = stroke + module["stop_margin"]
+    stopped = module["preload_angle"] + np.array([winding(module, angle) for angle in (-stop, stop)])
     stiff = np.array([stiffness(module, angle) for angle in over[ANGLES - 1 :]])
     per_angle = max(stress_factors(module)) * 32.0 * held_rate(module) / (np.pi * wire**3)
     highest, lowest = per_angle * wound.max(), per_angle * max(wound.min(), 0.0)
@@ -230,10 +232,10 @@ def statics(module: Numbers) -> dict[str, float]:
         "most_spring_stiffness": stiff.max(),
         "stiffness_over_stroke": stiff[-1] / stiff[0],
         "spring_torque_full_stroke": torque(module, stroke),
-        "preload_margin": float(wound.min()),
-        "spring_winding": float(wound.max()),
-        "spring_stress": highest,
-        "spring_static_safety": module["yield_strength"] / highest,
+        "preload_margin": float(stopped.min()),
+        "spring_winding": float(stopped.max()),
+        "spring_stress": per_angle * stopped.max(),
+        "spring_static_safety": module["yield_strength"] / (per_angle * stopped.max()),
         "spring_fatigue_safety": float((-b + np.sqrt(b**2 + 4.0 * a)) / (2.0 * a)),
         "envelope_diameter": 2.0
         * (module["placement_radius"] + reach + module["radial_clearance"] + module["wall_thickness"]),

@@ -8,6 +8,7 @@ from tvimdesign.device.components import (
     cover,
     cutout,
     dowels,
+    hard_stops,
     liner,
     mounting,
     preload_adjuster,
@@ -32,7 +33,7 @@ from tvimdesign.device.motor import motor_clearances, motor_layout, motor_mass_p
 SHARED_FILES = (
     materials, layout, torsion_springs, spring_as_drawn, spring_holds, joint_impedance, lost_motion,
     structure_stiffness, warm_structure, large_motion, creep_under_hold, thermal_stack, softening, stiffening,
-    mass_properties, clearances, shrinkage, process, heater_form, screws, tang, dowels, cutout, liner, bearing,
-    axial_preload, preload_adjuster, cover, sensor_flange, mounting, motor_choice, motor_layout,
+    mass_properties, clearances, shrinkage, process, heater_form, screws, tang, dowels, hard_stops, cutout, liner,
+    bearing, axial_preload, preload_adjuster, cover, sensor_flange, mounting, motor_choice, motor_layout,
     motor_mass_properties, motor_clearances,
 )  # fmt: skip

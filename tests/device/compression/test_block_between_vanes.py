@@ -130,11 +130,11 @@ def test_each_gap_of_the_chamber_is_what_its_drawing_gives(squeezed: dict[str, A
     mm = 1e-3
     housing = np.pi / 3.0 - (2 * 7.0 + 5.0) / 33.0
     reach = np.hypot(0.5 * 24.4094, 2.0 * 2.413) + 0.5 * 2.413
-    block, stroke = 7.0 / 33.0, squeezed["stroke"]
+    block, stop = 7.0 / 33.0, squeezed["stroke"] + squeezed["stop_margin"]
     seat = 1.5 - 0.2 * (1.0 + 1.5 / 33.0) - 0.05
     roof = np.sqrt(36.5**2 - 1.5**2) - np.sqrt(29.5**2 - 1.5**2)
-    # Squeezed, a block keeps its area and its inner radius: (r^2 - 26^2) (a - stroke) = (40^2 - 26^2) a.
-    pressed_out = np.sqrt(26.0**2 + (40.0**2 - 26.0**2) * block / (block - stroke))
+    # Squeezed, a block keeps its area and its inner radius: (r^2 - 26^2) (a - stop) = (40^2 - 26^2) a.
+    pressed_out = np.sqrt(26.0**2 + (40.0**2 - 26.0**2) * block / (block - stop))
     drawn = {
         "hub_block_gap": 26.0 - (10.0 + 0.4 + 3.0) - 1.0, "block_breadth": 14.0,
         "slot_opening": 29.5 * (housing - 2.0 * np.arcsin(1.5 / 29.5)), "slot_reach": 3.5 - 2.0,

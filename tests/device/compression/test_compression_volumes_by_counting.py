@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from counting import Array, count, near, stack_up
+from counting import Array, count, in_stops, near, stack_up
 from numpy.typing import NDArray
 
 from tvimdesign.device import table_for
@@ -26,6 +26,7 @@ WANTED = [
     "link_bottom_level", "coil_end_level", "rotor_radius", "pin_radius", "hub_radius", "post_radius", "spring_count",
     "housing_inner_radius", "housing_outer_radius", "link_bolt_circle_radius", "link_screw_depth",
     "retainer_screw_depth", "screws_mass", "dowels_mass", "cutout_mass", "link_dowel_depth",
+    "stop_width", "stop_post_length", "stop_outer_radius", "stop_inner_radius", "stop_post_span",
 ]  # fmt: skip
 
 
@@ -124,6 +125,8 @@ def test_housing_is_skirt_floor_wall_hub_posts_and_vanes(part: dict[str, Any]) -
     height = p["floor_thickness"] + p["block_height"] + 2.0 * p["running_clearance"]
     hub = np.pi * (p["hub_radius"] ** 2 - bore**2) * height
     posts = p["spring_count"] * np.pi * p["post_radius"] ** 2 * (p["coil_end_level"] + 0.5 * p["wire_diameter"])
+    stops = 2.0 * p["stop_post_span"] * (p["stop_outer_radius"] ** 2 - p["stop_inner_radius"] ** 2)
+    posts += stops * p["rotor_top_level"]
     whole = p["skirt_moments"].area + p["floor_moments"].area + p["housing_vanes_moments"].area + wall + hub + posts
     assert p["housing_volume"] == pytest.approx(whole, rel=1e-12)
 
@@ -141,7 +144,7 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
     slabs = [
         (p["floor_thickness"] + 2.0 * clear, core),
         (p["block_height"] + clear, lambda x, y: core(x, y) | Plan(p, x, y).rotor_vane()),
-        (p["rotor_thickness"], lambda x, y: np.hypot(x, y) < p["rotor_radius"]),
+        (p["rotor_thickness"], lambda x, y: (np.hypot(x, y) < p["rotor_radius"]) | in_stops(x, y, p)[1]),
         (p["pin_top_level"] - p["rotor_top_level"], lambda x, y: core(x, y) | pins(x, y)),
         (p["link_bottom_level"] - p["pin_top_level"], core),
         (-p["link_screw_depth"], lambda x, y: near(x, y, 0.5 * p["link_screw_pilot"], p["link_bolt_circle_radius"], 4)),
@@ -151,7 +154,9 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
             lambda x, y: near(x, y, 0.5 * p["link_dowel_diameter"], 0.7 * p["core_radius"], 4, 0.25 * np.pi),
         ),
     ]
-    volume, polar = stack_up(slabs, p["rotor_radius"], [0.5 * p["retainer_screw_pilot"], *rims(p)])
+    volume, polar = stack_up(
+        slabs, p["stop_outer_radius"], [0.5 * p["retainer_screw_pilot"], p["rotor_radius"], *rims(p)]
+    )
     assert p["rotor_volume"] == pytest.approx(volume, rel=3e-3)
     assert p["rotor_inertia"] == pytest.approx(polar * p["structure_density"], rel=3e-3)
     # What turns and what stands are apart by a running clearance, above and below.

@@ -113,7 +113,7 @@ def test_arcs_clear_the_hub_and_leave_webs_and_windows(p: dict[str, Any]) -> Non
 
 def test_posts_fill_nine_tenths_of_the_coil_at_its_tightest(p: dict[str, Any]) -> None:
     # D n is kept: with the turns it gains, the coil gets narrower and longer (Shigley, section 10-12).
-    turns = (p["preload_angle"] + p["stroke"]) / (2.0 * np.pi)
+    turns = (p["preload_angle"] + p["stroke"] + p["stop_margin"]) / (2.0 * np.pi)
     wound = p["coil_diameter"] * p["coil_count"] / (p["coil_count"] + turns)
     names = "post_thickness", "post_margin", "spring_wound_diameter", "spring_body_length"
     post, margin, diameter, length = of({**p, "transmission": "unity"}, *names)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from counting import Array, count, near, stack_up
+from counting import Array, count, in_stops, near, stack_up
 from numpy.typing import NDArray
 
 from tvimdesign.device import table_for
@@ -34,7 +34,7 @@ def part(request: pytest.FixtureRequest, inputs: dict[str, Any]) -> dict[str, An
         *(f"{name}_radius" for name in ("housing_outer", "housing_inner", "hub", "post", "rotor", "pin")),
         "module_mass", "cutout_mass", "dowels_mass", "dowels_inertia", "link_dowel_depth", "link_screw_depth",
         "retainer_screw_depth", "screws_inertia", "pcl_area", "spring_count",
-        "link_bolt_circle_radius", "link_half_width",
+        "link_bolt_circle_radius", "link_half_width", "stop_width", "stop_post_length", "stop_outer_radius",
     ]  # fmt: skip
     return {**given, **table.evaluate(given, wanted)}
 
@@ -109,9 +109,10 @@ def test_housing_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) 
             (p["pcl_thickness"], lambda x, y: wall(x, y) | posts(x, y) | ring(x, y, bore, p["hub_radius"])),
             (post_top - p["pcl_thickness"], lambda x, y: wall(x, y) | posts(x, y)),
             (p["pin_top_level"] - post_top, wall),
+            (p["rotor_top_level"], lambda x, y: in_stops(x, y, p)[0]),
         ],
         outer,
-        [bore, p["hub_radius"], p["housing_inner_radius"]],
+        [bore, p["hub_radius"], p["housing_inner_radius"], p["stop_outer_radius"]],
     )
     assert part["housing_volume"] == pytest.approx(volume, rel=3e-3)
     assert part["housing_inertia"] == pytest.approx(1270.0 * polar, rel=3e-3)
@@ -140,13 +141,16 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
         (low + p["pcl_thickness"], core),
         (p["rotor_thickness"] - 1.2e-3, lambda x, y: (np.hypot(x, y) < p["rotor_radius"]) & ~in_keys(x, y, p)),
         (1.2e-3, lambda x, y: np.hypot(x, y) < p["rotor_radius"]),
+        (p["rotor_thickness"], lambda x, y: in_stops(x, y, p)[1]),
         (p["pin_top_level"] - p["rotor_top_level"], lambda x, y: core(x, y) | pins(x, y)),
         (p["link_bottom_level"] - p["pin_top_level"], core),
         (-p["link_screw_depth"], screws),
         (-p["retainer_screw_depth"], retainer_screw),
         (-p["link_dowel_depth"], dowels),
     ]
-    volume, polar = stack_up(slabs, p["rotor_radius"], [0.5 * p["retainer_screw_pilot"], p["core_radius"]])
+    volume, polar = stack_up(
+        slabs, p["stop_outer_radius"], [0.5 * p["retainer_screw_pilot"], p["core_radius"], p["rotor_radius"]]
+    )
     assert part["rotor_volume"] == pytest.approx(volume, rel=3e-3)
     assert part["rotor_inertia"] == pytest.approx(polar * p["structure_density"], rel=3e-3)
 

@@ -72,6 +72,7 @@ def test_what_moves_has_the_inertia_of_the_bench(mode: str) -> None:
 def test_the_joint_s_limits_friction_and_springs_are_the_module_s(mode: str) -> None:
     loaded, resolved = _loaded(model_of(mode), "hot"), module_of(mode)
     joint = loaded.joint("joint")
-    assert joint.range == pytest.approx([-float(resolved.quantity("stroke")), float(resolved.quantity("stroke"))])
+    stop = float(resolved.quantity("stop_angle"))
+    assert joint.range == pytest.approx([-stop, stop])
     assert joint.stiffness[0] == pytest.approx(float(resolved.quantity("spring_stiffness")))
     assert joint.frictionloss[0] == pytest.approx(float(resolved.quantity("pin_friction_torque")))

@@ -28,6 +28,6 @@ def test_a_parser_reads_the_bodies_and_the_joint(mode: str, monkeypatch: pytest.
     assert tensor == [pytest.approx(list(row)) for row in model.moving.inertia]
     assert moving.visual.geometry.filename == "moving.stl"
     assert (joint.type, joint.parent, joint.child, list(joint.axis)) == ("revolute", "base", "moving", [0.0, 0.0, 1.0])
-    assert (joint.limit.lower, joint.limit.upper) == pytest.approx((-model.stroke, model.stroke))
+    assert (joint.limit.lower, joint.limit.upper) == pytest.approx((-model.stop_angle, model.stop_angle))
     assert joint.limit.effort == pytest.approx(float(module_of(mode).quantity("holding_torque")))
     assert joint.dynamics.damping == pytest.approx(float(module_of(mode).quantity(f"joint_damping@{state.point}")))

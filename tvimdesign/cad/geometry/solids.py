@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from math import acos, cos, pi, sin, sqrt, tan
+from math import acos, asin, cos, pi, sin, sqrt, tan
 
 import cadquery as cq
 
@@ -139,6 +139,36 @@ def spoked_disc(
             (far, after[2]),
             after[::-1],
             (after[0], at(radius, 0.0, 0.5 * (azimuth + following)), later[0]),
+        ]
+    return _KERNEL.get().prism(edges, [], bottom, top)
+
+
+def toothed_disc(radii: Point, corner: float, span: float, azimuths: Sequence[float], levels: Point) -> cq.Solid:
+    """Draw upright disc about the axis with teeth of radial sides, from its radius to an outer one, fillets at their
+    roots."""
+    (radius, outer), (bottom, top) = radii, levels
+    _require(radius=radius, length_of_a_tooth=outer - radius, corner=corner, span=span, height=top - bottom)
+    reach = radius + corner
+    beside, along = asin(corner / reach), sqrt(reach**2 - corner**2)
+
+    def fillet(azimuth: float, side: float) -> tuple[Point, Point, Point]:
+        """Return where it touches the disc, its middle, and where it touches the tooth's side at an azimuth."""
+        centre, foot_on_side = cq.Vector(*polar(reach, azimuth + side * beside)), cq.Vector(*polar(along, azimuth))
+        half = (foot_on_side - centre).normalized() - centre.normalized()
+        middle = centre + half.normalized() * corner
+        return polar(radius, azimuth + side * beside), (middle.x, middle.y), (foot_on_side.x, foot_on_side.y)
+
+    edges: list[Segment] = []
+    for azimuth, following in zip(azimuths, [*azimuths[1:], azimuths[0] + 2.0 * pi], strict=True):
+        first, last = azimuth - 0.5 * span, azimuth + 0.5 * span
+        before, after, later = fillet(first, -1.0), fillet(last, 1.0), fillet(following - 0.5 * span, -1.0)
+        edges += [
+            before,
+            (before[2], polar(outer, first)),
+            (polar(outer, first), polar(outer, azimuth), polar(outer, last)),
+            (polar(outer, last), after[2]),
+            after[::-1],
+            (after[0], polar(radius, 0.5 * (azimuth + following)), later[0]),
         ]
     return _KERNEL.get().prism(edges, [], bottom, top)
 

@@ -64,11 +64,11 @@ TIGHT = 0.04
 
 
 def coil_checks(dims: Dimensions) -> Iterator[SolidCheck]:
-    """Compare the springs with their posts and each other, free and at five angles of the rotor; exact."""
+    """Compare the springs with their posts and each other, free and at five angles from stop to stop; exact."""
     yield from _checks(dims, free_coil(dims), "as bought")
     for share in (-1.0, -0.5, 0.0, 0.5, 1.0):
-        where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
-        yield from _checks(dims, installed_coil(dims, share * dims.stroke), where)
+        where = "at rest" if share == 0.0 else f"at {share * dims.stop_angle:+.4f} rad"
+        yield from _checks(dims, installed_coil(dims, share * dims.stop_angle), where)
 
 
 def _checks(dims: Dimensions, coil: Coil, where: str) -> Iterator[SolidCheck]:

@@ -24,7 +24,9 @@ from tvimdesign.cad.export.print_files import body_of
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.kinds import CHANGING, KINDS, SPRINGS, TURNING, is_of_structure, kind_of
+from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.device.components.hard_stops import STOPS
 from tvimdesign.device.core.springs.spring_as_drawn import pin_distance
 from tvimdesign.study.design import Design
 
@@ -92,7 +94,7 @@ Place = tuple[float, float, float]
 def all_checks(
     design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid], progress: Callable[[str], None] | None = None
 ) -> list[SolidCheck]:
-    """Run every check at rest and through the stroke."""
+    """Run every check at rest and from stop to stop."""
     say = progress or (lambda _: None)
     say("sizes")
     found = rest_checks(design, dims, drawn)
@@ -102,29 +104,30 @@ def all_checks(
 
 
 POSITIONS = (0.0, -1.0, -0.5, 0.5, 1.0)
-"""Of the rotor at which parts are compared, as shares of the stroke."""
+"""Of the rotor at which parts are compared, as shares of its way to a stop."""
 
 
 def rest_checks(design: Design, dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> list[SolidCheck]:
-    """Compare the sizes at rest with the quantities, and the legs against their pins."""
+    """Compare the sizes at rest with the quantities, the legs against their pins, and the rotor with its stops."""
     at_rest = place(dims, drawn)
-    return [*size_checks(design, at_rest), *envelope_checks(dims, at_rest), *bearing_checks(dims)]
+    sizes = [*size_checks(design, at_rest), *envelope_checks(dims, at_rest)]
+    return [*sizes, *bearing_checks(dims), *stop_checks(dims, drawn)]
 
 
 def clearance_checks(
     dims: Dimensions, drawn: Mapping[str, cq.Solid], share: float, say: Callable[[str], None],
     known: Mapping[str, Mesh] | None = None,
 ) -> list[SolidCheck]:  # fmt: skip
-    """Compare every part with every other one at rest; at a share of the stroke, those that do not move together.
+    """Compare every part with every other one at rest; on the way to a stop, those that do not move together.
 
     `known` are meshes of the drawn parts that are made already, by kind.
     """
-    where = "at rest" if share == 0.0 else f"at {share * dims.stroke:+.4f} rad"
+    where = "at rest" if share == 0.0 else f"at {share * dims.stop_angle:+.4f} rad"
     say(f"interference {where}")
-    placed = place(dims, drawn, share * dims.stroke, say)
+    placed = place(dims, drawn, share * dims.stop_angle, say)
     if share == 0.0:  # most parts touch: to tell the others apart takes as long as to hold them against each other
         return list(interference_checks(placed, where))
-    bodies = PlacedBodies(instances(dims, drawn, placed, known, share * dims.stroke))
+    bodies = PlacedBodies(instances(dims, drawn, placed, known, share * dims.stop_angle))
 
     def apart(first: str, second: str) -> bool:
         # Two structural parts are dense meshes close to each other: the kernel takes a quarter of the time for these.
@@ -164,14 +167,33 @@ def envelope_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterato
 
 
 def bearing_checks(dims: Dimensions) -> Iterator[SolidCheck]:
-    """Yield how far the legs reach beyond the pins they bear on, at rest and at either end of the stroke [mm]."""
-    for angle in (-dims.stroke, 0.0, dims.stroke):
+    """Yield how far the legs reach beyond the pins they bear on, at rest and at either stop [mm]."""
+    for angle in (-dims.stop_angle, 0.0, dims.stop_angle):
         coil = installed_coil(dims, angle)
         offset = 0.5 * (coil.diameter + coil.wire_diameter + dims.pin_diameter)
         distance = pin_distance(dims.pin_radius, dims.placement_radius, angle)
         beyond = coil.leg_length - float(sqrt(distance**2 - offset**2))
         text = f"the springs' legs reach {beyond:.3g} mm beyond their pins at {angle:+.4f} rad"
         yield SolidCheck(f"leg beyond pin at {angle:+.4f} rad", beyond, 0.0, beyond > 0.0, text)
+
+
+BEYOND = 1e-3
+"""Angle [rad] beyond a stop at which the drawn rotor is compared with it."""
+STOP_TOLERANCE = 1e-3
+"""How far the volume that rotor and posts share there may be from that of flat faces, relative."""
+
+
+def stop_checks(dims: Dimensions, drawn: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
+    """Yield what the drawn rotor shares with its posts 1 mrad beyond either stop, against their whole faces."""
+    faces = 0.5 * STOPS * (dims.stop_outer_radius**2 - dims.stop_inner_radius**2) * dims.rotor_thickness
+    for side in (-1.0, 1.0):
+        angle = side * (dims.stop_angle + BEYOND)
+        shared, _ = _common(drawn["housing"], turned(drawn["rotor"], angle))
+        off = shared / (BEYOND * faces) - 1.0
+        text = f"the rotor meets its stops at {side * dims.stop_angle:+.4f} rad: {shared:.4g} mm3 shared 1 mrad beyond"
+        yield SolidCheck(
+            f"stops at {side * dims.stop_angle:+.4f} rad", off, STOP_TOLERANCE, abs(off) < STOP_TOLERANCE, text
+        )
 
 
 def interference_checks(

@@ -17,10 +17,13 @@ from tvimdesign.cad.geometry.solids import (
     join,
     polar,
     ring,
+    sector,
     slot,
+    toothed_disc,
     turned,
 )
 from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.device.components.hard_stops import STOPS
 
 _DOWEL_AZIMUTHS = (0.0, pi, 0.5 * pi, 1.5 * pi)
 """In the order in which pins are added: on the link's long axis, then across it, all between the link screws."""
@@ -44,7 +47,7 @@ def tang_positions(dims: Dimensions) -> list[tuple[float, float]]:
 
 
 def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable[cq.Shape]) -> cq.Shape:
-    """Draw floor, hub, wall, skirt, spring posts, cover bosses, feet, a torque sensor's flange and what the mode adds.
+    """Draw floor, hub, wall, skirt, spring posts, stops, cover bosses, feet, a sensor's flange and what the mode adds.
 
     Less bore, the mode's openings, tang and screw holes, and notches.
     """
@@ -57,8 +60,21 @@ def bare_housing(dims: Dimensions, added: Iterable[cq.Shape], openings: Iterable
     feet = [cylinder(dims.mount_boss_radius, ground, floor_bottom, at) for at in mounts(dims)]
     mount_holes = [cylinder(0.5 * dims.mount_hole, ground, 0, at) for at in mounts(dims)]
     flange, flange_holes = sensor_flange(dims)
-    body = join(floor, [*walls, hub, *posts, *feet, *flange, *added])
+    body = join(floor, [*walls, hub, *posts, *stops(dims), *feet, *flange, *added])
     return body.cut(*bores(dims), *openings, *holes, *cover_holes, *mount_holes, *notches(dims), *flange_holes)
+
+
+def stop_azimuths(dims: Dimensions) -> list[float]:
+    """Return azimuths of the rotor's teeth at rest [rad]: two opposite each other, midway between springs."""
+    first = pi / dims.count("spring_count")
+    return [first + 2.0 * pi * index / STOPS for index in range(STOPS)]
+
+
+def stops(dims: Dimensions) -> list[cq.Shape]:
+    """Draw the posts that the rotor's teeth meet at the end of their way, two for each tooth."""
+    post = sector(dims.stop_inner_radius, dims.stop_outer_radius, dims.stop_post_span, 0.0, dims.rotor_top_level)
+    beside = dims.stop_angle + 0.5 * (dims.stop_tooth_span + dims.stop_post_span)
+    return [turned(post, azimuth + side * beside) for azimuth in stop_azimuths(dims) for side in (1.0, -1.0)]
 
 
 def sensor_flange(dims: Dimensions) -> tuple[list[cq.Shape], list[cq.Shape]]:
@@ -165,12 +181,13 @@ def notches(dims: Dimensions) -> list[cq.Shape]:
 
 
 def bare_rotor(dims: Dimensions, added: Iterable[cq.Shape] = (), openings: Iterable[cq.Shape] = ()) -> cq.Shape:
-    """Draw plate, core that turns in the hub and carries the link, pins that the springs bear on, what the mode adds.
+    """Draw plate with its teeth, core that turns in the hub and carries the link, springs' pins, what the mode adds.
 
     Less the holes for screws and dowel pins and the mode's openings.
     """
     core_bottom = dims.core_bottom_level
-    plate = cylinder(dims.rotor_radius, dims.rotor_bottom_level, dims.rotor_top_level)
+    radii, levels = (dims.rotor_radius, dims.stop_outer_radius), (dims.rotor_bottom_level, dims.rotor_top_level)
+    plate = toothed_disc(radii, dims.corner_radius, dims.stop_tooth_span, stop_azimuths(dims), levels)
     core = [
         cylinder(dims.journal_radius, core_bottom, dims.rotor_top_level),
         cylinder(dims.core_radius, dims.rotor_bottom_level, dims.link_bottom_level),

@@ -144,10 +144,10 @@ _PRESSED_OUT = "what is squeezed out of the blocks' places could reach the sprin
 
 @quantities.output("mm", advice=(Rule(sense=">=", value=0.0, reason=_PRESSED_OUT),))
 def squeezed_block_gap(m: Module) -> Scalar:
-    """Room between springs and fully squeezed blocks, all of which gives way outwards, beyond the radial clearance."""
+    """Room between springs and blocks squeezed at the stops, which give way outwards, beyond the radial clearance."""
     # A block squeezed by half needs half its own volume beside its place. Some of that goes inwards, and into the
     # running clearances; so this is advice.
-    squeezed = block.squeezed_outer_radius(m.pcl_inner_radius, m.pcl_outer_radius, m.block_angle, m.stroke)
+    squeezed = block.squeezed_outer_radius(m.pcl_inner_radius, m.pcl_outer_radius, m.block_angle, m.stop_angle)
     return m.placement_radius - m.spring_reach - squeezed - m.radial_clearance
 
 

@@ -38,10 +38,10 @@ def pin_rim_gap(m: Module) -> Scalar:
 
 @quantities.output("mm", at_least(0.0, "the legs must clear the core"))
 def leg_core_gap(m: Module) -> Scalar:
-    """Room between the ends of the rotor-side legs and the core at full stroke beyond the radial clearance."""
-    # At the end of the stroke that unwinds the spring its leg points nearest to the core. The axis lies `beside` the
+    """Room between the ends of the rotor-side legs and the core at the stops beyond the radial clearance."""
+    # At the stop that unwinds the spring its leg points nearest to the core. The axis lies `beside` the
     # leg's line and `ahead` of the leg's end, or nowhere ahead of it where the leg reaches past.
-    along = leg_direction(m.pin_radius, m.placement_radius, m.stroke, m.leg_offset)
+    along = leg_direction(m.pin_radius, m.placement_radius, m.stop_angle, m.leg_offset)
     beside = m.placement_radius * np.sin(along) + 0.5 * m.coil_diameter
     ahead = np.fmax(-m.placement_radius * np.cos(along) - m.leg_length, 0.0)
     return np.sqrt(beside**2 + ahead**2) - 0.5 * m.wire_diameter - m.core_radius - m.radial_clearance
@@ -49,11 +49,11 @@ def leg_core_gap(m: Module) -> Scalar:
 
 @quantities.output("mm", at_least(0.5 * MM, "the leg would slip off its pin"))
 def leg_overhang_margin(m: Module) -> Scalar:
-    """Leg that is left beyond its pin at full stroke."""
+    """Leg that is left beyond its pin at the stops."""
     return (
         m.leg_overhang
         + m.leg_arm
-        - np.sqrt(pin_distance(m.pin_radius, m.placement_radius, m.stroke) ** 2 - m.leg_offset**2)
+        - np.sqrt(pin_distance(m.pin_radius, m.placement_radius, m.stop_angle) ** 2 - m.leg_offset**2)
     )
 
 

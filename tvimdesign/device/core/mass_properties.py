@@ -63,11 +63,17 @@ def floor_moments(m: Module) -> Section:
 def bare_housing_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of the housing without what the mode adds.
 
-    That is skirt and floor, wall, hub, posts, bosses, flange.
+    That is skirt and floor, wall, hub, posts, bosses, flange, stops.
     """
     wall = ring(m.housing_inner_radius, m.housing_outer_radius).times(m.rim_level)
     return wall.plus(
-        m.skirt_moments, m.floor_moments, m.hub_moments, m.fixed_posts_moments, m.cover_bosses_moments, m.flange_moments
+        m.skirt_moments,
+        m.floor_moments,
+        m.hub_moments,
+        m.fixed_posts_moments,
+        m.cover_bosses_moments,
+        m.flange_moments,
+        m.stop_posts_moments,
     )
 
 
@@ -75,7 +81,7 @@ def bare_housing_moments(m: Module) -> Section:
 def bare_rotor_moments(m: Module) -> Section:
     """Volume and its polar moment about the axis, of plate, core and pins less screw and dowel holes."""
     return stacked(
-        (ring(m.core_radius, m.rotor_radius), m.rotor_thickness),
+        (ring(m.core_radius, m.rotor_radius).plus(m.stop_teeth_section), m.rotor_thickness),
         (ring(0.0, m.core_radius), m.link_bottom_level - m.rotor_bottom_level),
         (ring(0.0, m.collar_radius), m.rotor_bottom_level - m.hub_top_level),
         (ring(0.0, m.journal_radius), m.hub_top_level - m.core_bottom_level),

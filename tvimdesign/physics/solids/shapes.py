@@ -67,6 +67,23 @@ def ring(inner_radius: Any, outer_radius: Any) -> Section:
     return sector(2.0 * np.pi, inner_radius, outer_radius)
 
 
+def tooth(span: Any, radius: Any, outer_radius: Any, corner: Any) -> Section:
+    """Return what a tooth with radial sides adds outside a disc about the axis, both corners at its root filleted.
+
+    A fillet's centre is R + r from the axis and r beside the side: what it fills is the right triangle of axis, its
+    foot on the side and its centre, less a sector of the disc and one of its own circle (plane geometry; the moments by
+    integrals in polar coordinates about axis and centre).
+    """
+    r, reach = corner, radius + corner
+    along = np.sqrt(reach**2 - r**2)
+    at_axis = np.arcsin(r / reach)
+    at_centre = 0.5 * np.pi - at_axis
+    area = 0.5 * (along * r - radius**2 * at_axis - r**2 * at_centre)
+    own = 0.25 * r**4 * at_centre + 0.5 * r**2 * at_centre * reach**2 - 2.0 / 3.0 * reach * r**3 * np.sin(at_centre)
+    polar = 0.25 * along**3 * r + along * r**3 / 12.0 - 0.25 * radius**4 * at_axis - own
+    return sector(span, radius, outer_radius).plus(Section(2.0 * area, 2.0 * polar))
+
+
 def disc_at(radius: Any, distance: Any) -> Section:
     """Return the disc whose centre lies `distance` from the axis (parallel-axis theorem)."""
     area = np.pi * radius**2

@@ -46,6 +46,15 @@ def hole_weakening(hole_radius: Any, circle_radius: Any, count: Any, shaft_radiu
     return 4.0 * count * hole_radius**2 * circle_radius**2 / shaft_radius**4
 
 
+def stub_stress(force: Any, lever: Any, width: Any, depth: Any) -> Any:
+    """Return the von Mises stress [Pa] at the root of a short beam, as a gear's tooth (Shigley, eq. 14-1): 6 F l/(b
+    w^2), and mean shear.
+
+    `force` [N] acts along the width w at the lever l; b is the depth across it. Corners at the root are left out.
+    """
+    return np.sqrt((6.0 * force * lever / (depth * width**2)) ** 2 + 3.0 * (force / (depth * width)) ** 2)
+
+
 SHAFT_ENTRY = 0.10
 """Length over radius by which the way into the plate lengthens a core; calibrated to validation/fe_structure."""
 BORE_ENTRY = 0.15

@@ -70,6 +70,8 @@ class JointModel:
     states: tuple[JointState, ...]
     stroke: float
     """To either side [rad]."""
+    stop_angle: float
+    """Angle of the hard stops to either side [rad]."""
     holding_torque: float
     """What the frozen joint bears [N*m]."""
     step: float
@@ -114,6 +116,7 @@ def joint_model(
         moving=moving,
         states=states,
         stroke=float(resolved.quantity("stroke")),
+        stop_angle=float(resolved.quantity("stop_angle")),
         holding_torque=float(resolved.quantity("holding_torque")),
         step=step or usual_step(states),
         left_out=_left_out(resolved),

@@ -52,7 +52,7 @@ def mjcf(model: JointModel, state: JointState) -> str:
     base = _body(Xml.SubElement(root, "worldbody"), model.base)
     moving = _body(base, model.moving)
     Xml.SubElement(
-        moving, "joint", name=JOINT, type="hinge", axis="0 0 1", range=numbers(-model.stroke, model.stroke),
+        moving, "joint", name=JOINT, type="hinge", axis="0 0 1", range=numbers(-model.stop_angle, model.stop_angle),
         stiffness=numbers(state.springs), damping=numbers(made.damping), frictionloss=numbers(state.friction),
         solreffriction=numbers(2.0 * model.step, 1.0), solimpfriction=_STIFF_FRICTION,
     )  # fmt: skip
@@ -143,7 +143,7 @@ def urdf(model: JointModel, state: JointState) -> str:
     Xml.SubElement(joint, "child", link=model.moving.name)
     Xml.SubElement(joint, "axis", xyz="0 0 1")
     Xml.SubElement(
-        joint, "limit", lower=numbers(-model.stroke), upper=numbers(model.stroke),
+        joint, "limit", lower=numbers(-model.stop_angle), upper=numbers(model.stop_angle),
         effort=numbers(model.holding_torque), velocity=numbers(model.quickest),
     )  # fmt: skip
     Xml.SubElement(joint, "dynamics", damping=numbers(state.damping), friction=numbers(state.friction))

@@ -123,6 +123,7 @@ def plain_model(model: JointModel, fmu: WrittenFmu) -> dict[str, Any]:
         "name": model.name,
         "time_step": model.step,
         "stroke": model.stroke,
+        "stop_angle": model.stop_angle,
         "holding_torque": model.holding_torque,
         "load_inertia": model.load,
         "masses": {body.name: body.mass for body in (model.base, model.moving)},

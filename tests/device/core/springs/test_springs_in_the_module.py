@@ -81,11 +81,11 @@ def test_stiffness_of_the_geometry_is_the_curvature_of_the_springs_energy(
 
 @settings(max_examples=25, deadline=None)
 @given(ratio=st.floats(0.3, 0.6), preload=st.floats(0.05, 0.5), stroke=st.floats(0.02, 0.2))
-def test_windings_are_the_extremes_over_the_stroke(
+def test_windings_are_the_extremes_from_stop_to_stop(
     ratio: float, preload: float, stroke: float, base: dict[str, Any]
 ) -> None:
     found = evaluate(base, transmission="geometry", pin_radius_ratio=ratio, preload_angle=preload, stroke=stroke)
-    windings = [winding_of(a, base["placement_radius"], found) for a in np.linspace(-stroke, stroke, 21)]
+    windings = [winding_of(a, base["placement_radius"], found) for a in np.linspace(-stroke - 0.02, stroke + 0.02, 21)]
     assert found["spring_winding"] == pytest.approx(preload + max(windings), rel=1e-9)
     assert found["spring_unwinding"] == pytest.approx(-min(windings), rel=1e-9)
     assert found["preload_margin"] == pytest.approx(preload + min(windings), abs=1e-9)
@@ -99,17 +99,18 @@ def test_margins_are_those_of_the_stress_between_the_extremes(transmission: str,
     index = coil / wire
     factor = (4 * index**2 - index - 1) / (4 * index * (index - 1))
     per_angle = factor * 32.0 * found["held_spring_rate"] / (np.pi * wire**3)
-    turns = [0.104, -0.104] if transmission == "unity" else [
-        winding_of(a, base["placement_radius"], found) for a in (-0.104, 0.104)
+    # Fatigue counts strokes of 0.104; the wire yields, if it does, at the stops 0.02 beyond.
+    turns = [0.104, -0.104, 0.124] if transmission == "unity" else [
+        winding_of(a, base["placement_radius"], found) for a in (-0.104, 0.104, -0.124)
     ]  # fmt: skip
-    high, low = (per_angle * (0.3 + turn) for turn in turns)
+    high, low, highest = (per_angle * (0.3 + turn) for turn in turns)
     tensile = 2211e6 / (wire * 1e3) ** 0.145
     half = 0.25 * tensile
     endurance = half / (1.0 - (half / tensile) ** 2)
     amplitude, mean = 0.5 * (high - low), 0.5 * (high + low)
     gerber = brentq(lambda n: n * amplitude / endurance + (n * mean / tensile) ** 2 - 1.0, 0.01, 100.0)
-    assert found["spring_stress"] == pytest.approx(high, rel=1e-9)
-    assert found["spring_static_safety"] == pytest.approx(0.78 * tensile / high, rel=1e-9)
+    assert found["spring_stress"] == pytest.approx(highest, rel=1e-9)
+    assert found["spring_static_safety"] == pytest.approx(0.78 * tensile / highest, rel=1e-9)
     assert found["spring_fatigue_safety"] == pytest.approx(gerber, rel=1e-9)
 
 

@@ -113,31 +113,17 @@ def template_static_safety(m: Module) -> Scalar:
     return m.spring_yield / (m.template_stress_per_angle * m.spring_winding)
 
 
-def template_assembly_safety(m: Module) -> Scalar:
-    """Static safety of {it} while the module is put together: fitting one hand winds the other by twice the preload."""
-    return m.spring_yield / (m.template_stress_per_angle * 2.0 * np.fmax(m.preload_angle, 1e-6))
-
-
-@quantities.helper()
-def least_winding(m: Module) -> Scalar:
-    """Winding of a spring at the end of the stroke against it [rad]; without preload it lifts off, and has none."""
-    return np.fmax(m.preload_margin, 0.0)
-
-
 def template_fatigue_safety(m: Module) -> Scalar:
     """Fatigue safety of {it} for 1e6 full strokes to both sides, Gerber."""
-    amplitude = 0.5 * m.template_stress_per_angle * (m.spring_winding - m.least_winding)
-    mean = 0.5 * m.template_stress_per_angle * (m.spring_winding + m.least_winding)
+    most, least = m.stroke_windings
+    amplitude = 0.5 * m.template_stress_per_angle * (most - least)
+    mean = 0.5 * m.template_stress_per_angle * (most + least)
     endurance = spring.endurance_strength(m.spring_tensile_strength, m.spring_fatigue_ratio)
     return spring.gerber_safety(amplitude, mean, endurance, m.spring_tensile_strength)
 
 
 for _place, _words in (("coil", "the springs' coils"), ("tang", "the springs where the tang is bent")):
     quantities.from_template(_place, _words, template_static_safety, "1", at_least(1.0, "the spring would yield"))
-    quantities.from_template(
-        _place, _words, template_assembly_safety, "1",
-        at_least(1.0, "the spring would yield while the module is put together"),
-    )  # fmt: skip
     quantities.from_template(_place, _words, template_fatigue_safety, "1")
 
 
@@ -145,12 +131,6 @@ for _place, _words in (("coil", "the springs' coils"), ("tang", "the springs whe
 def spring_static_safety(m: Module) -> Scalar:
     """Static safety of the springs: bending yield over the largest stress."""
     return np.fmin(m.coil_static_safety, m.tang_static_safety)
-
-
-@quantities.output("1", least_of=("coil_assembly_safety", "tang_assembly_safety"))
-def spring_assembly_safety(m: Module) -> Scalar:
-    """Static safety of the springs while the module is put together."""
-    return np.fmin(m.coil_assembly_safety, m.tang_assembly_safety)
 
 
 @quantities.output(

@@ -142,27 +142,38 @@ def stiffness_over_stroke(m: Module) -> Scalar:
     return m.spring_stiffness_full_stroke / m.spring_stiffness
 
 
+@quantities.helper()
+def windings(m: Module) -> list[Scalar]:
+    """Winding of a spring from rest [rad] with the rotor at a stop, at the end of the stroke, and at those opposite."""
+    angles = [m.stop_angle, m.stroke, -m.stroke, -m.stop_angle]
+    if m.transmission == "unity":
+        return angles
+    return [leg_turned(m.pin_radius, m.placement_radius, -angle, m.leg_offset) for angle in angles]
+
+
+@quantities.helper()
+def stroke_windings(m: Module) -> tuple[Scalar, Scalar]:
+    """Largest and least winding of a spring over the stroke [rad]; one that lifts off has none."""
+    return m.preload_angle + m.windings[1], np.fmax(m.preload_angle + m.windings[2] - m.spring_play, 0.0)
+
+
 @quantities.output("rad")
 def spring_winding(m: Module) -> Scalar:
-    """Largest winding of a spring: the preload and the full stroke in its winding direction."""
-    if m.transmission == "unity":
-        return m.preload_angle + m.stroke
-    return m.preload_angle + leg_turned(m.pin_radius, m.placement_radius, -m.stroke, m.leg_offset)
+    """Largest winding of a spring: the preload and the way to the stop in its winding direction."""
+    return m.preload_angle + m.windings[0]
 
 
 @quantities.output("rad")
 def spring_unwinding(m: Module) -> Scalar:
-    """Unwinding of a spring from rest over the full stroke against its winding direction."""
-    if m.transmission == "unity":
-        return m.stroke
-    return -leg_turned(m.pin_radius, m.placement_radius, m.stroke, m.leg_offset)
+    """Unwinding of a spring from rest to the stop against its winding direction."""
+    return -m.windings[3]
 
 
 @quantities.output(
     "rad", Rule(sense=">=", value=0.0, reason="a spring without preload lifts off, and half of them act")
 )
 def preload_margin(m: Module) -> Scalar:
-    """Preload that is left at the end of the stroke of the opposing springs, less what a loose tang's play takes."""
+    """Preload that is left at the stops of the opposing springs, less what a loose tang's play takes."""
     return m.preload_angle - m.spring_unwinding - m.spring_play
 
 

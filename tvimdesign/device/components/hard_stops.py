@@ -1,0 +1,185 @@
+"""Hard stops: two teeth of the rotor plate turn between posts of the floor, a margin beyond the stroke to either side.
+
+They stand opposite each other, midway between springs, inside the screws that fix the housing. Posts and teeth are
+sectors about the axis, so that their faces meet flat. They take the room there is, up to `stop_depth` and
+`stop_length`. The stops bear the torque that the frozen joint holds: a load that the joint bears frozen drives it there
+when it softens. Two opposite posts share it, as the rotor moves aside in its hub until both bear.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.layout import evened_least
+from tvimdesign.device.table.module import Module
+from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.bodies.shapes import Section, sector, tooth
+from tvimdesign.physics.solids import structure
+
+places, weights = QuantityGroup("Layout"), QuantityGroup("Size and weight")
+strengths, rules = QuantityGroup("Impedance"), QuantityGroup("Gaps")
+
+STOPS = 2
+"""Teeth of the rotor, each between two posts."""
+SLIVER = 1e-4
+"""Size [m] that posts have where there is no room for them, so that the search may pass there."""
+
+
+@places.output("rad")
+def stop_angle(m: Module) -> Scalar:
+    """Angle from rest at which the rotor meets its stops, to either side."""
+    return m.stroke + m.stop_margin
+
+
+@places.output("mm")
+def stop_inner_radius(m: Module) -> Scalar:
+    """Inner radius of the stops' posts, which the rotor plate and the corners of its teeth clear."""
+    return m.rotor_radius + np.fmax(m.running_clearance, m.corner_radius)
+
+
+@places.output("mm")
+def stop_width(m: Module) -> Scalar:
+    """Radial width of the stops' faces: `stop_depth`, or what the feet's holes in the cover leave."""
+    room = m.placement_radius - m.mount_boss_radius - m.stop_inner_radius
+    return np.fmax(evened_least(m.stop_depth, room), SLIVER)
+
+
+@places.output("mm")
+def stop_outer_radius(m: Module) -> Scalar:
+    """Outer radius of the stops' posts and of the rotor's teeth."""
+    return m.stop_inner_radius + m.stop_width
+
+
+@places.output("mm")
+def stop_contact_radius(m: Module) -> Scalar:
+    """Radius of the middle of the stops' faces."""
+    return m.stop_inner_radius + 0.5 * m.stop_width
+
+
+@places.output("deg")
+def stop_tooth_span(m: Module) -> Scalar:
+    """Angle that a tooth of the rotor covers."""
+    return m.stop_tooth_width / m.stop_contact_radius
+
+
+@places.helper()
+def stop_spring_angle(m: Module) -> Scalar:
+    """Angle between a spring's azimuth and the nearest place for a stop [rad].
+
+    At the posts' outer radius the spring with its clearance, or its adjuster's pocket, takes that much.
+    """
+    taken = np.fmax(m.spring_reach + m.radial_clearance, m.adjuster_radius + m.slip_clearance)
+    cosine = m.placement_radius**2 + m.stop_outer_radius**2 - taken**2
+    return np.arccos(np.fmin(cosine / (2.0 * m.placement_radius * m.stop_outer_radius), 1.0 - 1e-6))
+
+
+@places.output("deg")
+def stop_post_span(m: Module) -> Scalar:
+    """Angle that a post covers: `stop_length`, or what the springs leave."""
+    room = np.pi / m.spring_count - m.stop_spring_angle - m.stop_angle - 0.5 * m.stop_tooth_span
+    length = evened_least(m.stop_length, room * m.stop_contact_radius)
+    return np.fmax(length, SLIVER) / m.stop_contact_radius
+
+
+@places.output("mm")
+def stop_post_length(m: Module) -> Scalar:
+    """Length of a post along the middle of its faces."""
+    return m.stop_post_span * m.stop_contact_radius
+
+
+# --- weights ---------------------------------------------------------------------------------------------------------
+
+
+@weights.helper()
+def stop_posts_moments(m: Module) -> Section:
+    """Volume and its polar moment about the axis, of the stops' posts."""
+    post = sector(m.stop_post_span, m.stop_inner_radius, m.stop_outer_radius)
+    return post.times(2.0 * STOPS * m.rotor_top_level)
+
+
+@weights.helper()
+def stop_teeth_section(m: Module) -> Section:
+    """Plan view of the rotor's teeth."""
+    return tooth(m.stop_tooth_span, m.rotor_radius, m.stop_outer_radius, m.corner_radius).times(STOPS)
+
+
+# --- strength --------------------------------------------------------------------------------------------------------
+
+
+@strengths.output("N")
+def stop_force(m: Module) -> Scalar:
+    """Force on each of two opposite posts under the torque that the frozen joint holds."""
+    return m.holding_torque / (STOPS * m.stop_contact_radius)
+
+
+@strengths.output("MPa")
+def stop_contact_stress(m: Module) -> Scalar:
+    """Pressure between a tooth and its post under the torque that the frozen joint holds."""
+    return m.stop_force / (m.stop_width * m.rotor_thickness)
+
+
+@strengths.output("MPa")
+def stop_post_stress(m: Module) -> Scalar:
+    """Stress at the foot of a post under that torque: bending as a short beam, and mean shear."""
+    height = m.rotor_top_level - 0.5 * m.rotor_thickness
+    return structure.stub_stress(m.stop_force, height, m.stop_post_length, m.stop_width)
+
+
+@strengths.output("MPa")
+def stop_tooth_stress(m: Module) -> Scalar:
+    """Stress at the root of a tooth under that torque: bending as a short beam, and mean shear."""
+    lever = m.stop_contact_radius - m.rotor_radius
+    return structure.stub_stress(m.stop_force, lever, m.stop_tooth_width, m.rotor_thickness)
+
+
+_YIELDS = "the stops would yield under the torque that the frozen joint holds"
+PARTS = ("stop_face_safety", "stop_post_safety", "stop_tooth_safety")
+
+
+@strengths.output("1", Rule(sense=">=", value=1.0, reason=f"{_YIELDS}: more stop_depth, or a thicker rotor"))
+def stop_face_safety(m: Module) -> Scalar:
+    """Cold strength of the structure over `holding_safety` times the pressure between tooth and post."""
+    return m.cold_strength / (m.holding_safety * m.stop_contact_stress)
+
+
+@strengths.output("1", Rule(sense=">=", value=1.0, reason=f"{_YIELDS}: more stop_length or stop_depth"))
+def stop_post_safety(m: Module) -> Scalar:
+    """Cold strength across the layers of a print over `holding_safety` times the stress at the foot of a post."""
+    return m.cold_layer_strength / (m.holding_safety * m.stop_post_stress)
+
+
+@strengths.output("1", Rule(sense=">=", value=1.0, reason=f"{_YIELDS}: more stop_tooth_width"))
+def stop_tooth_safety(m: Module) -> Scalar:
+    """Cold strength of the structure over `holding_safety` times the stress at the root of a tooth."""
+    return m.cold_strength / (m.holding_safety * m.stop_tooth_stress)
+
+
+@strengths.output("N*m", headline=True)
+def stop_torque(m: Module) -> Scalar:
+    """Torque that the stops bear to either side, by `holding_safety` below the one at which a post or tooth yields."""
+    return m.holding_torque * np.fmin(np.fmin(m.stop_face_safety, m.stop_post_safety), m.stop_tooth_safety)
+
+
+# --- rules -----------------------------------------------------------------------------------------------------------
+
+
+@rules.output("mm", at_least(0.0, "parts as made could meet their stops within the stroke: more stop_margin"))
+def stop_fit_margin(m: Module) -> Scalar:
+    """Way of a tooth from the end of the stroke to its stop, beyond what the process's least gap may take of it."""
+    return m.stop_margin * m.stop_contact_radius - m.slip_clearance
+
+
+_NO_ROOM = "there is no room for the stops: a larger placement_radius, or smaller mount_boss_radius or rotor_rim"
+
+
+@rules.output("mm", at_least(0.0, _NO_ROOM))
+def stop_width_margin(m: Module) -> Scalar:
+    """Radial width of the stops beyond the process's least wall."""
+    return m.stop_width - m.minimum_wall
+
+
+@rules.output("mm", at_least(0.0, "the springs leave no room for the stops: fewer springs, or less stop_tooth_width"))
+def stop_length_margin(m: Module) -> Scalar:
+    """Length of a post, or width of a tooth where that is less, beyond the process's least wall."""
+    return np.fmin(m.stop_post_length, m.stop_tooth_width) - m.minimum_wall
