@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import quad
 
 from tvimdesign.device import table_for
-from tvimdesign.physics.bodies.shapes import tooth
+from tvimdesign.physics.solids.shapes import tooth
 from tvimdesign.physics.solids.structure import stub_stress
 
 TABLE = table_for("shear")

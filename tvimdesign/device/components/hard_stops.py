@@ -14,8 +14,8 @@ from tvimdesign.device.core.layout import evened_least
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.bodies.shapes import Section, sector, tooth
 from tvimdesign.physics.solids import structure
+from tvimdesign.physics.solids.shapes import Section, sector, tooth
 
 places, weights = QuantityGroup("Layout"), QuantityGroup("Size and weight")
 strengths, rules = QuantityGroup("Impedance"), QuantityGroup("Gaps")
