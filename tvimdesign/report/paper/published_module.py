@@ -12,7 +12,7 @@ from tvimdesign.base.yaml_data import plain_data
 
 if TYPE_CHECKING:
     from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
+    from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
     from tvimdesign.study import Study
 
 
@@ -56,10 +56,8 @@ def _study() -> Study:
 
 @cache
 def published_model() -> DeviceFunctions:
-    """Return the module, compiled."""
-
-    study = _study()
-    return resolve_study(study).functions
+    """Return the module's table and working cycle as functions."""
+    return published_module().functions
 
 
 @cache
