@@ -37,10 +37,10 @@ from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, read_study, read_tree
-from tvimdesign.study.result_study import evaluating
 from tvimdesign.study.sections.all_sections import written
 from tvimdesign.study.study import Options, Range, Requirement
 from tvimdesign.study.tree import tree_of_values
+from tvimdesign.study.written_studies import evaluating
 
 ROOT = Path(__file__).resolve().parents[1]
 TIME_LIMIT = 60.0  # s of the processor, of one search

@@ -14,10 +14,10 @@ import pytest
 from cad_designs import shipped_design
 from support import ROOT, STUDIES, Command
 
-from tvimdesign.cli import completions
+from tvimdesign.cli import options
 from tvimdesign.study import read_study
 from tvimdesign.study.design import write_design
-from tvimdesign.study.template import examples
+from tvimdesign.study.written_studies import examples
 
 WRONG = ("--set", "pcl_thickness=1,2 mm", "--set", "require.holding_torque=15 N.m")
 
@@ -187,10 +187,10 @@ def test_files_are_those_a_command_reads(tmp_path: Path, monkeypatch: pytest.Mon
         (tmp_path / name).touch()
     (tmp_path / "folder").mkdir()
     (tmp_path / "folder/e.yaml").touch()
-    assert completions.study_files("") == ["a.yaml", "b.yml", "folder/"]
-    assert completions.designs_and_studies("") == ["a.yaml", "b.yml", "d.json", "folder/"]
-    assert completions.study_files("folder/") == ["folder/e.yaml"]
-    assert completions.study_files("./a") == ["./a.yaml"]
-    assert completions.study_files("nowhere/x") == []
-    assert completions.settings("require.holding_t") == ["require.holding_torque="]
-    assert completions.examples("") == list(examples())
+    assert options.study_files("") == ["a.yaml", "b.yml", "folder/"]
+    assert options.designs_and_studies("") == ["a.yaml", "b.yml", "d.json", "folder/"]
+    assert options.study_files("folder/") == ["folder/e.yaml"]
+    assert options.study_files("./a") == ["./a.yaml"]
+    assert options.study_files("nowhere/x") == []
+    assert options.settings("require.holding_t") == ["require.holding_torque="]
+    assert options.examples("") == list(examples())

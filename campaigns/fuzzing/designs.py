@@ -14,7 +14,7 @@ from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.study.design import read_design
-from tvimdesign.study.result_study import result_text
+from tvimdesign.study.written_studies import result_text
 
 
 @cache

@@ -7,7 +7,7 @@ import pytest
 from tvimdesign.base.errors import CatalogError
 from tvimdesign.base.record import Record
 from tvimdesign.catalog import Catalog
-from tvimdesign.catalog.inherited_laws import inherited_law_warnings
+from tvimdesign.catalog.category import inherited_law_warnings
 
 
 def value(number: float, unit: str) -> str:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from tvimdesign.page.blocks import Page, Points, Section, Words
-from tvimdesign.page.page_file import page_html
-from tvimdesign.page.page_insert import with_section
+from tvimdesign.page.page_file import page_html, with_section
 
 PAGE = Page(
     "Elbow", "shear module", "OPTIMAL", "good", [Points(["first"])], None,

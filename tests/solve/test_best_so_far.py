@@ -16,7 +16,7 @@ from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, drawn, given, read_study, read_study_text
-from tvimdesign.study.result_study import study_text
+from tvimdesign.study.written_studies import study_text
 
 TWO_STARTS = SMALL.replace("starts: 1", "starts: 2")
 LISTED = SMALL.replace("pcl_thickness: [0.6", "pcl_thickness: {choose: [0.6").replace("2 mm]", "1 mm, 2 mm]}")

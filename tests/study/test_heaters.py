@@ -10,7 +10,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.report.rows import print_rows
 from tvimdesign.solve.result import answer
 from tvimdesign.study import given, read_study_text
-from tvimdesign.study.record_checks import record_checks
+from tvimdesign.study.resolve import record_checks
 
 
 def test_both_modes_take_rigid_modules_as_they_are() -> None:

@@ -9,7 +9,7 @@ import pytest
 from tvimdesign.catalog import Catalog
 from tvimdesign.report.run.check_study import describe
 from tvimdesign.study import Study, read_study
-from tvimdesign.study.record_checks import record_checks
+from tvimdesign.study.resolve import record_checks
 
 STUDY = "tvimdesign: 1\nname: Doubt\nmode: shear\ncatalog: records\nmodule: {peltier_module: bench}\n"
 

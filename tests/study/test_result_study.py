@@ -10,8 +10,8 @@ from support import ROOT, Command
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study.design import Design
 from tvimdesign.study.reader import read_study_text
-from tvimdesign.study.result_study import evaluating, study_text
 from tvimdesign.study.study import Options, Range
+from tvimdesign.study.written_studies import evaluating, study_text
 
 SEARCHED = """
 mode: shear

@@ -11,8 +11,7 @@ import pytest
 
 from tvimdesign.study import Range, Study, StudyError, read_study_text, read_tree
 from tvimdesign.study.text.mistakes import Mistakes
-from tvimdesign.study.text.python_values import node_of
-from tvimdesign.study.tree import tree_of_text, tree_of_values, tree_yaml, with_settings
+from tvimdesign.study.tree import node_of, tree_of_text, tree_of_values, tree_yaml, with_settings
 
 TEXT = """
 mode: shear

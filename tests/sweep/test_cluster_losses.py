@@ -10,9 +10,9 @@ from small_sweeps import plan
 
 from tvimdesign.sweep.chunks import CellQueue
 from tvimdesign.sweep.cluster import Cluster
+from tvimdesign.sweep.plan import Cell, SweptStudy
 from tvimdesign.sweep.run_sweep import Usage
 from tvimdesign.sweep.shards import ShardWriter
-from tvimdesign.sweep.work import Cell, SweptStudy
 
 
 class _Lost:

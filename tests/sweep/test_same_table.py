@@ -24,11 +24,10 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.report.sweep.shared_folder import joined
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.gather import write_parquet
-from tvimdesign.sweep.plan import plan_of
+from tvimdesign.sweep.plan import Cell, SweptStudy, plan_of
 from tvimdesign.sweep.pool import Pool
 from tvimdesign.sweep.run_sweep import Executor, run_sweep
 from tvimdesign.sweep.shards import Shards
-from tvimdesign.sweep.work import Cell, SweptStudy
 
 
 def rows(out: Path) -> list[dict[str, str]]:

@@ -12,8 +12,8 @@ import pytest
 from support import ROOT
 
 from tvimdesign.base.errors import OutputError
+from tvimdesign.sweep.plan import CellAnswer
 from tvimdesign.sweep.shards import Shards, ShardWriter
-from tvimdesign.sweep.work import CellAnswer
 
 COLUMNS = ("module_mass", "response_time", "spring_material")
 KEYS = [f"{number:032x}" for number in range(5)]

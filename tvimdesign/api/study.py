@@ -15,10 +15,9 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.study import Range, read_tree
 from tvimdesign.study import Study as ResolvedStudy
-from tvimdesign.study.template import example_text
 from tvimdesign.study.text.mistakes import Mistakes
-from tvimdesign.study.text.python_values import node_of
-from tvimdesign.study.tree import StudyTree, tree_of_file, tree_of_text, tree_of_values, tree_yaml, with_value
+from tvimdesign.study.tree import StudyTree, node_of, tree_of_file, tree_of_text, tree_of_values, tree_yaml, with_value
+from tvimdesign.study.written_studies import example_text
 
 if TYPE_CHECKING:
     from tvimdesign.api.result import Result
@@ -159,7 +158,7 @@ class Study:
         bounds prove impossible.
         """
         from tvimdesign.report.run.check_study import foreseen_ratings, refuse_what_cannot_be
-        from tvimdesign.study.record_checks import record_checks
+        from tvimdesign.study.resolve import record_checks
 
         study = refuse_what_cannot_be(self.resolved)
         return [*record_checks(study), *foreseen_ratings(study)]

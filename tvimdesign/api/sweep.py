@@ -20,12 +20,10 @@ from tvimdesign.report.sweep.sweep_study import sweep_folder
 from tvimdesign.study.tree import StudyTree
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.gather import Value, columns, status_values
-from tvimdesign.sweep.keys import CellKeys
-from tvimdesign.sweep.plan import SweepPlan, plan_of
-from tvimdesign.sweep.run_sweep import Executor
+from tvimdesign.sweep.plan import Cell as AskedCell
+from tvimdesign.sweep.plan import CellAnswer, SweepPlan, SweptStudy, plan_of
+from tvimdesign.sweep.run_sweep import CellKeys, Executor
 from tvimdesign.sweep.shards import Shards, StoredCell
-from tvimdesign.sweep.work import Cell as AskedCell
-from tvimdesign.sweep.work import CellAnswer, SweptStudy
 
 if TYPE_CHECKING:
     import pandas as pd

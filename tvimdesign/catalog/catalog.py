@@ -13,8 +13,7 @@ from pathlib import Path
 from tvimdesign.base import user_cache
 from tvimdesign.base.errors import CatalogError, FolderWarning
 from tvimdesign.base.record import Record
-from tvimdesign.catalog.category import CATEGORIES
-from tvimdesign.catalog.inherited_laws import meaningless_laws
+from tvimdesign.catalog.category import CATEGORIES, meaningless_laws
 from tvimdesign.catalog.validate import build_record
 from tvimdesign.catalog.yaml_file import Tree, read_tree
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.cli import completions
+from tvimdesign.cli import options
 from tvimdesign.cli.design_commands import compare, explore, robot, simulate, sweep, tolerate, verify
 from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, Settings, StudyFile, default_folder, name_of
 
@@ -124,7 +124,7 @@ def new(
         Path | None, typer.Argument(help="Study file to write; study.yaml, or the example's name, unless given.")
     ] = None,
     example: Annotated[
-        str, typer.Option("--example", help="A shipped study to start from.", autocompletion=completions.examples)
+        str, typer.Option("--example", help="A shipped study to start from.", autocompletion=options.examples)
     ] = "",
     result: Annotated[
         Path | None,
@@ -132,7 +132,7 @@ def new(
             "--from",
             metavar="RESULT",
             help="design.json or folder of a run: write its module as a study that `run` answers the same.",
-            autocompletion=completions.designs_and_studies,
+            autocompletion=options.designs_and_studies,
         ),
     ] = None,
     list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
@@ -161,7 +161,7 @@ def cad(
         typer.Argument(
             metavar="DESIGN|STUDY|SWEEP",
             help="design.json of a run, a study file, or with --cells the folder of a sweep.",
-            autocompletion=completions.designs_and_studies,
+            autocompletion=options.designs_and_studies,
         ),
     ],
     cells: Annotated[
@@ -200,7 +200,7 @@ def fit(
             "--as",
             metavar="KIND",
             help="Kind of measurement; found by its columns unless given. See --kinds.",
-            autocompletion=completions.kinds,
+            autocompletion=options.kinds,
         ),
     ] = "",
     kinds: Annotated[bool, typer.Option("--kinds", help="List the kinds: columns needed, what can be set.")] = False,
@@ -263,14 +263,14 @@ def paper_check(out: PaperOut = None, overwrite: Overwrite = False, json: AsJson
 @app.command()
 def rows(
     mode: Annotated[
-        str, typer.Option("--mode", help="Mode whose rows are listed.", autocompletion=completions.modes)
+        str, typer.Option("--mode", help="Mode whose rows are listed.", autocompletion=options.modes)
     ] = "shear",
     match: Annotated[
         str,
         typer.Argument(
             metavar="[GROUP|WORD]",
             help="A group, or a word for what is looked for: 'stiffness', 'weight', 'power supply'.",
-            autocompletion=completions.rows,
+            autocompletion=options.rows,
         ),
     ] = "",
     json: AsJson = False,

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from tvimdesign.cli import completions
+from tvimdesign.cli import options
 from tvimdesign.cli.options import (
     AsJson,
     FePython,
@@ -50,7 +50,7 @@ def robot(
 def simulate(
     study: StudyOrDesign,
     test: Annotated[
-        str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=completions.tests)
+        str, typer.Option("--test", help=f"Virtual test: {', '.join(TESTS)}.", autocompletion=options.tests)
     ] = "",
     out: Out = None,
     overwrite: Overwrite = False,
@@ -99,7 +99,7 @@ def compare(
         typer.Argument(
             metavar="STUDY|RESULT...",
             help="Study files of any modes, or folders (or design.json) of finished runs.",
-            autocompletion=completions.designs_and_studies,
+            autocompletion=options.designs_and_studies,
         ),
     ],
     out: Annotated[
@@ -154,7 +154,7 @@ def explore(
         typer.Argument(
             metavar="STUDY|RESULT|SWEEP",
             help="Study file, folder or design.json of a run, or folder of a sweep.",
-            autocompletion=completions.designs_and_studies,
+            autocompletion=options.designs_and_studies,
         ),
     ],
     out: Annotated[

@@ -1,30 +1,97 @@
-"""Arguments and options that several commands have, and where their results go by default."""
+"""Arguments and options that several commands have, their completions on Tab, and where results go by default."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from tvimdesign.cli import completions
+_STUDIES = (".yaml", ".yml")
 
-StudyFile = Annotated[
-    Path, typer.Argument(metavar="STUDY", help="Study file (YAML).", autocompletion=completions.study_files)
-]
+
+def study_files(incomplete: str) -> list[str]:
+    """Complete study files and folders that begin so; hidden ones are left out."""
+    return _files(incomplete, _STUDIES)
+
+
+def designs_and_studies(incomplete: str) -> list[str]:
+    """Complete names of designs and studies."""
+    return _files(incomplete, (*_STUDIES, ".json"))
+
+
+def tests(incomplete: str) -> list[str]:
+    """Complete virtual tests."""
+    from tvimdesign.report.virtual_tests import TESTS
+
+    return _beginning(TESTS, incomplete)
+
+
+def kinds(incomplete: str) -> list[str]:
+    """Complete kinds of measurement."""
+    from tvimdesign.report.fit import kind_sheets
+
+    return _beginning(kind_sheets(), incomplete)
+
+
+def examples(incomplete: str) -> list[str]:
+    """Complete shipped studies."""
+    from tvimdesign.report.study_files import example_names
+
+    return _beginning(example_names(), incomplete)
+
+
+def modes(incomplete: str) -> list[str]:
+    """Complete modes of a module."""
+    from tvimdesign.report.rows import mode_names
+
+    return _beginning(mode_names(), incomplete)
+
+
+def rows(incomplete: str) -> list[str]:
+    """Complete names of rows of either mode."""
+    from tvimdesign.report.rows import row_names
+
+    return _beginning(row_names(), incomplete)
+
+
+def settings(incomplete: str) -> list[str]:
+    """Complete inputs and choices, and outputs after `require.`, each with the `=` of a setting."""
+    from tvimdesign.report.rows import setting_names
+
+    return _beginning(setting_names(), incomplete)
+
+
+def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def _files(incomplete: str, endings: tuple[str, ...]) -> list[str]:
+    start = Path(incomplete or ".")
+    folder, begin = (start, "") if not incomplete or incomplete.endswith("/") else (start.parent, start.name)
+    prefix = incomplete[: len(incomplete) - len(begin)] if begin else incomplete
+    try:
+        paths = sorted(folder.iterdir())
+    except OSError:
+        return []
+    shown = [path for path in paths if path.name.startswith(begin) and not path.name.startswith(".")]
+    folders = [f"{prefix}{path.name}/" for path in shown if path.is_dir()]
+    return [f"{prefix}{path.name}" for path in shown if path.suffix in endings] + folders
+
+
+StudyFile = Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (YAML).", autocompletion=study_files)]
 StudyOrDesign = Annotated[
     Path,
     typer.Argument(
         metavar="STUDY|DESIGN",
         help="Study file, or design.json or folder of a run.",
-        autocompletion=completions.designs_and_studies,
+        autocompletion=designs_and_studies,
     ),
 ]
 ResultOfRun = Annotated[
     Path,
-    typer.Argument(
-        metavar="RESULT", help="Folder or design.json of a run.", autocompletion=completions.designs_and_studies
-    ),
+    typer.Argument(metavar="RESULT", help="Folder or design.json of a run.", autocompletion=designs_and_studies),
 ]
 Settings = Annotated[
     list[str] | None,
@@ -33,7 +100,7 @@ Settings = Annotated[
         metavar="NAME=VALUE",
         help="Change the study for this once, as often as needed: pcl_thickness='1.2 mm' fixes an input or a choice, "
         "require.holding_torque='>= 15 N.m' sets what stands at a path.",
-        autocompletion=completions.settings,
+        autocompletion=settings,
     ),
 ]
 Out = Annotated[

@@ -16,11 +16,10 @@ from tvimdesign.explore.answers.engine import Stage
 from tvimdesign.explore.answers.shown import value_names
 from tvimdesign.explore.parts import PartsMaker
 from tvimdesign.explore.states import messages
-from tvimdesign.explore.states.controls import controls_shown
 from tvimdesign.explore.states.history import History, open_history, write_history, written_digest
 from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.source import Source, open_source
-from tvimdesign.explore.states.state import Pinned, State, changed, saved_text, tree_of
+from tvimdesign.explore.states.state import Pinned, State, changed, controls_shown, saved_text, tree_of
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
 from tvimdesign.study import Study, read_tree
 

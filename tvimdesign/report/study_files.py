@@ -6,10 +6,15 @@ from pathlib import Path
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.study.design import read_design
-from tvimdesign.study.result_study import result_text
-from tvimdesign.study.schema import schema_text
-from tvimdesign.study.template import SCHEMA_FILE, example_text, examples, template_text
 from tvimdesign.study.text.source import printable
+from tvimdesign.study.written_studies import (
+    SCHEMA_FILE,
+    example_text,
+    examples,
+    result_text,
+    schema_text,
+    template_text,
+)
 
 
 def list_examples() -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.study import Study
-from tvimdesign.study.result_study import started_at
+from tvimdesign.study.written_studies import started_at
 
 
 class SearchInterrupted(KeyboardInterrupt):

@@ -36,7 +36,7 @@ from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.solve.search import Keep, Search, optimize
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
-from tvimdesign.study.result_study import started_at
+from tvimdesign.study.written_studies import started_at
 
 Designed = Callable[[Design, Solution | None], None]
 """Receiver of a design as soon as it exists."""

@@ -16,8 +16,8 @@ from tvimdesign.study.study import (
     Vary,
     WriteOptions,
 )
-from tvimdesign.study.template import template_text
 from tvimdesign.study.text.mistakes import Mistake, StudyError
+from tvimdesign.study.written_studies import template_text
 
 __all__ = [
     "Catalog",

@@ -18,9 +18,7 @@ from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_im
 from tvimdesign.solve.optimizer.ratings import exceeded, kept, sorted_by_acceptance
 from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, BELOW_YIELD, OPTIMAL
 from tvimdesign.study import Study, drawn, given, read_tree
-from tvimdesign.sweep.plan import set_in
-from tvimdesign.sweep.points import Texts
-from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy, Texts, set_in
 
 MOST_KEPT = 8
 """Compiled modules, and problems, that are kept: cells of one kind mostly follow one another."""

@@ -6,7 +6,7 @@ import time
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
 
-from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy
 
 CHUNK = 0.5
 """Seconds that a chunk is to take."""

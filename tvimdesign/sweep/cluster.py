@@ -15,9 +15,9 @@ from tvimdesign import __version__
 from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.sweep.chunks import CellQueue, ChunkAnswers
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy
 from tvimdesign.sweep.pool import Heard, Usage
 from tvimdesign.sweep.shards import ShardWriter
-from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 
 if TYPE_CHECKING:
     from distributed import Client, Future

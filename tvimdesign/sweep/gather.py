@@ -14,8 +14,7 @@ from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import OutputError
 from tvimdesign.base.units import from_si
 from tvimdesign.study.sections.sweep_block import SweptAxis
-from tvimdesign.sweep.plan import SweepPlan
-from tvimdesign.sweep.points import is_words, rounded, senses
+from tvimdesign.sweep.plan import SweepPlan, is_words, rounded, senses
 from tvimdesign.sweep.shards import Shards, StoredCell
 
 Value = float | int | str | None

@@ -1,21 +1,132 @@
-"""A sweep as it is to be done: the study without its sweep, the cells, what is kept of each; read before it begins."""
+"""A sweep as planned: the study without its sweep, positions of the cells, what each stores; the work as plain data."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.units import from_si, parse_quantity
 from tvimdesign.device import Choice
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.reader import read_swept
-from tvimdesign.study.sections.sweep_block import EVERY_OUTPUT, SweepBlock, SweptAxis
+from tvimdesign.study.sections.sweep_block import EVERY_OUTPUT, SweepBlock, SweptAxis, SweptRange
 from tvimdesign.study.text.mistakes import StudyError
 from tvimdesign.study.text.yaml_text import Node, Text
 from tvimdesign.study.tree import StudyTree, with_value, without_section
-from tvimdesign.sweep.points import CellPoints, Texts, axis_value, written
+
+Texts = tuple[str, ...]
+_DIGITS = 12
+"""Of a number between two ends: as many as parse to the same value to 1e-12, and a table still shows."""
+
+
+def written(axis: SweptAxis, value: float) -> str:
+    """Return a number of an axis (SI) as a study would write it: `>= 12.5 N*m`."""
+    text = f"{from_si(value, axis.unit):.{_DIGITS}g}"
+    unit = "" if axis.unit == "1" else f" {axis.unit}"
+    return f"{axis.sense} {text}{unit}".strip()
+
+
+def axis_value(axis: SweptAxis, text: str) -> float | str:
+    """Return a number of an axis in its unit, of a limit as well; a word as it is written."""
+    if is_words(axis):
+        return text
+    return rounded(from_si(parse_quantity(text.lstrip("<>= "), axis.unit), axis.unit))
+
+
+def is_words(axis: SweptAxis) -> bool:
+    """Return whether an axis has no one number: words, settings, limits in both senses."""
+    return not axis.unit or len(senses(axis)) > 1
+
+
+def senses(axis: SweptAxis) -> set[str]:
+    """Return `<=` and `>=`, as far as an axis has them."""
+    if axis.range:
+        return {axis.sense} if axis.sense else set()
+    return {text.value.strip()[:2] for text in axis.values} & {"<=", ">="}
+
+
+def rounded(value: float) -> float:
+    """Round to twelve digits: a conversion of units adds noise in the sixteenth."""
+    return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else value
+
+
+@dataclass(frozen=True)
+class CellPoints:
+    """The cells of a sweep in their order: of a grid the last axis changes fastest."""
+
+    block: SweepBlock
+
+    @cached_property
+    def count(self) -> int:
+        """Return how many cells there are."""
+        if self.block.method == "list":
+            return len(self.block.rows)
+        return self.block.count or math.prod(_length(axis) for axis in self.block.axes)
+
+    def texts(self, cell: int) -> Texts:
+        """Return what each axis is set to in a cell, by its number from 0."""
+        axes = self.block.axes
+        if self.block.method == "list":
+            return tuple(text.value for text in self.block.rows[cell])
+        if self.block.method == "grid":
+            return tuple(_nth(axis, place) for axis, place in zip(axes, self._places(cell), strict=True))
+        return tuple(_at_share(axis, share) for axis, share in zip(axes, self._shares[cell], strict=True))
+
+    def _places(self, cell: int) -> Sequence[int]:
+        places = []
+        for axis in reversed(self.block.axes):
+            cell, place = divmod(cell, _length(axis))
+            places.append(place)
+        return places[::-1]
+
+    @cached_property
+    def _shares(self) -> NDArray[np.float64]:
+        """A row a cell of a sample, each number from 0 up to 1."""
+        from scipy.stats import qmc
+
+        axes, count, seed = len(self.block.axes), self.block.count, self.block.seed
+        if self.block.method == "sobol":  # of a power of two, so that the sequence is balanced; the first are taken
+            return qmc.Sobol(axes, rng=seed).random_base2(max(count - 1, 1).bit_length())[:count]
+        return qmc.LatinHypercube(axes, rng=seed).random(count)
+
+    def __getstate__(self) -> dict[str, SweepBlock]:
+        """Return what a pickle holds; a sample is drawn again where it is read."""
+        return {"block": self.block}
+
+
+def _length(axis: SweptAxis) -> int:
+    return axis.range.count if axis.range else len(axis.values)
+
+
+def _nth(axis: SweptAxis, place: int) -> str:
+    """Return a value of a grid: one of the list, or evenly between the ends."""
+    if axis.range is None:
+        return axis.values[place].value
+    return written(axis, _between(axis.range, place / (axis.range.count - 1) if axis.range.count > 1 else 0.0))
+
+
+def _at_share(axis: SweptAxis, share: float) -> str:
+    """Return a value of a sample: each of a list, or each whole number, as often as the others."""
+    span = axis.range
+    if span is None:
+        return axis.values[int(share * len(axis.values))].value
+    if axis.whole:
+        return written(axis, span.lower + math.floor(share * (span.upper - span.lower + 1.0)))
+    return written(axis, _between(span, share))
+
+
+def _between(span: SweptRange, share: float) -> float:
+    if span.logarithmic:
+        return float(span.lower * (span.upper / span.lower) ** share)
+    return span.lower + share * (span.upper - span.lower)
+
 
 ALWAYS = ("module_mass", "envelope_diameter", "response_time")
 """Outputs that every table has, whatever the study minimises and requires."""
@@ -150,3 +261,49 @@ def _refuse_wrong_values(plan: SweepPlan) -> None:
 def _end(axis: SweptAxis, share: int) -> Text:
     assert axis.range is not None  # an axis without values has one
     return Text(0, 0, written(axis, (axis.range.lower, axis.range.upper)[share]), plain=False)
+
+
+class Cell(NamedTuple):
+    """One cell: its key, and what each axis is set to."""
+
+    key: str
+    texts: Texts
+
+
+class CellAnswer(NamedTuple):
+    """The answer of a cell."""
+
+    status: str
+    """`evaluated`, `optimal`, `above_rating`, ... or `infeasible`, `refused`, `crashed`."""
+    reason: str
+    """Why there is no design, or what it breaks; empty where there is nothing to say."""
+    broken: int | None
+    """Count of limits that are not kept; None where there is no design."""
+    margin: float | None
+    """The least margin over all limits, as a share."""
+    values: tuple[float | str | None, ...]
+    """SI, in the order of the columns; words of what is chosen; None where there is none."""
+    warm: bool = False
+    """Whether the search began at another cell's optimum and found this one's."""
+
+
+@dataclass(frozen=True)
+class SweptStudy:
+    """A study, and what is set in each of its cells; it can be pickled."""
+
+    tree: StudyTree
+    names: tuple[str, ...]
+    """What is set in each cell, as `--set` takes it."""
+    numbers: tuple[bool, ...]
+    """Which of them a search can follow from another cell's optimum."""
+    columns: tuple[str, ...]
+    evaluate: bool
+
+    @classmethod
+    def of(cls, plan: SweepPlan) -> SweptStudy:
+        """Return the work of a plan; its folder is a whole path, since a worker may start in another one."""
+        axes = plan.axes
+        return cls(
+            replace(plan.tree, folder=plan.tree.folder.resolve()), tuple(axis.name for axis in axes),
+            tuple(axis.number for axis in axes), plan.columns, plan.task == "evaluate",
+        )  # fmt: skip

@@ -16,8 +16,8 @@ from typing import IO, Any
 from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import OutputError, TvimError
 from tvimdesign.sweep.chunks import CellQueue
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy
 from tvimdesign.sweep.shards import Shards, ShardWriter
-from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
 from tvimdesign.sweep.worker import packed
 
 Heard = Callable[["Usage"], None]

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from tvimdesign import __version__
 from tvimdesign.base.atomic_files import make_folder, record
 from tvimdesign.base.errors import OutputError
-from tvimdesign.sweep.work import CellAnswer
+from tvimdesign.sweep.plan import CellAnswer
 
 SHARDS = "shards"
 """Folder of the shards in the folder of a sweep."""

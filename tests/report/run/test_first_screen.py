@@ -25,7 +25,7 @@ from tvimdesign.report.run.uncertainty_data import Uncertainty
 from tvimdesign.report.run.why import binding
 from tvimdesign.solve.result import answer
 from tvimdesign.study import drawn, read_study, read_study_text
-from tvimdesign.study.record_checks import record_checks
+from tvimdesign.study.resolve import record_checks
 
 LISTED = "{catalog: music_wire_gauge, from: 2 mm, to: 3 mm}"
 CHOICES = COARSE.replace("wire_diameter: [2 mm, 3 mm]", f"wire_diameter: {LISTED}").replace("5 N.m/rad", "4.5 N.m/rad")

@@ -24,7 +24,7 @@ from tvimdesign.explore.answers.shown import finite_data
 from tvimdesign.explore.states.history import PARTS
 from tvimdesign.explore.states.source import open_source
 from tvimdesign.explore.states.state import State
-from tvimdesign.page.page_fragment import page_fragment
+from tvimdesign.page.page_file import page_fragment
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.run_page import run_page

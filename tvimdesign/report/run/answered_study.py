@@ -23,7 +23,7 @@ from tvimdesign.report.run.why import why
 from tvimdesign.solve.result import Designed, StudyResult, answer
 from tvimdesign.solve.search import Search, optimize
 from tvimdesign.study import Study, drawn, read_tree
-from tvimdesign.study.record_checks import record_checks
+from tvimdesign.study.resolve import record_checks
 from tvimdesign.study.tree import StudyTree
 
 

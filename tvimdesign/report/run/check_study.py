@@ -9,7 +9,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.study import Study, read_tree
-from tvimdesign.study.record_checks import record_checks
+from tvimdesign.study.resolve import record_checks
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.plan import swept_cells
 

@@ -11,7 +11,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.solve.best_so_far import SearchInterrupted
 from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study
-from tvimdesign.study.result_study import started_at, study_text
+from tvimdesign.study.written_studies import started_at, study_text
 
 DESIGN = "design.json"
 BEST = "best_so_far.yaml"

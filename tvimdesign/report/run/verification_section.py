@@ -9,8 +9,7 @@ from typing import Any
 
 from tvimdesign.base.atomic_files import digest_of
 from tvimdesign.page.blocks import Block, Picture, Section, Words
-from tvimdesign.page.page_file import FILE, MOST
-from tvimdesign.page.page_insert import with_section
+from tvimdesign.page.page_file import FILE, MOST, with_section
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.results_folder import made_from, rewrite
 from tvimdesign.report.output.tables import number

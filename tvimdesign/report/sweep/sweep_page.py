@@ -24,8 +24,7 @@ from tvimdesign.report.sweep.sweep_figures import figure_data, figures
 from tvimdesign.study import given
 from tvimdesign.study.tree import study_file
 from tvimdesign.sweep.gather import Column, Value, columns
-from tvimdesign.sweep.plan import SweepPlan
-from tvimdesign.sweep.points import written
+from tvimdesign.sweep.plan import SweepPlan, written
 
 _DIGITS = 12
 _PLAIN = frozenset('"$`\\!')

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from tvimdesign.device import MODES
-from tvimdesign.study.sections.currents import CURRENTS
 from tvimdesign.study.sections.goals import ACCEPT, FRONT, MINIMIZE, REQUIRE
 from tvimdesign.study.sections.section import Schema, Section
-from tvimdesign.study.sections.settings import MODULE, POINTS, PROFILE, SOLVER, WRITE
+from tvimdesign.study.sections.settings import CURRENTS, MODULE, POINTS, PROFILE, SOLVER, WRITE
 from tvimdesign.study.sections.sweeps import SWEEP
 from tvimdesign.study.sections.tolerances import ROBUST, TOLERANCES
 from tvimdesign.study.sections.vary import VARY

@@ -8,8 +8,16 @@ import re
 from tvimdesign.base.errors import UnitError
 from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.device import FirstOscillation, Output, Table
-from tvimdesign.study.sections.fields import field_schemas
-from tvimdesign.study.sections.section import LIMIT, NUMBER_VALUE, Schema, Section, by_output, mapping, output_name
+from tvimdesign.study.sections.section import (
+    LIMIT,
+    NUMBER_VALUE,
+    Schema,
+    Section,
+    by_output,
+    field_schemas,
+    mapping,
+    output_name,
+)
 from tvimdesign.study.study import FEWEST_POINTS, MOST_POINTS, FrontOptions, Requirement, Study
 from tvimdesign.study.text.mistakes import one_of, quoted, step
 from tvimdesign.study.text.values import (
