@@ -23,9 +23,8 @@ from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.ipopt import ProgrammeSolver
-from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Problem
-from tvimdesign.solve.nlp.problem_parts import Parameters, Point
+from tvimdesign.solve.nlp.problem_parts import Objective, Parameters, Point
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer

@@ -19,8 +19,8 @@ from reference_problem import study_of_sizes
 
 from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
+from tvimdesign.solve.discrete.combinations import Begin, enumerated_here
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
-from tvimdesign.solve.discrete.enumeration import Begin, enumerated_here
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.solve.optimizer.optimizer import Optimizer

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.base.errors import TvimError
-from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study
 

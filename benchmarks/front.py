@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from quick import Quick
 from reference_problem import LONGEST, Reference, study
 
+from tvimdesign.solve.batch.batch_model import Kernel, of_columns
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
-from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, trace_front

@@ -14,8 +14,8 @@ from tvimdesign.device import table_for
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import SolverEffort, same_optimum
+from tvimdesign.solve.nlp.solver_run import meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import meaning
 
 
 def main() -> None:

@@ -19,8 +19,8 @@ from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.solve.batch.batch_model import Kernel, of_columns
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
-from tvimdesign.solve.batch.kernel import Kernel, of_columns
 from tvimdesign.study import given, read_study
 
 STUDY = Path(__file__).resolve().parents[1] / "studies/compare_shear.yaml"

@@ -13,7 +13,7 @@ from tvimdesign.engine.integrator import Motion
 from tvimdesign.engine.sparse_lu import pattern_of
 from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
-from tvimdesign.solve.batch.kernel import Kernel
+from tvimdesign.solve.batch.batch_model import Kernel
 
 Array = np.ndarray
 COUNT = 21

@@ -6,8 +6,8 @@ import itertools
 import math
 
 from tvimdesign.device import Input
+from tvimdesign.solve.nlp.mixture import discrete_records, with_records
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.study import Options, Study, read_study_text
 
 LISTED = """

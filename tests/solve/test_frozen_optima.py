@@ -10,7 +10,7 @@ import pytest
 from support import ROOT
 
 from tvimdesign.solve.infeasibility.inspection import row_names
-from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study
 

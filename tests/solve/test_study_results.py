@@ -11,11 +11,10 @@ from answers import shipped_answer
 from comparable import COMPRESSION, SHEAR
 
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.solve import normalization, result, search
+from tvimdesign.solve import anchored_search, result, search
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.solution import Start
-from tvimdesign.solve.nlp.solver_run import Array, Run
-from tvimdesign.solve.optimizer.statuses import FEASIBLE
+from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Run
 from tvimdesign.solve.result import _plain, answer
 from tvimdesign.study import Study, read_study_text
 
@@ -131,21 +130,23 @@ def test_walls_end_where_the_process_ends(process: str, wall: float) -> None:
 def test_one_yardstick_is_the_geometric_mean_and_one_of_zeros() -> None:
     starts = [{"module_mass": 0.2, "response_time": 50.0}, None, {"module_mass": 0.8, "response_time": 200.0}]
     for order in (starts, starts[::-1]):
-        assert normalization.common(order) == pytest.approx({"module_mass": 0.4, "response_time": 100.0})
-    assert normalization.common([{"backlash@hot": 0.0}, {"backlash@hot": 0.0}]) == {"backlash@hot": 1.0}
-    assert normalization.common([{"backlash@hot": 0.0}, {"backlash@hot": 0.1}]) == pytest.approx({"backlash@hot": 0.1})
+        assert anchored_search.common(order) == pytest.approx({"module_mass": 0.4, "response_time": 100.0})
+    assert anchored_search.common([{"backlash@hot": 0.0}, {"backlash@hot": 0.0}]) == {"backlash@hot": 1.0}
+    assert anchored_search.common([{"backlash@hot": 0.0}, {"backlash@hot": 0.1}]) == pytest.approx(
+        {"backlash@hot": 0.1}
+    )
 
 
 def test_a_switch_that_never_ends_counts_as_long_as_it_is_followed() -> None:
     cold = SHEAR.replace("current: 1.5 A", "current: 0.1 A\n  horizon: 900 s")
-    found = normalization.at_its_start(read_study_text(cold, "test"))
+    found = anchored_search.at_its_start(read_study_text(cold, "test"))
     assert found is not None
     assert found["response_time"] == 900.0
 
 
 @pytest.mark.parametrize("text", [SHEAR, COMPRESSION], ids=["shear", "compression"])
 def test_only_what_is_minimised_is_measured(text: str) -> None:
-    found = normalization.at_its_start(read_study_text(text, "test"))
+    found = anchored_search.at_its_start(read_study_text(text, "test"))
     assert found is not None
     assert found.keys() == {"module_mass", "response_time"}
     assert all(value > 0.0 for value in found.values())

@@ -14,8 +14,8 @@ from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.blocks.warnings import warnings_of
 from tvimdesign.report.run.yield_words import below_yield
 from tvimdesign.solve.nlp.solution import Solution
+from tvimdesign.solve.nlp.solver_run import ALTERNATIVES, BELOW_YIELD, MARGINS, OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import ALTERNATIVES, BELOW_YIELD, MARGINS, OPTIMAL
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, StudyError, read_study_text

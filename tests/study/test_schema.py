@@ -17,9 +17,8 @@ from tvimdesign import __version__
 from tvimdesign.device import MODES, Output, Table, table_for
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study, StudyError, given, read_study_text, template_text
-from tvimdesign.study.schema import json_schema
 from tvimdesign.study.sections.all_sections import NAMES
-from tvimdesign.study.template import example_text
+from tvimdesign.study.written_studies import example_text, json_schema
 
 WRONG = [
     "name: x",

@@ -14,9 +14,8 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.study import StudyError, read_tree
 from tvimdesign.sweep.answers import CellAnswers
 from tvimdesign.sweep.chunks import CellQueue
-from tvimdesign.sweep.keys import CellKeys, leaves_of
-from tvimdesign.sweep.plan import SweepPlan
-from tvimdesign.sweep.work import Cell, CellAnswer, SweptStudy
+from tvimdesign.sweep.plan import Cell, CellAnswer, SweepPlan, SweptStudy
+from tvimdesign.sweep.run_sweep import CellKeys, leaves_of
 
 OPTIMISED = """
 mode: shear

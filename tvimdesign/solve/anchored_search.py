@@ -1,21 +1,28 @@
-"""Searches studies that differ in fixed numbers alone, each from one optimum: in any order, on any process."""
+"""Searches studies that differ in fixed numbers alone, each from one optimum: in any order, on any process.
+
+Common reference that divides the minimised outputs of all compared studies, so that all minimise the same.
+
+A study alone divides each output by its value at its own start. Of two studies with the same weights one would then
+pay less for a second than the other, because it was drawn slower.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
 from tvimdesign.base.deadline import Deadline
-from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError
+from tvimdesign.base.errors import InfeasibleError, InputError, TimeOverError, TvimError
 from tvimdesign.device import Input, Table
+from tvimdesign.simulation.working_cycle.cycle import Simulator
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
+from tvimdesign.solve.nlp.mixture import discrete_records
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import Progress, Run
-from tvimdesign.solve.normalization import at_its_start, common
+from tvimdesign.solve.nlp.solver_run import OPTIMAL, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.record_choices import discrete_records
-from tvimdesign.solve.optimizer.statuses import OPTIMAL
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Study, given
@@ -134,3 +141,26 @@ def _problem(study: Study, table: Table) -> dict[str, Any]:
 def _is_number(name: str, table: Table) -> bool:
     row = table.quantity(name)
     return isinstance(row, Input) and not row.integer
+
+
+Values = Mapping[str, float]
+
+
+def at_its_start(study: Study) -> dict[str, float] | None:
+    """Return the minimised outputs of a study as drawn, SI; None if it cannot be simulated."""
+    table = study.table
+    try:
+        model = DeviceFunctions(table, given(study), tuple(study.operating_points), study.solver.cells)
+        values = model.values(model.start, Simulator(model).run(model.start).values)
+    except TvimError:
+        return None
+    horizon = float(model.start[model.index["horizon"]])
+    return {name: values[name] if math.isfinite(values[name]) else horizon for name in study.minimize}
+
+
+def common(starts: Sequence[Values | None]) -> dict[str, float]:
+    """Geometric mean of every output over the studies, whatever their order; of nothing but zeros, one."""
+    known = [values for values in starts if values is not None]
+    names = dict.fromkeys(name for values in known for name in values)
+    sizes = {name: [abs(values[name]) for values in known if values[name] != 0.0] for name in names}
+    return {name: math.exp(math.fsum(map(math.log, of)) / len(of)) if of else 1.0 for name, of in sizes.items()}

@@ -19,8 +19,6 @@ from tvimdesign.simulation.working_cycle.melt_history import intervals
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, given_profiles
 from tvimdesign.simulation.working_cycle.trajectory import Cycle
 from tvimdesign.solve.best_so_far import SearchInterrupted
-from tvimdesign.solve.cooling import Cooling, cooling
-from tvimdesign.solve.idealized import Idealization, idealizations
 from tvimdesign.solve.nlp.constraints import (
     Constraint,
     advice_of,
@@ -29,11 +27,10 @@ from tvimdesign.solve.nlp.constraints import (
     refuse_impossible,
 )
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import Progress
-from tvimdesign.solve.optimizer.ratings import exceeded, happened, kept, sorted_by_acceptance
-from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, BELOW_YIELD, OPTIMAL
-from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
+from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL, Progress
+from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE, exceeded, happened, kept, sorted_by_acceptance
 from tvimdesign.solve.search import Keep, Search, optimize
+from tvimdesign.solve.variants import Cooling, Idealization, cooling, idealizations
 from tvimdesign.study import Study, given
 from tvimdesign.study.design import Design
 from tvimdesign.study.written_studies import started_at

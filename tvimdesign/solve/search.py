@@ -13,16 +13,14 @@ from tvimdesign.base.errors import TimeOverError
 from tvimdesign.base.interrupts import interrupt_came
 from tvimdesign.solve.best_so_far import SearchInterrupted, best_so_far
 from tvimdesign.solve.discrete.branch_and_bound import BranchAndBound
+from tvimdesign.solve.discrete.combinations import Begin, Block, ExactCombinations, SolvedBlock, enumerated_here
 from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes
-from tvimdesign.solve.discrete.enumeration import Begin, Block, SolvedBlock, enumerated_here
-from tvimdesign.solve.discrete.exact_combinations import ExactCombinations
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation, order
 from tvimdesign.solve.discrete.second_process import second_process
 from tvimdesign.solve.discrete.trees import Trees, refuse_too_many
-from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
 from tvimdesign.solve.infeasibility.conflict_set import find_conflicts
-from tvimdesign.solve.infeasibility.reach import refuse_unreachable
+from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
 from tvimdesign.solve.nlp.constraints import on_cycle
 from tvimdesign.solve.nlp.solution import (
     Choosing,
@@ -33,12 +31,19 @@ from tvimdesign.solve.nlp.solution import (
     Start,
     YieldReached,
 )
-from tvimdesign.solve.nlp.solver_run import Progress, Run
-from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
+from tvimdesign.solve.nlp.solver_run import (
+    ALTERNATIVES,
+    BELOW_YIELD,
+    BETWEEN,
+    MARGINS,
+    NO_COMBINATION,
+    OPTIMAL,
+    Progress,
+    Run,
+)
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import ALTERNATIVES, BELOW_YIELD, BETWEEN, MARGINS, NO_COMBINATION, OPTIMAL
+from tvimdesign.solve.optimizer.refinements import ending_in_time, put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
-from tvimdesign.solve.optimizer.within_horizon import ending_in_time
 from tvimdesign.study import SolverOptions, Study
 
 Keep = Callable[[Optimizer, list[Run]], None]
@@ -227,7 +232,7 @@ def _sizes(relaxation: Relaxation, run: Run) -> dict[str, tuple[float, float]]:
 
 def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run, share: float) -> YieldReached:
     """Draw modules of the best run at random and return their yield. Raises TimeOverError."""
-    from tvimdesign.solve.uncertainty.yield_account import account_of_yield  # it loads the compiler
+    from tvimdesign.solve.uncertainty.yields import account_of_yield  # it loads the compiler
 
     optimizer.progress("drawing modules for the yield of the design")
     return account_of_yield(optimizer, run, nominal, share)

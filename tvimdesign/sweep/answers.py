@@ -15,8 +15,8 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import given_profiles
 from tvimdesign.solve.anchored_search import AnchoredSearch
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, refuse_impossible
-from tvimdesign.solve.optimizer.ratings import exceeded, kept, sorted_by_acceptance
-from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, BELOW_YIELD, OPTIMAL
+from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, BELOW_YIELD, OPTIMAL
+from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept, sorted_by_acceptance
 from tvimdesign.study import Study, drawn, given, read_tree
 from tvimdesign.sweep.plan import Cell, CellAnswer, SweptStudy, Texts, set_in
 

@@ -15,7 +15,7 @@ from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.device.table.quantity_group import directions
 from tvimdesign.report.compare.comparison_table import Row, compare_csv
 from tvimdesign.report.compare.sentence import against
-from tvimdesign.solve.pareto.front_leads import ALIKE
+from tvimdesign.solve.pareto.front_shape import ALIKE
 
 
 def row(

@@ -16,7 +16,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, 
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
-from tvimdesign.solve.uncertainty.unmeasured import unmeasured_inputs
+from tvimdesign.solve.uncertainty.uncertain_inputs import unmeasured_inputs
 from tvimdesign.study import read_study_text, standard_tolerances
 
 TABLE = table_for("shear")

@@ -12,7 +12,7 @@ import tvimdesign as tvim
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog, check_records
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
-from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, unmeasured_inputs
+from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, unmeasured_inputs
 
 
 def pad_file(place: Path) -> Path:

@@ -15,7 +15,7 @@ from support import ROOT, digits
 from tvimdesign.device import table_for
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.batch.kernel import Kernel, of_columns
+from tvimdesign.solve.batch.batch_model import Kernel, of_columns
 from tvimdesign.study import given, read_study
 
 ONE: dict[str, tuple[Callable[[float], float], list[float]]] = {

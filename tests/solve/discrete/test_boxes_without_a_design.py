@@ -18,9 +18,8 @@ from tvimdesign.solve.discrete.discrete_choices import Box, discrete_sizes, is_o
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import NOWHERE
 from tvimdesign.solve.nlp.solution import SolverEffort
-from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, NO_MODULE, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN, NO_MODULE
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 

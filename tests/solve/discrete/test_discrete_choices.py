@@ -15,13 +15,13 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.device import table_for
 from tvimdesign.report.output.choices_tables import choosing_data, price_in_words, tally_in_words
 from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.solve.discrete.combinations import Begin, enumerated_here
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
-from tvimdesign.solve.discrete.enumeration import Begin, enumerated_here
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
 from tvimdesign.solve.nlp.solution import Choosing, Solution, SolverEffort
+from tvimdesign.solve.nlp.solver_run import NO_COMBINATION
 from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
-from tvimdesign.solve.optimizer.statuses import NO_COMBINATION
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given, read_study_text

@@ -18,10 +18,9 @@ from tvimdesign.solve.discrete.discrete_choices import Sizes, discrete_sizes
 from tvimdesign.solve.discrete.record_families import families_of
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.discrete.trees import MAX_MIXED, Trees, refuse_too_many
-from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
+from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture, discrete_records, with_records
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import Array, Run
-from tvimdesign.solve.optimizer.record_choices import discrete_records, with_records
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, given, read_study
 

@@ -13,7 +13,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete import second_process
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task
 from tvimdesign.solve.discrete.second_process import ParallelSolver
-from tvimdesign.solve.discrete.sent_trees import ProblemSpec
+from tvimdesign.solve.discrete.trees import ProblemSpec
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import Study, read_study_text

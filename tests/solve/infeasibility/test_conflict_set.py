@@ -8,9 +8,9 @@ import pytest
 
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.device import table_for
-from tvimdesign.solve.infeasibility import reach
-from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
+from tvimdesign.solve.infeasibility import early_checks
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
+from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, read_study_text
@@ -239,8 +239,8 @@ module: {impedance_targets: stated, soft_impedance: 5 N.m/rad, stiff_impedance: 
 
 def refuse(monkeypatch: pytest.MonkeyPatch, hot: float | None, cold: float | None) -> None:
     extremes = {"joint_impedance@hot": hot, "joint_impedance@cold": cold}
-    monkeypatch.setattr(reach, "_extreme", lambda _study, row, _sign, _deadline: extremes[row])
-    reach.refuse_unreachable(read_study_text(STUDY, "a test"))
+    monkeypatch.setattr(early_checks, "_extreme", lambda _study, row, _sign, _deadline: extremes[row])
+    early_checks.refuse_unreachable(read_study_text(STUDY, "a test"))
 
 
 @pytest.mark.parametrize(

@@ -13,9 +13,14 @@ from support import ROOT
 
 from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.infeasibility import wide_search
-from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
-from tvimdesign.solve.infeasibility.wide_search import _DRAWN, _broken, _one_design, designs_all_over
+from tvimdesign.solve.infeasibility import feasibility_screen
+from tvimdesign.solve.infeasibility.feasibility_screen import (
+    _DRAWN,
+    FeasibilityScreen,
+    _broken,
+    _one_design,
+    designs_all_over,
+)
 from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.search import optimize
@@ -79,9 +84,9 @@ def test_a_start_that_ends_in_a_valley_is_not_the_last_word(monkeypatch: pytest.
 def test_the_drawn_designs_of_least_violation_are_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = [float(number) for number in range(_DRAWN)]
     breaks = {5.0: 0.1, 2.0: 0.2, 9.0: 0.3}  # the switch of all others never ends
-    monkeypatch.setattr(wide_search, "FeasibilityScreen", lambda _: None)
-    monkeypatch.setattr(wide_search, "_one_design", lambda _, __, seed: np.array([drawn[seed]]))
-    monkeypatch.setattr(wide_search, "_broken", lambda _, inputs: breaks.get(float(inputs[0]), np.inf))
+    monkeypatch.setattr(feasibility_screen, "FeasibilityScreen", lambda _: None)
+    monkeypatch.setattr(feasibility_screen, "_one_design", lambda _, __, seed: np.array([drawn[seed]]))
+    monkeypatch.setattr(feasibility_screen, "_broken", lambda _, inputs: breaks.get(float(inputs[0]), np.inf))
     optimizer = SimpleNamespace(study=SimpleNamespace(solver=SimpleNamespace(seed=0)), deadline=Deadline())
     designs = designs_all_over(cast(Any, optimizer))
     assert [float(inputs[0]) for inputs in designs] == [5.0, 2.0, 9.0]

@@ -9,7 +9,7 @@ import pytest
 
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
-from tvimdesign.solve.nlp.moments import moments
+from tvimdesign.solve.nlp.spread import moments
 from tvimdesign.study import read_study_text
 
 WIRE = 2e-3  # m

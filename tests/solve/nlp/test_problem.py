@@ -14,12 +14,10 @@ from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.infeasibility.inspection import row_names, unknown_names
 from tvimdesign.solve.nlp.constraints import constraints_of
-from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import LATEST
-from tvimdesign.solve.nlp.problem_parts import FreeCurrent, Parameters
-from tvimdesign.solve.nlp.solver_run import Array
+from tvimdesign.solve.nlp.problem_parts import FreeCurrent, Objective, Parameters
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 from tvimdesign.study import given, read_study_text
 
 ASKED = """

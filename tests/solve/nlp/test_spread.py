@@ -14,9 +14,9 @@ from scipy.stats import qmc
 
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.spread import Contributor
+from tvimdesign.solve.uncertainty.design_uncertainty import sobol_points
 from tvimdesign.solve.uncertainty.intervals import draw
-from tvimdesign.solve.uncertainty.sobol_points import sobol_points
-from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput
+from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
 
 PARTS = [Contributor("a", 1.0, 0.3), Contributor("b", 2.0, 0.3, "uniform"), Contributor("c", -1.0, 0.2, sigma=2.0)]
 SLOPES = np.array([[2.0, -3.0, 1.0], [0.0, 0.0, 5.0]])
@@ -137,7 +137,7 @@ def test_kept_points_are_scipys_and_scipy_is_not_loaded_for_them(
     expected = qmc.Sobol(5, rng=np.random.default_rng(2)).random(64)
     assert np.array_equal(sobol_points(5, 64, 2), expected)
     again = (
-        "import sys\nfrom tvimdesign.solve.uncertainty.sobol_points import sobol_points\n"
+        "import sys\nfrom tvimdesign.solve.uncertainty.design_uncertainty import sobol_points\n"
         "points = sobol_points(5, 64, 2)\nassert 'scipy.stats' not in sys.modules\nprint(points.tobytes().hex())"
     )
     said = subprocess.run([sys.executable, "-c", again], capture_output=True, text=True, check=True).stdout

@@ -6,11 +6,11 @@ import pytest
 
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.infeasibility.wide_search import designs_all_over
+from tvimdesign.solve.infeasibility.feasibility_screen import designs_all_over
 from tvimdesign.solve.nlp.solution import SolverEffort, same_optimum
 from tvimdesign.solve.nlp.solver_run import Array
-from tvimdesign.solve.optimizer.box_search import BoxSearch
 from tvimdesign.solve.optimizer.optimizer import SETTLED, Optimizer
+from tvimdesign.solve.optimizer.refinements import BoxSearch
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import read_study_text
 

@@ -17,8 +17,8 @@ from tvimdesign.base.interrupts import interrupt_came, interrupt_handler
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.infeasibility.feasibility_screen import FeasibilityScreen
+from tvimdesign.solve.nlp.solver_run import MEANINGS, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import MEANINGS, meaning
 from tvimdesign.study import read_study_text
 
 

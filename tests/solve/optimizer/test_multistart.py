@@ -16,9 +16,8 @@ from support import ROOT
 
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.solve.nlp.problem_parts import Free
-from tvimdesign.solve.optimizer.multistart import MAX_DRAWS, Multistart
+from tvimdesign.solve.optimizer.multistart import FEW, MAX_DRAWS, Multistart, unit_points
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.starting_points import FEW, unit_points
 from tvimdesign.study import SolverOptions, read_study, read_study_text
 
 LOWER, UPPER, SEED = 1.0, 100.0, 3
@@ -152,7 +151,7 @@ def test_a_seed_gives_its_points_evenly_spread_if_many() -> None:
 def test_few_starts_leave_the_sobol_sequence_unloaded() -> None:
     code = (
         "import sys; from tvimdesign.solve import search; "
-        "from tvimdesign.solve.optimizer.starting_points import unit_points; "
+        "from tvimdesign.solve.optimizer.multistart import unit_points; "
         "next(unit_points(16, 3, 1)); assert 'scipy.stats' not in sys.modules"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False)

@@ -12,9 +12,8 @@ from tvimdesign.solve.discrete.discrete_choices import discrete_sizes
 from tvimdesign.solve.discrete.relaxation import Relaxation
 from tvimdesign.solve.nlp.problem import LATEST
 from tvimdesign.solve.nlp.solution import SolverEffort
-from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.nlp.solver_run import NO_MODULE, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import NO_MODULE
 from tvimdesign.solve.search import optimize
 from tvimdesign.study import read_study_text
 

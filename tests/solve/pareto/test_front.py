@@ -13,11 +13,10 @@ from comparable import COARSE, COMPRESSION, SHEAR
 
 from tvimdesign.device import table_for
 from tvimdesign.report.run.front_report import front_csv, plain
-from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.nlp.solver_run import Run, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import meaning
 from tvimdesign.solve.pareto.front import Front, completed, trace_front
 from tvimdesign.solve.pareto.tradeoff import Failure, Point, Tradeoff
 from tvimdesign.solve.search import optimize

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tvimdesign.solve.pareto.front_leads import leads, reached
+from tvimdesign.solve.pareto.front_shape import leads, reached
 
 FALLING = [(1.0, 10.0), (5.0, 2.0)]  # y = 12 - 2 x
 FLAT = [(2.0, 5.0), (6.0, 4.0)]  # y = 5.5 - x / 4

@@ -10,7 +10,7 @@ import pytest
 from tvimdesign.report.paper.published_module import published_model
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, _root, level_set
+from tvimdesign.solve.sensitivity.response_times import PLACES, LevelSet, _root, level_set
 
 pytestmark = pytest.mark.slow
 

@@ -8,7 +8,7 @@ from event_derivatives import event_gradient
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.paper import paper_case
-from tvimdesign.solve.sensitivity.ratio_sensitivity import Pair, Span, ratio
+from tvimdesign.solve.sensitivity.response_times import Pair, Span, ratio
 
 EVENT = "mean_time"
 

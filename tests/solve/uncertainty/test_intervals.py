@@ -17,7 +17,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import DesignUncertainty, UncertaintyModel
 from tvimdesign.solve.uncertainty.intervals import Interval, draw, intervals, share_of_variance
-from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput, unmeasured_inputs
+from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, unmeasured_inputs
 from tvimdesign.study import read_study_text, standard_tolerances
 
 TABLE = table_for("shear")

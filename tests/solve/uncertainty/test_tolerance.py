@@ -15,9 +15,9 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp.constraints import constraints_of
-from tvimdesign.solve.nlp.moments import moments
-from tvimdesign.solve.uncertainty.contributors import contributors_of
+from tvimdesign.solve.nlp.spread import moments
 from tvimdesign.solve.uncertainty.tolerance import Tolerancing
+from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of
 from tvimdesign.study import read_study_text
 
 SPRINGS = "  wire_diameter: 0.025 mm\n  coil_diameter: {row: coil_diameter_tolerance}\n  spring_youngs_modulus: 1 %\n"

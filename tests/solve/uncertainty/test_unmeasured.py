@@ -11,7 +11,7 @@ from support import ROOT
 from tvimdesign.catalog import Catalog
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.design_uncertainty import UncertaintyModel
-from tvimdesign.solve.uncertainty.unmeasured import before_measuring, unmeasured_inputs
+from tvimdesign.solve.uncertainty.uncertain_inputs import before_measuring, unmeasured_inputs
 from tvimdesign.study import read_study, read_study_text
 
 RECORD = """title: "bench module"

@@ -9,7 +9,7 @@ import yaml
 
 from tvimdesign.device import table_for
 from tvimdesign.study import Options, Range, Study, StudyError, Vary, read_study_text
-from tvimdesign.study.schema import json_schema
+from tvimdesign.study.written_studies import json_schema
 
 Read = Callable[..., Study]
 Refuse = Callable[..., list[str]]

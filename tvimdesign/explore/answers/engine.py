@@ -19,10 +19,10 @@ from tvimdesign.report.run.answered_study import AnsweredStudy, answer_study
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.solve.nlp.constraints import impossible, refuse_contradictory, refuse_impossible
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.optimizer.at_bounds import put_at_bounds
+from tvimdesign.solve.nlp.solver_run import OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.parametric_optimizer import Moved, ParametricOptimizer
-from tvimdesign.solve.optimizer.statuses import OPTIMAL
+from tvimdesign.solve.optimizer.refinements import put_at_bounds
 from tvimdesign.solve.optimizer.verify_optimum import verify_optimum
 from tvimdesign.solve.search import Keep, optimize
 from tvimdesign.study import Options, Range, Study, given, read_tree

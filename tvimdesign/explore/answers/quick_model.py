@@ -18,10 +18,9 @@ from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.trajectory import Trajectory
-from tvimdesign.solve.batch.batch_model import SLOW
+from tvimdesign.solve.batch.batch_model import SLOW, Kernel
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
-from tvimdesign.solve.batch.kernel import Kernel
-from tvimdesign.solve.batch.steps import Steps
+from tvimdesign.solve.batch.phase_kernel import Steps
 from tvimdesign.study import Study, given
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.output.tables import NOTHING, margin_text, number
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words
-from tvimdesign.solve.optimizer.ratings import exceeded, kept
+from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept
 from tvimdesign.solve.result import ConstraintCheck
 from tvimdesign.study import Study
 

@@ -13,7 +13,7 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.compare.comparison_table import Row, common_rows, lone_values, plain
 from tvimdesign.report.compare.sentence import ParetoComparison, against, ahead, conditions, held_back, standing, wins
 from tvimdesign.report.output.number_format import head
-from tvimdesign.solve.pareto.front_leads import leads
+from tvimdesign.solve.pareto.front_shape import leads
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
 

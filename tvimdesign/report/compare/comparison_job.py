@@ -31,7 +31,7 @@ from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
-from tvimdesign.solve import normalization
+from tvimdesign.solve import anchored_search
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.pareto.front import Front, completed, trace_front, undominated
@@ -105,8 +105,8 @@ class ComparisonJob:
             self._keep(self.found)
 
     def _optimised(self) -> StudyResult:
-        starts = [normalization.at_its_start(study) for study in (self.study, *self.others)]
-        common = normalization.common(starts)
+        starts = [anchored_search.at_its_start(study) for study in (self.study, *self.others)]
+        common = anchored_search.common(starts)
         objectives = front_outputs(self.study, self.table) if self.points else ()
         built = self._built
         answered = answer(self.study, self.say, common, lambda *search: built.append(search), objectives)

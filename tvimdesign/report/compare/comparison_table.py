@@ -12,7 +12,7 @@ from typing import Any, Literal
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
 from tvimdesign.report.output.number_format import finite
-from tvimdesign.solve.pareto.front_leads import ALIKE
+from tvimdesign.solve.pareto.front_shape import ALIKE
 from tvimdesign.study.design import Design
 
 Verdict = Literal["better", "worse", "same", "open", ""]

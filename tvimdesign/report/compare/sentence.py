@@ -10,7 +10,7 @@ from typing import Any
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.report.compare.comparison_table import Row
 from tvimdesign.report.output.tables import number
-from tvimdesign.solve.pareto.front_leads import Lead
+from tvimdesign.solve.pareto.front_shape import Lead
 from tvimdesign.study.conditions import Case
 
 _TIMES_FROM = 1.5

@@ -25,7 +25,7 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.paper import paper_case
 from tvimdesign.report.paper.published_module import from_paper, published_model
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.sensitivity.level_set import PLACES, LevelSet, level_set
+from tvimdesign.solve.sensitivity.response_times import PLACES, LevelSet, level_set
 
 THICKNESSES = np.geomspace(0.2e-3, 2e-3, 8)  # m
 AGAINST = {

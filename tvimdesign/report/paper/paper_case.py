@@ -21,7 +21,7 @@ from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Input, table_for
 from tvimdesign.report.paper.published_module import from_paper
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.sensitivity.ratio_sensitivity import Array, Influence, Pair, Span, ratio
+from tvimdesign.solve.sensitivity.response_times import Array, Influence, Pair, Span, ratio
 from tvimdesign.study import given, read_study_text
 
 SHOWN = 0.01  # of the ratio: inputs that move it by less have no bar in the figure

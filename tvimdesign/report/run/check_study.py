@@ -35,8 +35,7 @@ def refuse_what_cannot_be(study: Study, *, proof: bool = True, deadline: Deadlin
 
     refuse_impossible(study)
     if proof and study.task == "optimize":
-        from tvimdesign.solve.infeasibility.arithmetic_conflict import refuse_infeasible
-        from tvimdesign.solve.infeasibility.reach import refuse_unreachable
+        from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible, refuse_unreachable
 
         refuse_infeasible(study, deadline)
         refuse_unreachable(study, deadline)
@@ -52,7 +51,7 @@ def describe(study: Study) -> str:
 
 def foreseen_ratings(study: Study) -> list[str]:
     """Return ratings that the module the study starts from is beyond and the study neither accepts nor excludes."""
-    from tvimdesign.solve.optimizer.ratings import exceeded_at_start
+    from tvimdesign.solve.optimizer.verify_optimum import exceeded_at_start
 
     try:
         exceeded = exceeded_at_start(study)

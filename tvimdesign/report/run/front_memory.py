@@ -12,7 +12,7 @@ import numpy as np
 from tvimdesign import __version__
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
-from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solver_run import Trace
 from tvimdesign.solve.pareto.tradeoff import Failure, Point
 from tvimdesign.study import SolverOptions, Study

@@ -23,10 +23,9 @@ from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults
 from tvimdesign.report.run.front_memory import FolderMemory
-from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.nlp.solver_run import ABOVE_RATING, OPTIMAL, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.ratings import exceeded, sorted_by_acceptance
-from tvimdesign.solve.optimizer.statuses import ABOVE_RATING, OPTIMAL
+from tvimdesign.solve.optimizer.verify_optimum import exceeded, sorted_by_acceptance
 from tvimdesign.solve.pareto.front import Front, completed, trace_front
 from tvimdesign.solve.pareto.tradeoff import OUT_OF_TIME, Point, Tradeoff
 from tvimdesign.solve.result import StudyResult

@@ -12,7 +12,7 @@ from tvimdesign.report.output.results_format import Conflict, Optimum, SideEntry
 from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
 from tvimdesign.solve.nlp.solution import ConflictSet, Side, Start
-from tvimdesign.solve.optimizer.statuses import FEASIBLE, meaning
+from tvimdesign.solve.nlp.solver_run import FEASIBLE, meaning
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 

@@ -15,11 +15,9 @@ from tvimdesign.report.output.number_format import finite, number_entry
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import Yield
-from tvimdesign.solve.uncertainty.contributors import contributors_of
-from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel
+from tvimdesign.solve.uncertainty.design_uncertainty import DRAWS, DesignUncertainty, UncertaintyModel, sobol_points
 from tvimdesign.solve.uncertainty.intervals import Interval, Swing
-from tvimdesign.solve.uncertainty.sobol_points import sobol_points
-from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput
+from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput, contributors_of
 from tvimdesign.study import Study, standard_tolerances
 from tvimdesign.study.design import Design
 

@@ -10,7 +10,7 @@ from tvimdesign.device import Table
 from tvimdesign.report.output.progress import duration
 from tvimdesign.report.output.tables import number, percent
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached
-from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
+from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.result import StudyResult
 
 _DIGITS = 3

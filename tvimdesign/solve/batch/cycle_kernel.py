@@ -17,8 +17,7 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.device import Event, Path, Steady
 from tvimdesign.engine.vectors import LANES
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
-from tvimdesign.solve.batch.phase_kernel import Course, Passage, PhaseKernel
-from tvimdesign.solve.batch.steps import Fit, Steps
+from tvimdesign.solve.batch.phase_kernel import Course, Fit, Passage, PhaseKernel, Steps
 
 Array = NDArray[np.float64]
 

@@ -1,4 +1,7 @@
-"""One phase of the working cycle for a block of designs: stepped together, each to its own events."""
+"""One phase of the working cycle for a block of designs: stepped together, each to its own events.
+
+Division of the time of a phase into steps, and its dependence on the design.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,6 @@ from tvimdesign.engine.lanes import evaluate, lanes_of
 from tvimdesign.engine.tape import Tape
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_functions import PhaseFunctions
-from tvimdesign.solve.batch.steps import LONGEST, Fit, Steps
 
 Array = NDArray[np.float64]
 
@@ -261,3 +263,50 @@ def _peak(times: Array, values: Array) -> Array:
         over = np.where((k == middle) & (bend < 0.0) & (c > b), -0.25 * slope**2 / bend, 0.0)
     peaks: Array = (np.take_along_axis(values, k, 1) + over)[:, 0]
     return peaks
+
+
+_LATE, _GROWTH = 2.0, 1.07
+"""Times the pace after which steps grow, for the designs that have not ended, and by how much each."""
+LONGEST = 2.0
+"""How much longer or shorter than another a design is taken to be at most."""
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Division of time into steps."""
+
+    of_pace: int
+    """Steps in the time the study's own design takes."""
+    first: float
+    """Length of the first step over the others'."""
+    growth: float
+    """What each of the first steps is longer by, until they are as long as the others."""
+
+    def lengths(self, pace: float, horizon: float) -> Array:
+        """Return the lengths of all steps up to the horizon."""
+        usual = pace / self.of_pace
+        step, time, taken = self.first * usual, 0.0, list[float]()
+        while time < horizon:
+            taken.append(min(step, horizon - time))
+            time += taken[-1]
+            step = step * _GROWTH if time > _LATE * pace else min(self.growth * step, usual)
+        return np.array(taken)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Course of designs near a given one through a phase."""
+
+    steps: Steps
+    about: Array
+    """Moving inputs of that one."""
+    slopes: Array
+    """By how much the time of a phase changes with each, both as shares."""
+    shares: Mapping[str, float]
+    """When each event happens, as a share of that time."""
+
+    def scales(self, columns: Array) -> Array:
+        """About how long designs take, as a share of the time of that one."""
+        off = np.divide(columns, self.about[:, None], out=np.ones(columns.shape), where=self.about[:, None] != 0.0)
+        factors: Array = np.clip(1.0 + (self.slopes[:, None] * (off - 1.0)).sum(axis=0), 1.0 / LONGEST, LONGEST)
+        return factors

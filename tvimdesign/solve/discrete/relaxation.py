@@ -11,18 +11,20 @@ import numpy as np
 
 from tvimdesign.solve.discrete.discrete_choices import Box, Sizes, is_one
 from tvimdesign.solve.infeasibility.conflict_set import SecondTry
-from tvimdesign.solve.infeasibility.feasibility_screen import NOWHERE, FeasibilityScreen
-from tvimdesign.solve.infeasibility.wide_search import best_drawn, designs_all_over, least_broken
+from tvimdesign.solve.infeasibility.feasibility_screen import (
+    NOWHERE,
+    FeasibilityScreen,
+    best_drawn,
+    designs_all_over,
+    least_broken,
+)
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, SolverEffort, same_optimum
-from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
-from tvimdesign.solve.optimizer.box_search import BoxSearch
-from tvimdesign.solve.optimizer.constant_current_optimum import ConstantCurrentOptimum
+from tvimdesign.solve.nlp.solver_run import FEASIBLE, NO_DESIGN, NO_MODULE, Array, Ends, Run
+from tvimdesign.solve.optimizer.multistart import FEW
 from tvimdesign.solve.optimizer.neighboring_optima import NeighboringOptima
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.starting_points import FEW
-from tvimdesign.solve.optimizer.statuses import FEASIBLE, NO_DESIGN, NO_MODULE
-from tvimdesign.solve.optimizer.within_horizon import ending_in_time
+from tvimdesign.solve.optimizer.refinements import BoxSearch, ConstantCurrentOptimum, ending_in_time
 
 _CLOSE = 0.02
 """Share of its scale by which the run nearby may break a limit in the box for a warm run to be tried before it is asked

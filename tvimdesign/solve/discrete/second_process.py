@@ -24,7 +24,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.solve.discrete.box_tasks import Answer, OneProcess, Task, answer
 from tvimdesign.solve.discrete.discrete_choices import Box
 from tvimdesign.solve.discrete.relaxation import Relaxation
-from tvimdesign.solve.discrete.sent_trees import ProblemSpec, SearchState
+from tvimdesign.solve.discrete.trees import ProblemSpec, SearchState
 from tvimdesign.solve.nlp.solution import SolverEffort
 from tvimdesign.study import Study
 

@@ -19,9 +19,8 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.solve.infeasibility.elastic_mode import FEASIBILITY_TOL, ElasticMode, ElasticSolution
 from tvimdesign.solve.nlp.constraints import Constraint, in_words, make_constraint
 from tvimdesign.solve.nlp.solution import ConflictSet, Side
-from tvimdesign.solve.nlp.solver_run import Array, Progress, Run
+from tvimdesign.solve.nlp.solver_run import FEASIBLE, Array, Progress, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import FEASIBLE
 
 _HEAVY = 100.0
 """What breaking a rule of the machine costs against a requirement of the study, or a limit that is to hold."""

@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 
 from tvimdesign.solve.nlp.ipopt import ProgrammeSolver, solver_of
-from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Problem
-from tvimdesign.solve.nlp.problem_parts import Parameters, Point
+from tvimdesign.solve.nlp.problem_parts import Objective, Parameters, Point
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 

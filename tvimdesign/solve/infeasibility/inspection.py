@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.solve.nlp.constraints import constraints_of, in_words, is_constant
-from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Problem
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solver_run import Array
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 

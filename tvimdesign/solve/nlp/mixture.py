@@ -3,10 +3,13 @@
 Each record has a share between 0 and 1, and the shares add up to one. A number of the device is the sum of the records'
 numbers times their shares, and so is an output that reads a record's table. Where one share is one, the device is that
 of the record; no combination of records lies outside the hull, so what is best in it bounds them all.
+
+The records and options a study lists to choose from, and the study with some of them chosen.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,8 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.device import Table
+from tvimdesign.device import Input, Table
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.study import Options, Study
 
 Array = NDArray[np.float64]
 
@@ -100,3 +104,26 @@ def shared(shares: Array) -> Array:
 def _sum(mixture: Mixture, known: Mapping[str, Any], values: Sequence[Any]) -> Any:
     """Values weighted by the records' shares."""
     return sum(known[share] * value for share, value in zip(mixture.shares, values, strict=True))
+
+
+def listed_records(study: Study, table: Table) -> dict[str, list[str]]:
+    """Return the records and options a study lists, by the choice's name."""
+    return {
+        name: [str(value) for value in vary.values]
+        for name, vary in study.vary.items()
+        if isinstance(vary, Options) and not isinstance(table.quantity(name), Input)
+    }
+
+
+def discrete_records(study: Study, table: Table) -> list[dict[str, str]]:
+    """Return every combination of listed records and options; one empty combination if none is listed."""
+    listed = listed_records(study, table)
+    return [dict(zip(listed, combination, strict=True)) for combination in itertools.product(*listed.values())]
+
+
+def with_records(study: Study, records: Mapping[str, str]) -> Study:
+    """Return the study with some records chosen."""
+    if not records:
+        return study
+    vary = {name: value for name, value in study.vary.items() if name not in records}
+    return study.model_copy(update={"module": {**study.module, **records}, "vary": vary})

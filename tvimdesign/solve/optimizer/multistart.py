@@ -1,4 +1,7 @@
-"""Starts of searches: the study's own start, and points between the bounds whose switch ends."""
+"""Starts of searches: the study's own start, and points between the bounds whose switch ends.
+
+Points spread over the unit cube, seeded: where a search begins besides the study's own start.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,6 @@ from tvimdesign.solve.nlp.constraints import impossible, on_cycle
 from tvimdesign.solve.nlp.mixture import MixedDevice
 from tvimdesign.solve.nlp.problem import Problem
 from tvimdesign.solve.nlp.solver_run import Array, Progress
-from tvimdesign.solve.optimizer.starting_points import unit_points
 from tvimdesign.study import SolverOptions
 
 MAX_DRAWS = 100
@@ -149,3 +151,24 @@ class Multistart:
         except SimulationError:
             return None
         return cycle if all(0.0 < cycle[event] < np.inf for event in self.problem.events) else None
+
+
+FEW = 16
+"""Starts up to which points are simply drawn: for as few a sequence that fills the cube evenly has no merit yet."""
+
+
+def unit_points(starts: int, size: int, seed: int) -> Iterator[NDArray[np.float64]]:
+    """Endless points between 0 and 1 for a search with so many starts; the same ones for the same seed.
+
+    Many starts follow a scrambled Sobol sequence (Owen's scrambling, scipy), which leaves no part of the ranges out.
+    """
+    if starts <= FEW:
+        random = np.random.default_rng(seed)
+        while True:
+            yield random.random(size)
+    from scipy.stats import qmc  # half a second of import that few starts do without
+
+    sequence = qmc.Sobol(size, rng=np.random.default_rng(seed))
+    batch = 1 << (starts - 1).bit_length()  # a power of two, as the sequence is even over those
+    while True:
+        yield from sequence.random(batch)

@@ -15,9 +15,8 @@ import numpy as np
 
 from tvimdesign.device import Input
 from tvimdesign.solve.nlp.solution import SAME_OPTIMUM, Start, same_optimum
-from tvimdesign.solve.nlp.solver_run import Run
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 
 SHAKES, SHAKE = 3, 0.1
 """Searches beside the best optimum, and how far off they begin, as a share of each range: `paper_shear` is 0.6 % better

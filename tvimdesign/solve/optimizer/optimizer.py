@@ -20,13 +20,11 @@ from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, co
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
 from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
-from tvimdesign.solve.nlp.objective import Objective
 from tvimdesign.solve.nlp.problem import Problem
-from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Parameters, Point
+from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters, Point
 from tvimdesign.solve.nlp.solution import Start
-from tvimdesign.solve.nlp.solver_run import Array, Derivatives, Ends, Progress, Run, Trace
+from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Derivatives, Ends, Progress, Run, Trace
 from tvimdesign.solve.optimizer.multistart import Multistart
-from tvimdesign.solve.optimizer.statuses import NO_DESIGN
 from tvimdesign.study import ProfileOptions, Range, Study, given
 
 SETTLED = 1e-4

@@ -13,8 +13,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.device import Input
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
-from tvimdesign.solve.nlp.objective import Objective
-from tvimdesign.solve.nlp.problem_parts import Free
+from tvimdesign.solve.nlp.problem_parts import Free, Objective
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import Range, Study, given

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from tvimdesign.solve.nlp.objective import Bound, Objective
+from tvimdesign.solve.nlp.problem_parts import Bound, Objective
 from tvimdesign.solve.nlp.solver_run import Trace
 from tvimdesign.solve.pareto import front_shape as shape
 from tvimdesign.solve.pareto.front_shape import Frame

@@ -14,11 +14,10 @@ from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, in_words, on_cycle
-from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import Solution
-from tvimdesign.solve.nlp.solver_run import Progress, Run, Trace
+from tvimdesign.solve.nlp.solver_run import Progress, Run, Trace, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import meaning
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
 from tvimdesign.study import Options, Study
 

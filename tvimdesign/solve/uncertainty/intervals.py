@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.solve.nlp.spread import Columns
-from tvimdesign.solve.uncertainty.unmeasured import UnmeasuredInput
+from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
 
 Array = NDArray[np.float64]
 

@@ -12,14 +12,13 @@ from tvimdesign.base.errors import TimeOverError
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, on_cycle
-from tvimdesign.solve.nlp.moments import moments_at
-from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
-from tvimdesign.solve.nlp.solver_run import Ends, Run
+from tvimdesign.solve.nlp.solver_run import MARGINS, Ends, Run
+from tvimdesign.solve.nlp.spread import moments_at
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import MARGINS
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
-from tvimdesign.solve.uncertainty.contributors import contributors_of
+from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of
 from tvimdesign.solve.uncertainty.yield_search import HALVINGS, Robust, reach_yield
 
 ROUNDS = 6

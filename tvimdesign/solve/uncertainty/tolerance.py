@@ -14,7 +14,7 @@ from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
-from tvimdesign.solve.uncertainty.contributors import FREE_ANGLE, contributors_of
+from tvimdesign.solve.uncertainty.uncertain_inputs import FREE_ANGLE, contributors_of
 
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]

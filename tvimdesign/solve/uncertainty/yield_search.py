@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import SimulationError, TimeOverError
-from tvimdesign.solve.nlp.objective import Objective
+from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
-from tvimdesign.solve.nlp.solver_run import Array, Ends, Run
+from tvimdesign.solve.nlp.solver_run import MARGINS, NO_DESIGN, Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.solve.optimizer.statuses import MARGINS, NO_DESIGN
 from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
 
 ROUNDS, PREDICTIONS = 4, 5

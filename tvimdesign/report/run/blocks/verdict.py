@@ -27,7 +27,7 @@ from tvimdesign.report.output.axis_labels import in_labels, label
 from tvimdesign.report.output.tables import margin_text, number, percent
 from tvimdesign.report.run.blocks.warnings import RunWarning
 from tvimdesign.report.run.yield_words import yield_of
-from tvimdesign.solve.optimizer.statuses import BELOW_YIELD
+from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 TARGET = 0.95

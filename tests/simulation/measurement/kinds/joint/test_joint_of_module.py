@@ -15,7 +15,7 @@ from tvimdesign.catalog import Catalog
 from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import JointOfModule
 from tvimdesign.simulation.measurement.record_file import write_records
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
-from tvimdesign.solve.uncertainty.unmeasured import unmeasured_inputs
+from tvimdesign.solve.uncertainty.uncertain_inputs import unmeasured_inputs
 from tvimdesign.study import read_study
 
 STUDY = ROOT / "studies" / "paper_as_published.yaml"
