@@ -83,7 +83,7 @@ SPRUNG_BEARINGS = BEARINGS | {
 }
 SPRUNG_BLOCKS = BLOCKS | {"axial_preload": "wave_17x21"}
 # Two rectangular Peltier modules of 20 by 10 mm below each of three arcs, and a spreader on them.
-TILES = {"peltier_module": "ma10_063_05_1", "tiles_per_arc": 2, "arc_count": 3, "arc_span": 1.7,
+TILES = {"peltier_module": "ma10_063_05_1", "tiles_per_arc": 2, "arc_count": 3, "arc_span": 1.95,
          "floor_thickness": 6.5 * MM}  # fmt: skip
 # In compression: one of 15 by 15 mm behind each of eight blocks, or two of 11.4 by 11.4 mm; springs as tall as these.
 VANE_TILES = {

@@ -18,7 +18,7 @@ from tvimdesign.cad.inspection.size_checks import interference_checks, size_chec
 from tvimdesign.cad.parts import shear_parts
 from tvimdesign.study.design import Design
 
-KINDS = ("housing", "peltier_pad", "spreader", "pcl_arc")
+KINDS = ("housing", "peltier_pad", "heater_lead", "spreader", "pcl_arc")
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
 ) -> None:
     assert broken_rules(design) == []
     counts = {kind: sum(kind_of(name) == kind for name in placed) for kind in KINDS}
-    assert counts == {"housing": 1, "peltier_pad": 6, "spreader": 3, "pcl_arc": 3}
+    assert counts == {"housing": 1, "peltier_pad": 6, "heater_lead": 12, "spreader": 3, "pcl_arc": 3}
     named = [f"{kind}_volume" for kind in KINDS]
     sizes = {check.name: check for check in size_checks(design, placed) if check.name in named}
     assert sorted(sizes) == sorted(named)
@@ -60,9 +60,7 @@ def test_each_tile_stands_over_an_open_window_under_the_spreader(dims: Dimension
         assert not placed["housing"].isInside(below), f"{name} has no window"
 
 
-def test_a_hole_for_wires_goes_through_the_floor_at_both_ends_of_each_arc(
-    dims: Dimensions, placed: dict[str, cq.Solid]
-) -> None:
+def test_each_arc_has_a_hole_for_its_thermistor(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     across = 0.25 * pi * dims.lead_hole_diameter**2
     level = -0.5 * (dims.floor_thickness + dims.pad_depth)
     plane = cq.Face.makePlane(200.0, 200.0, cq.Vector(0, 0, level), cq.Vector(0, 0, 1))
@@ -71,11 +69,35 @@ def test_a_hole_for_wires_goes_through_the_floor_at_both_ends_of_each_arc(
     holes = [wire for wire in inner if abs(cq.Face.makeFromWires(wire).Area() - across) < 1e-3 * across]
     radii = [cq.Face.makeFromWires(wire).Center().toTuple()[:2] for wire in holes]
     at = [hole for hole in radii if abs((hole[0] ** 2 + hole[1] ** 2) ** 0.5 - dims.tile_radius) < 1e-6]
-    assert len(at) == 6
+    assert len(at) == 3
+
+
+def test_bent_leads_go_down_through_their_slots(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
+    leads = [solid for name, solid in placed.items() if kind_of(name) == "heater_lead"]
+    assert len(leads) == 12
+    # A bend of 2.4 mm wire, 4.8 mm inside: a torus by Pappus.
+    box, way = leads[0].BoundingBox(), 2.0 * 6.0 * dims.lead_bend_angle
+    assert leads[0].Volume() == pytest.approx(0.25 * pi * 2.4**2 * way, rel=1e-6)
+    assert box.zmin == pytest.approx(-dims.floor_thickness - dims.foot_height, abs=1e-6)
+    for lead in leads:
+        assert lead.distance(placed["housing"]) > 0.1
+        tiles = [placed[f"peltier_pad_{index}"] for index in range(1, 7)]
+        assert min(lead.distance(tile) for tile in tiles) == pytest.approx(0.0, abs=1e-6)  # it begins there
+
+
+def test_the_colder_plate_is_a_porch_shorter_and_lies_on_ledges_all_round(
+    dims: Dimensions, placed: dict[str, cq.Solid]
+) -> None:
+    tile = placed["peltier_pad_1"]
+    faces = sorted(tile.Faces(), key=lambda face: face.Center().z)
+    assert faces[-1].Area() == pytest.approx(200.0)
+    assert faces[0].Area() == pytest.approx(180.0)
+    seat = tile.moved(cq.Location(cq.Vector(0, 0, -0.1))).intersect(placed["housing"]).Volume() / 0.1
+    assert seat == pytest.approx(180.0 - (18.0 - 4.0) * 6.0 + (4.0 - pi) * dims.corner_radius**2, rel=1e-6)
 
 
 def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:
-    crowded = design_of("crowded", TILES | {"arc_span": 1.5})
+    crowded = design_of("crowded", TILES | {"arc_span": 1.4})
     assert "tile_side_margin" in broken_rules(crowded)
     dims = dimensions(crowded)
     drawn = {kind: drawn_part(dims, kind) for kind in ("peltier_pad", "pcl_arc", "spreader")}
@@ -96,7 +118,7 @@ def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list(design: Des
     listed = {item.kind: item for item in beside(design, {})}
     assert listed["thermistor"].quantity == 3
     assert "120 °C" in listed["thermistor"].title
-    assert "2.5 mm" in listed["thermistor"].title
+    assert "2.7 mm" in listed["thermistor"].title
     assert "heat_conducting_adhesive" in listed
     of_a_pad = {item.kind: item for item in beside(design_of("paper", {}), {})}
     assert (of_a_pad["thermistor"].quantity, "hole" in of_a_pad["thermistor"].title) == (1, False)

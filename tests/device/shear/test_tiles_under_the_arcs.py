@@ -19,7 +19,7 @@ from tvimdesign.study import given, read_study_text
 MM = 1e-3
 TABLE = table_for("shear")
 TILES = {
-    "peltier_module": "ma10_063_05_1", "tiles_per_arc": 2.0, "arc_count": 3.0, "arc_span": 1.7,
+    "peltier_module": "ma10_063_05_1", "tiles_per_arc": 2.0, "arc_count": 3.0, "arc_span": 1.95,
     "floor_thickness": 6.5 * MM,
 }  # fmt: skip
 
@@ -77,6 +77,10 @@ def test_margins_are_the_gaps_of_the_rectangles_beyond_the_clearance(tiles: floa
     [
         ("tile_radial_margin", {"pcl_outer_radius": 36 * MM}),
         ("tile_side_margin", {"tiles_per_arc": 3.0}),
+        ("lead_tile_margin", {"arc_span": 1.9}),
+        ("lead_slot_end_margin", {"arc_span": 1.8}),
+        ("lead_hole_margin", {"lead_hole_diameter": 2.5 * MM}),
+        ("lead_ground_gap", {"foot_height": 2.0 * MM}),
         ("window_depth", {"window_ledge": 5.5 * MM}),
         ("floor_web_margin", {"spreader_thickness": 2.5 * MM}),
     ],

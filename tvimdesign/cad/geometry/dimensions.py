@@ -87,11 +87,12 @@ def dimensions_of(mode: str, given: Mapping[str, float], choices: Mapping[str, s
     table = table_for(mode)
     rows: list[Input | Output] = [*table.inputs, *table.outputs]
     units = {row.name: row.unit for row in rows if row.unit in _SCALE}
-    values = {**given, **table.evaluate(given, [row.name for row in table.outputs if _unprinted(row)])}
+    known = {**given, **choices}
+    values = {**given, **table.evaluate(known, [row.name for row in table.outputs if _unprinted(row)])}
     lengths = {name: value * _SCALE[units[name]] for name, value in values.items() if name in units}
     for row in table.outputs:
         if row.name.endswith(HOLES):
-            lengths |= _circles(row.name, table.evaluate({**given, **choices}, [row.name])[row.name])
+            lengths |= _circles(row.name, table.evaluate(known, [row.name])[row.name])
     return Dimensions(mode, lengths)
 
 

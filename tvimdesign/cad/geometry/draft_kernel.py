@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
+from manifold3d import Mesh as ManifoldMesh
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.geometry.exact_kernel import Outline, Point, Segment, placement
+from tvimdesign.cad.geometry.exact_kernel import Arc, Outline, Point, Segment, placement
 
 CHORD = 0.2
 """Largest distance of a polygon from its circle [mm]."""
@@ -93,6 +94,22 @@ class DraftKernel:
             section -= _section(outline)
         return _upright(section, bottom, top)
 
+    def tube(self, radius: float, path: Sequence[Arc]) -> DraftSolid:
+        """Draw a round wire along arcs that follow each other without a kink."""
+        ring = corners_of(radius)
+        around = 2.0 * pi * np.arange(ring) / ring
+        rings: list[Array] = []
+        for start, centre, axis, angle in path:
+            out, unit = np.subtract(start, centre), np.asarray(axis) / np.linalg.norm(axis)
+            reach = float(np.linalg.norm(out))
+            section = np.outer(np.cos(around), out / reach) + np.outer(np.sin(around), unit)
+            for turn in np.linspace(0.0, angle, _corners(reach, abs(angle)) + 2)[(1 if rings else 0) :]:
+                points = out + radius * section
+                across = np.outer(points @ unit, unit)
+                turned = across + np.cos(turn) * (points - across) + np.sin(turn) * np.cross(unit, points)
+                rings.append(np.asarray(centre) + turned)
+        return DraftSolid(_skinned(rings))
+
     def rounded(self, body: DraftSolid, radius: float) -> DraftSolid:
         """Draw an upright body with every upright edge rounded. Raises GeometryError where that leaves nothing."""
         placed = body.placed
@@ -104,6 +121,22 @@ class DraftKernel:
         if section.is_empty():
             raise GeometryError(f"corners of {radius:.4g} mm do not fit; choose a smaller corner_radius")
         return _upright(section, bottom, top)
+
+
+def _skinned(rings: Sequence[Array]) -> Manifold:
+    """Return the body between rings of as many points, closed at both ends; outwards either way round."""
+    count, last = len(rings[0]), (len(rings) - 1) * len(rings[0])
+    here, after = np.arange(count), (np.arange(count) + 1) % count
+    sides = [
+        np.concatenate([np.stack((a + here, a + after, b + after), -1), np.stack((a + here, b + after, b + here), -1)])
+        for a, b in ((i * count, (i + 1) * count) for i in range(len(rings) - 1))
+    ]
+    fan = np.arange(1, count - 1)
+    ends = [np.stack((0 * fan, fan + 1, fan), -1), last + np.stack((0 * fan, fan, fan + 1), -1)]
+    faces = np.concatenate([*sides, *ends]).astype(np.uint32)
+    mesh = ManifoldMesh(np.concatenate(rings).astype(np.float32), faces)
+    body = Manifold(mesh)
+    return body if body.volume() > 0.0 else Manifold(ManifoldMesh(mesh.vert_properties, faces[:, ::-1].copy()))
 
 
 def corners_of(radius: float) -> int:

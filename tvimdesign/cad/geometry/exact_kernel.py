@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import sqrt
+from math import pi, sqrt
 from typing import Any, Protocol
 
 import cadquery as cq
@@ -16,6 +16,8 @@ from tvimdesign.base.errors import GeometryError
 Point = tuple[float, float]
 Segment = tuple[Point, Point] | tuple[Point, Point, Point]
 """A line from point to point, or an arc through three."""
+Arc = tuple[Sequence[float], Sequence[float], Sequence[float], float]
+"""An arc in space: its start, a point on the axis that it turns about, that axis, and the angle [rad]."""
 Outline = float | Sequence[Segment]
 """A circle about the axis by its radius, or segments that close."""
 
@@ -37,6 +39,9 @@ class Kernel(Protocol):
 
     def prism(self, outside: Outline, inside: Sequence[Outline], bottom: float, top: float) -> Any:
         """Draw what lies within an outline, less what lies within others."""
+
+    def tube(self, radius: float, path: Sequence[Arc]) -> Any:
+        """Draw a round wire along arcs that follow each other without a kink."""
 
     def rounded(self, body: Any, radius: float) -> Any:
         """Draw a body with every upright edge rounded. Raises GeometryError where that does not fit."""
@@ -87,6 +92,15 @@ class ExactKernel:
         """Draw what lies within an outline, less what lies within others."""
         inner = [_wire(outline, bottom) for outline in inside]
         return cq.Solid.extrudeLinear(_wire(outside, bottom), inner, cq.Vector(0, 0, top - bottom))
+
+    def tube(self, radius: float, path: Sequence[Arc]) -> cq.Solid:
+        """Draw a round wire along arcs that follow each other without a kink."""
+        bends = []
+        for start, centre, axis, angle in path:
+            at, middle, along = (cq.Vector(*point) for point in (start, centre, axis))
+            ring = cq.Wire.makeCircle(radius, at, along.cross(at - middle))
+            bends.append(cq.Solid.revolve(ring, [], angle * 180.0 / pi, middle, middle + along))
+        return bends[0].fuse(*bends[1:]) if len(bends) > 1 else bends[0]
 
     def rounded(self, body: cq.Shape, radius: float) -> cq.Solid:
         """Draw one solid of a body with every upright edge rounded. Raises GeometryError where that does not fit."""

@@ -14,7 +14,7 @@ from math import acos, asin, cos, pi, sin, sqrt, tan
 import cadquery as cq
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.geometry.exact_kernel import ExactKernel, Kernel, Point, Segment
+from tvimdesign.cad.geometry.exact_kernel import Arc, ExactKernel, Kernel, Point, Segment
 
 _UP = cq.Vector(0, 0, 1)
 _EXACT: Kernel = ExactKernel()
@@ -225,6 +225,12 @@ def slot(half_width: float, length: float, bottom: float, top: float) -> cq.Soli
         (corners[3], (-b, 0.0), corners[0]),
     ]
     return _KERNEL.get().prism(outline, [], bottom, top)
+
+
+def tube(radius: float, path: Sequence[Arc]) -> cq.Solid:
+    """Draw a round wire along arcs in space that follow each other without a kink."""
+    _require(radius=radius)
+    return _KERNEL.get().tube(radius, path)
 
 
 def join(body: cq.Shape, others: Iterable[cq.Shape]) -> cq.Shape:

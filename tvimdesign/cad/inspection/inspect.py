@@ -14,8 +14,8 @@ from tvimdesign.cad.assembly.assembly_data import instances
 from tvimdesign.cad.cad_report import SolidCheck, at_least, at_most, finding
 from tvimdesign.cad.export.mesh import Mesh, solid_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.features import holes
-from tvimdesign.cad.geometry.kinds import PRODUCTION, supported_levels
+from tvimdesign.cad.geometry.features import holes, tight_box
+from tvimdesign.cad.geometry.kinds import PRODUCTION, kind_of, supported_levels
 from tvimdesign.cad.geometry.solids import cylinder, polar
 from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coil
 from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
@@ -122,6 +122,44 @@ def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[Sol
         yield finding(kind, "goes into its pocket", gap, wanted, "mm", level, text)
 
 
+_WIRES = {
+    "heater_lead": ("peltier_pad",),
+    "thermal_cutout": ("peltier_pad",),
+    "thermistor": ("peltier_pad", "spreader", "pcl_arc", "pcl_block"),
+}
+"""Bought parts with wires, drawn with these, and what they touch on purpose."""
+_INSULATED = 0.1
+"""Least gap between a wire and what it must not touch [mm]: a film of insulation."""
+
+
+def bought_checks(placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
+    """Compare the envelope of bought parts, wires included, with the room that all others leave them."""
+    boxes = {name: tight_box(solid) for name, solid in placed.items()}
+    for kind, touched in _WIRES.items():
+        names = [name for name in placed if kind_of(name) == kind]
+        gaps = [
+            (placed[name].distance(placed[other]), name, other)
+            for name in names
+            for other in placed
+            if other != name and kind_of(other) not in touched and _near(boxes[name], boxes[other])
+        ]
+        if not names:
+            continue
+        gap, name, other = min(gaps, default=(_INSULATED, names[0], "all others"))
+        text = f"{gap:.3g} mm between {name} and {other}, wires as they are bought; {_INSULATED:g} are wanted"
+        level = at_least(gap, _INSULATED - _ROUNDING)
+        yield finding(kind, "fits_as_bought", gap, _INSULATED, "mm", level, text, place=placed[name].Center().toTuple())
+
+
+def _near(first: cq.BoundBox, second: cq.BoundBox) -> bool:
+    """Return whether two boxes are within the least gap of each other."""
+    return all(
+        getattr(first, f"{axis}min") < getattr(second, f"{axis}max") + _INSULATED
+        and getattr(second, f"{axis}min") < getattr(first, f"{axis}max") + _INSULATED
+        for axis in "xyz"
+    )
+
+
 def _off(dims: Dimensions, kind: str, solid: cq.Solid) -> cq.Vector:
     """Return from what a part lies on: off the floor, off the plate, or sideways off its vane and up from the floor."""
     if dims.mode == "shear":
@@ -172,6 +210,7 @@ def module_checks(
     yield from thread_checks(dims, drawn)
     placed = place(dims, drawn)
     yield from fit_checks(dims, placed)
+    yield from bought_checks(placed)
     yield from order_checks(dims, instances(dims, drawn, placed, known))
 
 

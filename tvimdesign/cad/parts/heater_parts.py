@@ -5,13 +5,13 @@ Parts of the shear module are centred on the x axis, as an arc is; those in vane
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from math import sqrt, tan
+from collections.abc import Callable, Mapping, Sequence
+from math import sin, sqrt, tan
 
 import cadquery as cq
 
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.solids import block, cylinder, polar, rounded, sector, turned, wedge
+from tvimdesign.cad.geometry.solids import block, cylinder, join, polar, rounded, sector, tube, turned, wedge
 
 _SIDES = (1.0, -1.0)
 """Of a vane's faces."""
@@ -22,6 +22,7 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
     in_arcs = dims.mode == "shear"
     return {
         **({"spreader": arc_spreader if in_arcs else vane_spreader} if dims.spreader_depth else {}),
+        **({"heater_lead": heater_lead} if in_arcs and dims.spreader_depth else {}),
         **({"thermistor": bead_by_arc if in_arcs else bead_by_vane} if dims.thermistor_diameter else {}),
         **({"liner": _liner_on_arc if in_arcs else _liner_on_vane} if dims.liner_depth else {}),
         **({"thermal_cutout": cutout} if dims.cutout_diameter else {}),
@@ -32,10 +33,33 @@ def drawn(dims: Dimensions) -> dict[str, Callable[[Dimensions], cq.Shape]]:
 
 
 def arc_tile(dims: Dimensions) -> cq.Shape:
-    """Draw one tile on the x axis, its length across that."""
-    half = 0.5 * dims.peltier_width
+    """Draw one tile on the x axis, its length across that: two plates, the lower one without the porch of the leads."""
+    half, middle = 0.5 * dims.peltier_width, dims.lead_level
     along_x = (dims.tile_radius - half, dims.tile_radius + half)
-    return block(along_x, dims.peltier_length, -dims.pad_depth, -dims.spreader_depth)
+    if not dims.peltier_porch:
+        return block(along_x, dims.peltier_length, -dims.pad_depth, -dims.spreader_depth)
+    upper = block(along_x, dims.peltier_length, middle, -dims.spreader_depth)
+    lower = turned(block(along_x, dims.cold_plate_length, -dims.pad_depth, middle), 0.0, 0.5 * dims.peltier_porch)
+    return join(upper, [lower])
+
+
+def heater_lead(dims: Dimensions) -> cq.Shape:
+    """Draw one lead of a tile on the x axis from the tile's end to the ground, in the middle of its slot."""
+    radius, angle, level = dims.lead_bend_radius, dims.lead_bend_angle, dims.lead_level
+    x, end = dims.lead_slot_radius, -0.5 * dims.peltier_length
+    run, drop = 2.0 * radius * sin(angle), dims.lead_drop
+    down = ((x, end, level), (x, end, level - radius), (1.0, 0.0, 0.0), angle)
+    ground = (x, end - run, level - drop + radius)
+    back = ((x, end - 0.5 * run, level - 0.5 * drop), ground, (-1.0, 0.0, 0.0), angle)
+    return tube(0.5 * dims.lead_diameter, [down, back])
+
+
+def leads_of_tiles(dims: Dimensions, lead: cq.Solid, azimuths: Sequence[float]) -> dict[str, cq.Shape]:
+    """Place both leads of the tiles at some azimuths [rad], by name."""
+    apart = 0.25 * dims.lead_slot_width
+    pair = [lead.moved(cq.Location(cq.Vector(side * apart, 0.0, 0.0))) for side in _SIDES]
+    leads = [turned(bent, azimuth) for azimuth in azimuths for bent in pair]
+    return {f"heater_lead_{index + 1}": bent for index, bent in enumerate(leads)}
 
 
 def arc_spreader(dims: Dimensions) -> cq.Shape:
@@ -51,14 +75,22 @@ def tile_azimuths(dims: Dimensions) -> list[float]:
 
 
 def tile_openings(dims: Dimensions) -> list[cq.Shape]:
-    """Draw what goes through the floor below the pocket of one arc: a window below each tile, holes for leads."""
+    """Draw what goes through the floor below the pocket of one arc: a window and a slot for leads at each tile, and a
+    hole for a thermistor."""
     top, bottom = -dims.pad_depth, -dims.floor_thickness
-    half = 0.5 * dims.peltier_width - dims.window_ledge
-    along_x = (dims.tile_radius - half, dims.tile_radius + half)
-    window = rounded(block(along_x, dims.peltier_length - 2.0 * dims.window_ledge, bottom, top), dims.corner_radius)
-    ends = 0.5 * (dims.arc_span - dims.lead_angle)
-    holes = [cylinder(0.5 * dims.lead_hole_diameter, bottom, top, polar(dims.tile_radius, at)) for at in (-ends, ends)]
-    return [*(turned(window, azimuth) for azimuth in tile_azimuths(dims)), *holes]
+    window = _opening(dims, dims.tile_radius, dims.peltier_width - 2.0 * dims.window_ledge, dims.window_width)
+    middle = -0.5 * (dims.peltier_length + dims.lead_slot_length)
+    slot = _opening(dims, dims.lead_slot_radius, dims.lead_slot_width, dims.lead_slot_length)
+    at = polar(dims.tile_radius, 0.5 * (dims.arc_span - dims.lead_angle))
+    hole = cylinder(0.5 * dims.lead_hole_diameter, bottom, top, at)
+    openings = [turned(window, 0.0, 0.5 * dims.peltier_porch), turned(slot, 0.0, middle)]
+    return [*(turned(opening, azimuth) for azimuth in tile_azimuths(dims) for opening in openings), hole]
+
+
+def _opening(dims: Dimensions, radius: float, across: float, along: float) -> cq.Shape:
+    """Draw a rectangle through the floor below the pockets, its middle on the x axis."""
+    along_x = (radius - 0.5 * across, radius + 0.5 * across)
+    return rounded(block(along_x, along, -dims.floor_thickness, -dims.pad_depth), dims.corner_radius)
 
 
 def vane_tile(dims: Dimensions) -> cq.Shape:
@@ -189,24 +221,28 @@ def _bead_place(dims: Dimensions) -> tuple[float, float]:
 
 
 def cutout(dims: Dimensions) -> cq.Shape:
-    """Draw the body, below what is centred on the x axis and across it."""
-    radius, length = 0.5 * dims.cutout_diameter, dims.cutout_length
+    """Draw the body and the straight part of its wires, below what is centred on the x axis and across it."""
+    half, leg = 0.5 * dims.cutout_length, 0.5 * dims.cutout_leg_diameter
+    reach = half + dims.cutout_leg_straight
+    upright = join(
+        cylinder(0.5 * dims.cutout_diameter, -half, half), [cylinder(leg, -reach, -half), cylinder(leg, half, reach)]
+    )
     under = -dims.pad_depth if fits_in_window(dims) else -dims.floor_thickness
-    lying = cq.Location(cq.Vector(dims.cutout_radius, -0.5 * length, under - radius), cq.Vector(1, 0, 0), -90)
-    return cylinder(radius, 0.0, length).moved(lying)
+    level = under - 0.5 * dims.cutout_diameter
+    if not fits_in_window(dims, dims.cutout_leg_straight + 3.0 * leg):  # wires and their bends: below the floor
+        level = min(level, -dims.floor_thickness - leg - dims.running_clearance)
+    return upright.moved(cq.Location(cq.Vector(dims.cutout_radius, 0.0, level), cq.Vector(1, 0, 0), -90))
 
 
-def fits_in_window(dims: Dimensions) -> bool:
-    """Return whether body and a running clearance around it go into the window below the first heater."""
+def fits_in_window(dims: Dimensions, beside: float = 0.0) -> bool:
+    """Return whether body and a running clearance around it go into the window below the first heater, and `beside`
+    [mm] of its wires at both ends."""
     if dims.mode != "shear":
         return False
-    half, across = (
-        0.5 * dims.cutout_length + dims.running_clearance,
-        dims.cutout_diameter + 2.0 * dims.running_clearance,
-    )
+    half = 0.5 * dims.cutout_length + dims.running_clearance + beside
+    across = dims.cutout_diameter + 2.0 * dims.running_clearance
     if dims.spreader_depth:
-        is_centred = dims.count("tiles_per_arc") % 2 == 1
-        return is_centred and dims.window_width >= 2.0 * half and dims.window_depth >= across
+        return dims.window_width >= 2.0 * half and dims.window_depth >= across
     inner, outer = dims.pcl_inner_radius + dims.window_ledge, dims.pcl_outer_radius - dims.window_ledge
     near = dims.cutout_radius - 0.5 * across
     end = 0.5 * dims.arc_span - dims.window_ledge / dims.pcl_inner_radius

@@ -113,7 +113,9 @@ def stand(dims: Dimensions, drawn: Mapping[str, cq.Solid], rotor_angle: float) -
         for kind, shape in shapes.items()
         for index, azimuth in enumerate(places[kind])
     }
-    return placed | heater_parts.stand_cutout(drawn, _azimuths(dims)[0])
+    if "heater_lead" in drawn:
+        placed |= heater_parts.leads_of_tiles(dims, drawn["heater_lead"], pads)
+    return placed | heater_parts.stand_cutout(drawn, _azimuths(dims)[0] + beside[len(beside) // 2])
 
 
 def _azimuths(dims: Dimensions) -> list[float]:

@@ -51,6 +51,12 @@ def slot_count(m: Module) -> Scalar:
     return m.tiles_per_block
 
 
+@places.output("mm^3")
+def lead_volume(m: Module) -> Scalar:
+    """Volume of leads that is drawn: none, for those of tiles in vanes go straight down their slots."""
+    return 0.0 * m.lead_diameter
+
+
 @places.output("mm")
 def tile_spacing(m: Module) -> Scalar:
     """Distance from one tile of a row to the next."""

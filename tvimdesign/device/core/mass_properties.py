@@ -200,7 +200,7 @@ def pcl_mass(m: Module) -> Scalar:
 @quantities.output("kg/m^3")
 def peltier_density(m: Module) -> Scalar:
     """Mass of the Peltier module over its volume."""
-    return m.peltier_unit_mass / (m.peltier_area * m.peltier_thickness)
+    return m.peltier_scale * m.peltier_unit_mass / m.peltier_volume
 
 
 @quantities.output("g")
@@ -211,10 +211,10 @@ def peltier_mass(m: Module) -> Scalar:
 
 @quantities.output("g", headline=True)
 def module_mass(m: Module) -> Scalar:
-    """Mass of the module with its motor, without wires and the screws that fix it."""
+    """Mass of the module with its motor, without wires beyond its floor and the screws that fix it."""
     made = m.housing_mass + m.rotor_mass + m.link_mass + m.retainer_mass + m.cover_mass + m.pcl_mass
     fasteners = m.screws_mass + m.inserts_mass + m.dowels_mass
-    heater = m.peltier_mass + m.spreader_mass + m.thermistor_mass + m.cutout_mass
+    heater = m.peltier_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
     bought = m.springs_mass + heater + m.liner_mass + fasteners + m.bearings_mass + m.preload_spring_mass
     return made + bought + m.adjusters_mass + m.drive_mass
 

@@ -235,7 +235,7 @@ def driven_inertia(m: Module) -> Scalar:
     """
     at_springs = m.placement_radius**2 + 0.25 * m.coil_diameter**2
     at_pcl = 0.5 * (m.pcl_inner_radius**2 + m.pcl_outer_radius**2)
-    on_arcs = m.pcl_mass + m.peltier_mass + m.spreader_mass + m.thermistor_mass + m.cutout_mass
+    on_arcs = m.pcl_mass + m.peltier_mass + m.spreader_mass + m.lead_mass + m.thermistor_mass + m.cutout_mass
     carried = (m.springs_mass + m.adjusters_mass) * at_springs + on_arcs * at_pcl
     cover = m.cover_section.polar * m.cover_height * m.structure_density
     return m.drive_inertia + m.housing_inertia + cover + carried

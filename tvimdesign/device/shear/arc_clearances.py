@@ -72,7 +72,7 @@ quantities.after("retainer_gap")
 @quantities.output("mm", at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
 def window_width(m: Module) -> Scalar:
     """Width of the windows below the Peltier modules, along the arc: of an arc's at its inner radius."""
-    return (m.arc_span * m.pcl_inner_radius if m.heater_form == CUT else m.peltier_length) - 2.0 * m.window_ledge
+    return (m.arc_span * m.pcl_inner_radius if m.heater_form == CUT else m.cold_plate_length) - 2.0 * m.window_ledge
 
 
 quantities.after("mount_wall_gap")

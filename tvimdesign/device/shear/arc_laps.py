@@ -52,7 +52,7 @@ def tiled_share(m: Module) -> Scalar:
 @quantities.helper(requires=WITH_TILES)
 def windowed_share(m: Module) -> Scalar:
     """Share of the same circle that the windows below rigid modules take up [1]."""
-    return m.heater_count * (m.peltier_length - 2.0 * m.window_ledge) / (2.0 * np.pi * m.tile_radius)
+    return m.heater_count * (m.cold_plate_length - 2.0 * m.window_ledge) / (2.0 * np.pi * m.tile_radius)
 
 
 @quantities.helper(requires=WITH_TILES, default=None)
@@ -93,10 +93,10 @@ def _ledge_radii(m: Module) -> tuple[Scalar, Scalar]:
 def _under_tiles_compliance(m: Module) -> Scalar:
     """Return the compliance of the floor between the ledges of rigid modules, and up to the arcs' rim [rad/(N*m)]."""
     inner, outer = _ledge_radii(m)
-    on_ledge = m.heater_count * m.peltier_length * m.window_ledge * m.peltier_shear_modulus / m.peltier_thickness
+    on_ledge = m.heater_count * m.cold_plate_length * m.window_ledge * m.peltier_shear_modulus / m.peltier_thickness
     seats = 1.0 / (on_ledge * inner**2), 1.0 / (on_ledge * outer**2)
     ribs = structure.ring_stiffness(m.structure_shear_modulus, (1.0 - m.windowed_share) * m.floor_web, inner, outer)
-    opened = m.peltier_length - 2.0 * m.window_ledge
+    opened = m.cold_plate_length - 2.0 * m.window_ledge
     hoop = structure.hoop_compliance(
         m.structure_youngs_modulus, m.floor_web * m.window_ledge, opened, m.heater_count, inner
     )

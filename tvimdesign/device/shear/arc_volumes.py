@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
+
 from tvimdesign.device.components.liner import WITH_LINER
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.table.module import Module
@@ -61,22 +63,25 @@ def _pocket_section(m: Module) -> Section:
 @quantities.output("mm^3")
 def peltier_volume(m: Module) -> Scalar:
     """Volume of all Peltier modules together: cut to the pockets' outline, or rectangular tiles."""
-    return (m.pad_section if m.heater_form == CUT else m.tile_section).area * m.peltier_thickness
+    if m.heater_form == CUT:
+        return m.pad_section.area * m.peltier_thickness
+    return m.heater_count * m.peltier_width * (m.peltier_length - 0.5 * m.peltier_porch) * m.peltier_thickness
 
 
 @quantities.helper()
 def window_section(m: Module) -> Section:
     """Plan view of the windows below the Peltier modules: arcs or tiles, less a ledge on every side, rounded."""
     if m.heater_form != CUT:
-        sides = (m.peltier_width - 2.0 * m.window_ledge, m.peltier_length - 2.0 * m.window_ledge)
-        return rectangle_at(*sides, m.tile_radius, m.corner_radius).times(m.heater_count)
+        sides = (m.peltier_width - 2.0 * m.window_ledge, m.cold_plate_length - 2.0 * m.window_ledge)
+        away = np.sqrt(m.tile_radius**2 + (0.5 * m.peltier_porch) ** 2)
+        return rectangle_at(*sides, away, m.corner_radius).times(m.heater_count)
     inner, outer = m.pcl_inner_radius + m.window_ledge, m.pcl_outer_radius - m.window_ledge
     return _rounded_sector(m.window_span, inner, outer, m.corner_radius).times(m.arc_count)
 
 
 @quantities.helper()
 def floor_openings(m: Module) -> Section:
-    """Volume of the floor's openings and its polar moment: pockets, windows, holes for leads, thermistor's seat."""
+    """Volume of the floor's openings and its polar moment: pockets, windows, slots for leads, thermistor's seat."""
     opened = stacked(
         (_pocket_section(m), m.pad_depth), (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web)
     )

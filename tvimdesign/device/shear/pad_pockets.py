@@ -51,7 +51,7 @@ def pad_ledge(m: Module) -> Scalar:
 
 def _ledge_area(m: Module) -> Scalar:
     """Return what all pads, or tiles, lie on beside their windows [m^2]."""
-    lying = m.pad_section.area if m.heater_form == CUT else m.heater_count * m.peltier_length * m.peltier_width
+    lying = m.pad_section.area if m.heater_form == CUT else m.heater_count * m.cold_plate_length * m.peltier_width
     return lying - m.window_section.area
 
 

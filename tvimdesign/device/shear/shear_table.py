@@ -14,6 +14,7 @@ from tvimdesign.device.shear import (
     layer_heat,
     layer_impedance,
     layer_shrinkage,
+    leads,
     lip_heat,
     melt_lip,
     pad_heat,
@@ -27,6 +28,6 @@ from tvimdesign.device.table.table import Table
 
 FILES = (
     pad_pockets, layer_impedance, arc_laps, layer_heat, layer_columns, layer_end, lip_heat, floor_heat, arc_volumes,
-    arc_clearances, pad_heat, tiles, thermistor_seat, keys, layer_shrinkage, melt_lip,
+    arc_clearances, pad_heat, tiles, leads, thermistor_seat, keys, layer_shrinkage, melt_lip,
 )  # fmt: skip
 TABLE = Table(gather((*SHARED_FILES, *FILES), "shear"), PHASES)

@@ -4,8 +4,8 @@ A flexible module is cut to the outline of the PCL. A rigid one, or a sheet heat
 `tiles_per_arc` of them lie side by side under each arc, their length along the arc, on a radius at which their inner
 edge and their outer corners are as far from the pocket's walls. A spreader of the PCL's outline lies on them, flush
 with the floor, and takes their heat to what they do not cover. The pocket has the outline of the arc as for a sheet;
-a window below each tile leaves it a ledge on all four sides. At each end of an arc a hole goes through the floor: one
-for the tiles' leads, one for a thermistor under the spreader.
+a window below each tile leaves its colder plate a ledge on all four sides. At one end of an arc a hole goes through
+the floor for a thermistor under the spreader; slots for leads are in `leads.py`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from tvimdesign.device.core.heat.heater_form import WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at
+from tvimdesign.physics.solids.shapes import NOTHING, Section, rectangle_at
 
 places, weights, rules = (
     QuantityGroup("Layout", WITH_TILES),
@@ -59,7 +59,7 @@ def tile_radius(m: Module) -> Scalar:
 
 @places.output("deg")
 def lead_angle(m: Module) -> Scalar:
-    """Angle at each end of an arc that is left to a hole for leads or the thermistor's."""
+    """Angle at each end of an arc that is left to a thermistor's hole."""
     return (m.lead_hole_diameter + 2.0 * m.tile_clearance) / m.pcl_inner_radius
 
 
@@ -71,14 +71,14 @@ def tile_pitch(m: Module) -> Scalar:
 
 @weights.helper(default=NOTHING)
 def tile_section(m: Module) -> Section:
-    """Plan view of all tiles."""
+    """Plan view of all tiles, of their longer plate."""
     return rectangle_at(m.peltier_width, m.peltier_length, m.tile_radius).times(m.heater_count)
 
 
-@weights.helper(default=NOTHING)
-def lead_hole_section(m: Module) -> Section:
-    """Plan view of the holes for leads and thermistors: two below each arc."""
-    return disc_at(0.5 * m.lead_hole_diameter, m.tile_radius).times(2.0 * m.arc_count)
+@places.output("mm")
+def cold_plate_length(m: Module) -> Scalar:
+    """Length of a tile's colder plate, which lies on the ledges of its window: a porch shorter than the other one."""
+    return m.peltier_length - m.peltier_porch
 
 
 @weights.output("mm^3")

@@ -26,6 +26,7 @@ ARC = {
     "pocket_inner_radius": 17.35, "pocket_outer_radius": 29.75, "pocket_span": 1.4 + 2.0 * 0.05 / 17.4,
     "pad_depth": 3.7, "spreader_depth": 0.5, "floor_thickness": 6.5,
     "tile_radius": 22.7, "tiles_per_arc": 1.0, "tile_pitch": 1.04, "peltier_length": 20.0, "peltier_width": 10.0,
+    "cold_plate_length": 20.0,
 }  # fmt: skip
 
 

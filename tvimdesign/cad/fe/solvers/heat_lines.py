@@ -185,8 +185,8 @@ def _tiled(mm: dict[str, float]) -> tuple[list[float], list[float]]:
     """Return where rigid modules and the windows below them end, along and around."""
     ledge, place, count = mm["window_ledge"], mm["tile_radius"], round(mm["tiles_per_arc"])
     along, around = [], []
-    for less in (0.0, ledge):
-        deep, long = (0.5 * mm[f"peltier_{size}"] - less for size in ("width", "length"))
+    for less, length in ((0.0, "peltier_length"), (ledge, "cold_plate_length")):
+        deep, long = 0.5 * mm["peltier_width"] - less, 0.5 * mm[length] - less
         middles = [mm["tile_pitch"] * (tile - 0.5 * (count - 1)) for tile in range(count)]
         along += [place - deep, place + deep]
         around += [

@@ -172,12 +172,14 @@ def _pad_pockets(mm: dict[str, float]) -> list[Any]:
 def _tile_pockets(mm: dict[str, float]) -> list[Any]:
     """Return pockets of rigid modules with the spreader on them, and the window below each module."""
     low, top = -mm["floor_thickness"] - 1.0, -mm["pad_depth"]
-    deep, long = (0.5 * mm[f"peltier_{size}"] - mm["window_ledge"] for size in ("width", "length"))
+    deep, long = (0.5 * mm[size] - mm["window_ledge"] for size in ("peltier_width", "cold_plate_length"))
+    porch = 0.5 * mm["peltier_porch"]
     count, found = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP)
     for arc in range(round(mm["arc_count"])):
         middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
         for tile in range(count):
-            window = Box(Pnt(mm["tile_radius"] - deep, -long, low), Pnt(mm["tile_radius"] + deep, long, top))
+            inner, outer = mm["tile_radius"] - deep, mm["tile_radius"] + deep
+            window = Box(Pnt(inner, porch - long, low), Pnt(outer, porch + long, top))
             turn = middle + mm["tile_pitch"] * (tile - 0.5 * (count - 1))
             found.append(window.Rotate(Axis(Pnt(0, 0, 0), Dir(0, 0, 1)), np.degrees(turn)))
     return found

@@ -53,6 +53,14 @@ for name, unit, field, description in (
 ):
     kinds.property(name, unit, ("spreader_material", field), description)
 kinds.property(
+    "peltier_porch",
+    "mm",
+    ("peltier_module", "porch"),
+    "Length by which the warmer plate of such a module is longer, at the end that its leads leave",
+    mode="shear",
+    default=0.0,
+)
+kinds.property(
     "spreader_shear_modulus",
     "GPa",
     ("spreader_material", "shear_modulus"),
@@ -89,6 +97,12 @@ def spreader_mass(m: Module) -> Scalar:
     return m.spreader_volume * m.spreader_density
 
 
+@weights.output("g")
+def lead_mass(m: Module) -> Scalar:
+    """Mass of the leads of rectangular Peltier modules as far as they are in the floor; zero without."""
+    return m.lead_volume * m.lead_density
+
+
 @flows.output("mm^2")
 def heated_area(m: Module) -> Scalar:
     """Area of all Peltier modules towards the layer."""
@@ -122,6 +136,15 @@ def to_spreader(m: Module) -> Scalar:
 def spreader_capacity(m: Module) -> Scalar:
     """Heat capacity of all spreaders [J/K], counted at the modules' hot side; zero without."""
     return m.spreader_mass * m.spreader_specific_heat
+
+
+gaps = QuantityGroup("Gaps", WITH_TILES)
+
+
+@gaps.output("mm", at_least(0.0, "the leads of the Peltier modules do not go through: a larger lead_hole_diameter"))
+def lead_hole_margin(m: Module) -> Scalar:
+    """Room for a lead of a rectangular Peltier module beyond its diameter and the clearance with which it goes in."""
+    return m.lead_hole_diameter - m.lead_diameter - m.slip_clearance
 
 
 RATINGS_ALIKE = 0.1

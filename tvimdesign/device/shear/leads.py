@@ -1,0 +1,126 @@
+"""Leads of rectangular Peltier modules under the arcs: how they bend, and the slot of the floor they go down through.
+
+Both leads leave one end of their module side by side, at half its height. They bend down by `lead_bend_radius` and back
+again, and run on along the ground below the floor. A slot beside that end of each module is as long as this bend needs.
+The module's colder plate ends a porch before that end, on which the leads are soldered.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.heat.heater_form import WITH_TILES
+from tvimdesign.device.table.module import Module
+from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at
+
+LEADS = 2.0
+"""Of a module."""
+_CUTTER = 2.2
+"""Least width of a slot over the radius of its corners."""
+_LEAST = 0.05
+"""Share of a size below which roots are not taken: their slopes have no bound at zero."""
+
+places, weights, rules = (
+    QuantityGroup("Layout", WITH_TILES),
+    QuantityGroup("Size and weight", WITH_TILES),
+    QuantityGroup("Gaps", WITH_TILES),
+)
+
+
+@places.output("mm")
+def lead_bend_radius(m: Module) -> Scalar:
+    """Radius to which the leads of a Peltier module are bent, along their middle."""
+    return (m.lead_bend_ratio + 0.5) * m.lead_diameter
+
+
+@places.output("mm", hidden=True)
+def lead_level(m: Module) -> Scalar:
+    """Level at which the leads leave a Peltier module: half its height."""
+    return -m.spreader_depth - 0.5 * m.peltier_thickness
+
+
+@places.output("mm", hidden=True)
+def lead_drop(m: Module) -> Scalar:
+    """Height by which the leads go down: to the ground, but no further than their two bends reach."""
+    to_ground = m.lead_level + m.floor_thickness + m.foot_height - 0.5 * m.lead_diameter
+    return np.fmin(np.fmax(to_ground, _LEAST * m.lead_bend_radius), 2.0 * m.lead_bend_radius)
+
+
+@places.output("deg")
+def lead_bend_angle(m: Module) -> Scalar:
+    """Angle of each of a lead's two bends."""
+    return np.arccos(1.0 - 0.5 * m.lead_drop / m.lead_bend_radius)
+
+
+@places.output("mm")
+def lead_slot_length(m: Module) -> Scalar:
+    """Length of the slot that the leads go down through, from the end of their Peltier module."""
+    run = 2.0 * m.lead_bend_radius * np.sin(m.lead_bend_angle)
+    inside = m.lead_bend_ratio * m.lead_diameter
+    above = np.fmax(m.lead_level - m.lead_drop + m.lead_bend_radius + m.floor_thickness, 0.0)
+    under = np.sqrt(np.fmax(inside**2 - above**2, (_LEAST * inside) ** 2))
+    return np.fmax(run - under + m.tile_clearance, _CUTTER * m.corner_radius)
+
+
+@places.output("mm")
+def lead_slot_width(m: Module) -> Scalar:
+    """Width of that slot: both leads go through it side by side."""
+    return np.fmax(LEADS * m.lead_hole_diameter, _CUTTER * m.corner_radius)
+
+
+def _slot_end(m: Module) -> Scalar:
+    """Return how far from the middle of its module a slot ends, along the module [m]."""
+    return 0.5 * m.peltier_length + m.lead_slot_length
+
+
+@places.output("mm")
+def lead_slot_radius(m: Module) -> Scalar:
+    """Distance of that slot's middle from the axis, across its module: behind its middle, or as the arc allows."""
+    least = 0.1 * m.pcl_outer_radius
+    reach = np.sqrt(np.fmax(m.pcl_outer_radius**2 - _slot_end(m) ** 2, least**2))
+    return np.fmin(m.tile_radius, reach - 0.5 * m.lead_slot_width)
+
+
+@weights.helper(default=NOTHING)
+def lead_hole_section(m: Module) -> Section:
+    """Plan view of the slots for leads, one beside each module, and of the thermistors' holes, one below each arc."""
+    along = 0.5 * m.peltier_length + 0.5 * m.lead_slot_length
+    away = np.sqrt(m.lead_slot_radius**2 + along**2)
+    slots = rectangle_at(m.lead_slot_width, m.lead_slot_length, away, m.corner_radius).times(m.heater_count)
+    return slots.plus(disc_at(0.5 * m.lead_hole_diameter, m.tile_radius).times(m.arc_count))
+
+
+@weights.output("mm^3")
+def lead_volume(m: Module) -> Scalar:
+    """Volume of all leads of Peltier modules between these and the ground below the floor; zero without."""
+    section = 0.25 * np.pi * m.lead_diameter**2
+    return LEADS * m.heater_count * section * 2.0 * m.lead_bend_radius * m.lead_bend_angle
+
+
+@rules.output("mm", at_least(0.0, "the leads would have to bend sideways as well: a wider or longer arc"))
+def lead_exit_margin(m: Module) -> Scalar:
+    """Width by which the slot for the leads lies behind the end of their Peltier module."""
+    return m.lead_slot_radius - 0.5 * m.lead_slot_width - m.tile_radius + 0.5 * m.peltier_width
+
+
+@rules.output("mm", at_least(0.0, "the slot for the leads reaches beyond the arc's end: a longer arc"))
+def lead_slot_end_margin(m: Module) -> Scalar:
+    """Room between the far corner of the slot for the leads and the end of its arc."""
+    half = 0.5 * (m.arc_span - (m.tiles_per_arc - 1.0) * m.tile_pitch)
+    return (m.lead_slot_radius - 0.5 * m.lead_slot_width) * np.sin(half) - _slot_end(m) * np.cos(half)
+
+
+@rules.output("mm", at_least(0.0, "the slot for the leads lies below the next Peltier module: fewer, or a longer arc"))
+def lead_tile_margin(m: Module) -> Scalar:
+    """Gap of that slot to the next Peltier module of its arc beyond the least; zero for one module an arc."""
+    inner, pitch = m.lead_slot_radius - 0.5 * m.lead_slot_width, m.tile_pitch
+    beyond = inner * np.sin(pitch) - _slot_end(m) * np.cos(pitch) - 0.5 * m.peltier_length
+    return np.fmin(m.tiles_per_arc - 1.0, 1.0) * (beyond - m.tile_clearance)
+
+
+@rules.output("mm", at_least(0.0, "the leads do not go through below the floor: more foot_height"))
+def lead_ground_gap(m: Module) -> Scalar:
+    """Room between floor and ground beyond the leads."""
+    return m.foot_height - m.lead_diameter
