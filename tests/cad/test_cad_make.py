@@ -104,15 +104,12 @@ def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
     assert "2000-01-01T00:00:00" in text
 
 
-def test_glb_is_the_module_in_metres_with_y_up(made: Made) -> None:
+def test_the_glb_is_in_metres_with_y_up_and_linear_light(made: Made) -> None:
     scene = trimesh.load_scene(made.report.folder / "assembly.glb")
     values = made.design.values
     width, height = values["envelope_diameter"], values["envelope_height"]
     assert scene.extents == pytest.approx([width, height, width], rel=1e-3)
     assert {"housing", "spring_left_4", f"peltier_pad_{COPIES[made.design.mode]}"} <= set(scene.graph.nodes_geometry)
-
-
-def test_colours_of_the_glb_are_in_linear_light(made: Made) -> None:
     # glTF 2.0, 3.9.2: factors are linear. By IEC 61966-2-1 half of full sRGB is 0.214 of the light.
     assert _linear(0.5) == pytest.approx(0.2140, abs=5e-5)
     scene = trimesh.load_scene(made.report.folder / "assembly.glb")

@@ -77,11 +77,15 @@ def test_the_page_is_dark_where_the_reader_is(opened: Open, report: Path) -> Non
     assert brightness("dark") < 120
 
 
-def test_nothing_reaches_beyond_a_phone(opened: Open, report: Path) -> None:
+def test_a_page_fits_a_phone_and_is_read_without_its_code(opened: Open, report: Path) -> None:
     found = opened(report, viewport={"width": 360, "height": 740})
     for name in FIGURES:
         found.figure(name)
     assert found.page.evaluate("document.documentElement.scrollWidth") <= 360
+    page = opened(report, java_script_enabled=False).page
+    assert page.get_by_role("heading", name="Module").is_visible()
+    assert page.get_by_role("table", name="At the operating points").is_visible()
+    assert "Needs a browser that runs the page's code" in page.locator("#figure-cycle").inner_text()
 
 
 @pytest.mark.parametrize("size", [(1400, 900), (390, 844)], ids=["desktop", "phone"])
@@ -90,13 +94,6 @@ def test_the_answer_is_seen_without_scrolling(opened: Open, report: Path, size: 
     assert page.locator(".status").bounding_box()["y"] < 0.2 * size[1]  # the verdict
     first = page.locator("#first .glance > div").first.bounding_box()  # requirements, or facts if there are none
     assert first["y"] < 0.4 * size[1]
-
-
-def test_it_is_read_without_its_code(opened: Open, report: Path) -> None:
-    page = opened(report, java_script_enabled=False).page
-    assert page.get_by_role("heading", name="Module").is_visible()
-    assert page.get_by_role("table", name="At the operating points").is_visible()
-    assert "Needs a browser that runs the page's code" in page.locator("#figure-cycle").inner_text()
 
 
 def test_it_prints_on_a4_with_its_figures(opened: Open, report: Path, tmp_path: Path) -> None:

@@ -1,6 +1,11 @@
-"""A section put into a page that is written: once, before the one it is to stand before, and in place of an earlier."""
+"""Sections put into a page that is there, and the last line of tests where there is no browser."""
 
 from __future__ import annotations
+
+import sys
+
+import pytest
+from support import ROOT, environment, run_process
 
 from tvimdesign.page.blocks import Page, Points, Section, Words
 from tvimdesign.page.page_file import page_html, with_section
@@ -33,3 +38,12 @@ def test_the_section_of_before_goes() -> None:
 
 def test_what_is_no_such_page_is_left_alone() -> None:
     assert with_section("<html></html>", PAGE.sections[0], "study") is None
+
+
+@pytest.mark.slow
+def test_the_last_line_says_how_many_tests_no_browser_has_run() -> None:
+    words = ["tests/page/test_page_in_a_browser.py", "-q", "-k", "sorts or filtered", "-p", "no:cacheprovider"]
+    command = [sys.executable, "-m", "pytest", *words]
+    found = run_process(command, cwd=ROOT, env={**environment(), "PATH": ""}, text=True)
+    last = found.stdout.rstrip().splitlines()[-1]
+    assert last == "NO BROWSER: 2 tests of the pages were not run; install chromium and run them again", found.stdout

@@ -72,11 +72,13 @@ def test_a_row_that_is_called_like_a_group_stands_with_it() -> None:
     assert {"process", "minimum_wall"} <= found  # the choice stands in the group of materials
 
 
-def test_a_group_is_listed_whole(printed: Any) -> None:
+def test_groups_are_listed_whole_with_the_headlines_first(printed: Any) -> None:
     text = printed("springs", 100)
     own = [row for row in rows.named_rows("shear") if row.group == "Springs"]
     assert all(row.name in text for row in own)
     assert "module_mass" not in text
+    lines = printed("weight", 80).splitlines()
+    assert next(line for line in lines if "mass" in line and not line.startswith("weight")).startswith("module_mass")
 
 
 @pytest.mark.parametrize("width", WIDTHS)
@@ -89,11 +91,6 @@ def test_names_are_never_broken(printed: Any, mode: str, width: int) -> None:
         own = [row for row in rows.named_rows(mode) if row.group == group]
         assert {rows._plain(row)["name"] for row in own} <= words
         assert set(rows._important(own)) <= words
-
-
-def test_what_is_asked_for_most_stands_first(printed: Any) -> None:
-    lines = printed("weight", 80).splitlines()
-    assert next(line for line in lines if "mass" in line and not line.startswith("weight")).startswith("module_mass")
 
 
 def test_a_word_that_finds_nothing_is_told_with_the_nearest() -> None:

@@ -34,10 +34,14 @@ TRIAL = Trial(
 )
 
 
-def test_sheets_are_headed_by_name_and_unit_and_hold_numbers_in_it() -> None:
+def test_sheets_and_figures_have_names_numbers_and_units() -> None:
     rows = list(csv.reader(sheet_csv(SHEET).splitlines()))
     assert rows[0] == ["temperature [°C]", "strain [%]", "strain_low [%]", "strain_high [%]"]
     assert [float(value) for value in rows[2]] == pytest.approx([60.0, 2.0, 1.0, 3.0])
+    line = figure_data(TRIAL)["panels"][0]["lines"][0]
+    assert line["x"] == pytest.approx([0.0, 60.0])
+    assert line["y"] == pytest.approx([1.0, 2.0])
+    assert line["band"] == [pytest.approx([0.0, 1.0]), pytest.approx([2.0, 3.0])]
 
 
 def test_findings_are_numbers_in_their_unit_and_intervals_have_no_value() -> None:
@@ -48,13 +52,6 @@ def test_findings_are_numbers_in_their_unit_and_intervals_have_no_value() -> Non
     assert (unsure["low"], unsure["nominal"], unsure["high"]) == pytest.approx((1.0, 2.0, 3.0))
     assert never["value"] is None
     json.dumps(findings(TRIAL), allow_nan=False)
-
-
-def test_figures_are_drawn_in_the_units_of_the_sheets() -> None:
-    line = figure_data(TRIAL)["panels"][0]["lines"][0]
-    assert line["x"] == pytest.approx([0.0, 60.0])
-    assert line["y"] == pytest.approx([1.0, 2.0])
-    assert line["band"] == [pytest.approx([0.0, 1.0]), pytest.approx([2.0, 3.0])]
 
 
 def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Command, tmp_path: Path) -> None:

@@ -38,14 +38,11 @@ def told(dims: Dimensions) -> dict[str, Any]:
     return found
 
 
-def test_every_part_has_its_kind_and_only_what_turns_turns(told: dict[str, Any]) -> None:
+def test_parts_have_their_kind_and_steps_come_from_their_side(told: dict[str, Any]) -> None:
     parts = {part["name"]: part for part in told["parts"]}
     assert {part["kind"] for part in parts.values()} == {"housing", *SPRINGS}
     assert not any(part["turns"] for part in parts.values())  # neither housing nor springs turn with the rotor
     assert parts["spring_right_1"]["lift"] > parts["housing"]["lift"]
-
-
-def test_a_step_brings_the_parts_there_are_from_the_side_of_the_first() -> None:
     place = ({"part": "pcl_arc", "from": "above"}, {"part": "rotor", "from": "above"}, {"part": "nut", "from": "below"})
     found = brought(WrittenStep("Set the rotor.", place), ["rotor", "pcl_arc_1", "pcl_arc_2", "link"])
     assert found == {"text": "Set the rotor.", "parts": ["pcl_arc_1", "pcl_arc_2", "rotor"], "from": "above"}

@@ -122,17 +122,18 @@ def test_faces_and_the_cut_out_s_place_are_those_of_this_module(changes: dict[st
     )
 
 
-def test_holes_for_pins_are_reamed_before_the_rotor_is_in_its_housing() -> None:
+def test_steps_state_walls_reamed_holes_and_the_compound_of_screws() -> None:
     texts = steps(made({}))
     assert (
         where(texts, "ream link and core") < where(texts, "set the rotor on them") < where(texts, "Press the 4 dowel")
     )
-
-
-def test_the_compound_of_the_bill_has_a_step_where_screws_go_into_metal() -> None:
     milled, printed = (" ".join(steps(made(changes))) for changes in ({"process": "machine_6061"}, {}))
     assert "thread-locking compound" in milled
     assert "thread-locking compound" not in printed
+    for changes, said in (({}, True), ({"process": "machine_6061"}, False)):
+        design = made(changes)
+        note = assembly_note(design, dimensions(design), [Item("housing", 1, True, "", "", 1.0, ())]).decode()
+        assert ("walls, with lines of 0.4 mm" in note) == said
 
 
 def test_screws_of_the_motor_have_their_size_and_key() -> None:
@@ -144,10 +145,3 @@ def test_screws_of_the_motor_have_their_size_and_key() -> None:
     torque = design.values["motor_screw_torque"]
     assert f"x {size:.3g}, key {key:.3g}, {torque:.2g} N·m): the hub" in texts
     assert f"key {mount:.3g}, {design.values['mount_screw_torque']:.2g} N·m each." in texts
-
-
-def test_a_printed_module_s_walls_are_stated() -> None:
-    for changes, said in (({}, True), ({"process": "machine_6061"}, False)):
-        design = made(changes)
-        note = assembly_note(design, dimensions(design), [Item("housing", 1, True, "", "", 1.0, ())]).decode()
-        assert ("walls, with lines of 0.4 mm" in note) == said

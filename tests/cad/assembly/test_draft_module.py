@@ -45,20 +45,14 @@ def test_simple_bodies_have_the_volumes_of_their_formulas() -> None:
         assert _volume(drilled) == pytest.approx(800.0 + pi * (16.0 * 3.0 - 4.0 * 5.0), rel=0.01)
 
 
-def test_what_the_exact_kernel_draws_after_a_draft_is_exact() -> None:
+def test_drafts_change_nothing_exact_and_impossible_corners_are_refused() -> None:
     with drawn_by(KERNEL):
         cylinder(5.0, 0.0, 1.0)
     assert cylinder(5.0, 0.0, 1.0).Volume() == pytest.approx(25.0 * pi, rel=1e-9)
-
-
-def test_arcs_of_an_outline_are_where_the_exact_ones_are() -> None:
     asked = (10.0, 3.0, 25.0, 2.0, [0.0, 2.0 * pi / 3.0, 4.0 * pi / 3.0], (0.0, 5.0))
     with drawn_by(KERNEL):
         draft = spoked_disc(*asked)
     assert _volume(draft) == pytest.approx(spoked_disc(*asked).Volume(), rel=0.01)
-
-
-def test_corners_that_do_not_fit_are_refused() -> None:
     with drawn_by(KERNEL), pytest.raises(GeometryError, match="do not fit"):
         rounded(block((0.0, 4.0), 4.0, 0.0, 2.0), 3.0)
 

@@ -48,15 +48,12 @@ def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, An
     assert "for 2.1 A and 120 °C" in found["heater_wire"]
 
 
-def test_a_cut_out_that_opens_below_every_rating_has_no_such_word() -> None:
+def test_cut_outs_say_only_what_they_can() -> None:
     bears = {"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}
     cutout = listed(switched(bears, hottest=83.0))["thermal_cutout"]
     assert "5MA3SPF152019340: opens from 147 to 157 °C" in cutout  # of what opens below the heater's 160 the highest
     assert "opens above" not in cutout
     assert "ask the maker" not in cutout
-
-
-def test_no_cut_out_without_a_choice_and_no_type_without_a_cycle() -> None:
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
     assert fuse_in_words(FUSE, switched({}, 226.0)).startswith("none fits: ")
@@ -94,11 +91,28 @@ def test_a_thermistor_that_fits_and_bears_the_heat_is_ordered(
     assert "needs its own table in the controller" in said
 
 
-def test_a_foil_is_ordered_by_its_resistance() -> None:
+def test_foils_films_and_spreaders_are_ordered_by_their_measures() -> None:
     design = switched({"peltier_module": "silicone_9ar_08_24v"})
     (item,) = bill(design, _titles(design), {"peltier_pad_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
     each = 45.0 * design.values["peltier_volume"] / (1.6e-3 * 1600e-6) / 4.0  # 45 ohm of 1600 mm2, four pads
     assert f"{each:.3g} ohm each" in item.title
+    assert "polyimide_film" in listed(switched({}))
+    assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
+    design = switched({})
+    (release,) = (one for one in fixtures(design, {}) if not one.fixture)
+    assert (release.kind, release.made) == ("mould_release", False)
+    design = switched(TILES)
+    (item,) = bill(design, _titles(design), {"spreader_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
+    assert item.title.endswith(f", {1e3 * design.values['spreader_thickness']:.3g} mm thick")
+    area = 1e6 * design.values["heater_count"] * design.values["peltier_area"]
+    assert f"over {area:.4g} mm² in all" in listed(design)["heat_conducting_adhesive"]
+    design = design_of("lined", {"liner_material": "peek", "adhesive_density": 1040.0})
+    (item,) = (one for one in beside(design, {}) if one.kind == "liner_adhesive")
+    area, film = design.values["pcl_area"], 0.1e-3  # `liner_film`; a liner covers its arc
+    assert item.mass == pytest.approx(1e3 * 1040.0 * area * film, rel=0.05)
+    other = design.model_copy(update={"choices": design.choices | {"tang_adhesive": "another"}})
+    (item,) = (one for one in beside(other, {}) if one.kind == "liner_adhesive")
+    assert item.mass == 0.0
 
 
 def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current() -> None:
@@ -111,29 +125,3 @@ def test_a_wire_is_ordered_by_the_thinnest_section_that_bears_the_current() -> N
     for wire in wires():  # ASTM B258: 0.127 mm is gauge 36, and 39 gauges are a ratio of 92
         diameter = 0.127e-3 * 92 ** ((36 - int(wire.gauge.split()[1])) / 39)
         assert wire.section == pytest.approx(math.pi / 4 * diameter**2, rel=0.01)
-
-
-def test_film_is_listed_with_a_cut_out_and_mould_release_always() -> None:
-    assert "polyimide_film" in listed(switched({}))
-    assert "polyimide_film" not in listed(switched({"heater_fuse": "none"}))
-    design = switched({})
-    (release,) = (one for one in fixtures(design, {}) if not one.fixture)
-    assert (release.kind, release.made) == ("mould_release", False)
-
-
-def test_a_spreader_is_ordered_by_thickness_its_adhesive_by_area() -> None:
-    design = switched(TILES)
-    (item,) = bill(design, _titles(design), {"spreader_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})
-    assert item.title.endswith(f", {1e3 * design.values['spreader_thickness']:.3g} mm thick")
-    area = 1e6 * design.values["heater_count"] * design.values["peltier_area"]
-    assert f"over {area:.4g} mm² in all" in listed(design)["heat_conducting_adhesive"]
-
-
-def test_the_liners_adhesive_is_weighed_if_its_density_is_known() -> None:
-    design = design_of("lined", {"liner_material": "peek", "adhesive_density": 1040.0})
-    (item,) = (one for one in beside(design, {}) if one.kind == "liner_adhesive")
-    area, film = design.values["pcl_area"], 0.1e-3  # `liner_film`; a liner covers its arc
-    assert item.mass == pytest.approx(1e3 * 1040.0 * area * film, rel=0.05)
-    other = design.model_copy(update={"choices": design.choices | {"tang_adhesive": "another"}})
-    (item,) = (one for one in beside(other, {}) if one.kind == "liner_adhesive")
-    assert item.mass == 0.0

@@ -52,12 +52,9 @@ def _sheet_scale(said: list[str]) -> float:
     return float(over) / float(under)
 
 
-def test_a_step_that_the_sheet_shows_large_enough_has_no_detail() -> None:
+def test_small_steps_have_a_detail_and_large_ones_none() -> None:
     said = {entity.dxf.text for entity in drawn(1.5).modelspace().query("TEXT")}
     assert "X" not in said
-
-
-def test_each_pair_of_dimensioned_heights_has_one_small_step() -> None:
     solid = stepped(0.4)
     view = section(solid)
     (step,) = small_steps([view], levels(solid), 1.0)

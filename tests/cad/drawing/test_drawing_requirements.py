@@ -81,12 +81,16 @@ def test_a_seat_that_is_drawn_outside_its_class_is_told_as_drawn() -> None:
     assert seat.drawn == pytest.approx(24.1)  # 6802 has 24 mm, and the study a gap of 0.05 mm to each side
 
 
-def test_a_printed_module_has_no_fits_and_its_screws_cut_their_threads() -> None:
+def test_seats_and_threads_are_of_drawn_parts_with_fits_where_milled() -> None:
     mode, overrides = CASES["paper"]
     design = design_of("paper", overrides, mode)
     asked = drawing_requirements("rotor", dimensions(design), design.choices)
     assert [(one.about, one.fit) for one in asked.seats] == [("dowel pins", "H7")]  # reamed, in a print too
     assert [(one.screw, one.made) for one in asked.threads] == [("M3", "cut by its screw"), ("M4", "cut by its screw")]
+    reported = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
+    words = [one["about"] for part in ("seats", "threads") for group in reported[part].values() for one in group]
+    assert max(map(len, words)) <= 21  # what the table has room for
+    assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}
 
 
 def test_drawings_of_a_milled_module_tell_fits_threads_and_edges() -> None:
@@ -162,10 +166,3 @@ def test_every_seat_is_a_face_of_its_part() -> None:
             asked = drawing_requirements(kind, dimensions(design), design.choices)
             there = {asked.seat(one) for one in upright_cylinders(drawn_part(dimensions(design), kind))}
             assert set(asked.seats) <= there, kind
-
-
-def test_every_seat_and_thread_is_of_a_part_that_is_drawn() -> None:
-    reported = yaml.safe_load((ROOT / "tvimdesign/cad/drawing/drawing_requirements.yaml").read_text(encoding="utf-8"))
-    words = [one["about"] for part in ("seats", "threads") for group in reported[part].values() for one in group]
-    assert max(map(len, words)) <= 21  # what the table has room for
-    assert {*reported["seats"], *reported["threads"]} <= {kind for kind, making in PRODUCTION.items() if making.drawn}

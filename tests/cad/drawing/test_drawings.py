@@ -130,12 +130,14 @@ def test_a_sheet_has_a_number_a_revision_and_what_its_date_is(module: tuple[Desi
     assert len(numbers) == 2, "the same part has the same number, another one has another"
 
 
-def test_a_drawing_is_sound_dxf_in_millimetres_at_true_size(drawings: dict[str, Drawing]) -> None:
+def test_drawings_are_sound_dxf_without_text_on_text(drawings: dict[str, Drawing]) -> None:
     for document in drawings.values():
         assert document.audit().errors == []
         assert document.header["$INSUNITS"] == 4
         style = document.dimstyles.get("SHEET").dxf
         assert (style.dimlfac, style.dimdsep, style.dimzin) == (1.0, 46, 8)
+    for kind, document in drawings.items():
+        no_text_lies_on_another(kind, document)
 
 
 def no_text_lies_on_another(kind: str, document: Drawing) -> None:
@@ -156,11 +158,6 @@ def no_text_lies_on_another(kind: str, document: Drawing) -> None:
         for other_left, other_right, other_low, other_high, other in boxes[:index]:
             apart = left >= other_right or right <= other_left or low >= other_high or high <= other_low
             assert apart, f"{kind}: {text!r} lies on {other!r}"
-
-
-def test_no_text_lies_on_another(drawings: dict[str, Drawing]) -> None:
-    for kind, document in drawings.items():
-        no_text_lies_on_another(kind, document)
 
 
 def test_figures_are_kept_apart_and_in_order() -> None:

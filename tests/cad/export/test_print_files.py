@@ -60,9 +60,14 @@ def test_upright_cylinders_are_read_off_a_solid() -> None:
     assert levels(bracket()) == [5, 11, 15, 21]
 
 
-def test_a_hole_is_empty_and_goes_all_the_way_round() -> None:
+def test_holes_are_empty_also_beside_faces_that_would_cut_them() -> None:
     assert [one.radius for one in holes(bracket())] == [2, 3]
     assert holes(cup()) == []
+    # A slot's walls and floor, a pin's round face and a level edge all end before the hole.
+    slot = cq.Solid.makeBox(4, 12, 5, cq.Vector(6, 9, 5)).rotate(cq.Vector(8, 15, 0), cq.Vector(8, 15, 1), 30)
+    pin = cq.Solid.makeCylinder(14, 3, cq.Vector(20, 36, 10)).intersect(BLOCK.translate(cq.Vector(0, 0, 10)))
+    part = bored(pin).cut(slot).Solids()[0]
+    assert [one.radius for one in holes(part)] == [8]
 
 
 BLOCK = cq.Solid.makeBox(40, 30, 10)
@@ -91,14 +96,6 @@ def test_what_stands_in_a_hole_is_found_whatever_its_faces(name: str) -> None:
     plug = cq.Solid.makeCylinder(7.99, 10, cq.Vector(20, 15, 0))
     assert (plug.intersect(part).Volume() < 1e-6) == empty  # the kernel's word
     assert any(one.radius == 8 and (one.bottom, one.top) == (0, 10) for one in holes(part)) == empty
-
-
-def test_a_hole_beside_faces_whose_surfaces_would_cut_it_is_empty() -> None:
-    # A slot's walls and floor, a pin's round face and a level edge all end before the hole.
-    slot = cq.Solid.makeBox(4, 12, 5, cq.Vector(6, 9, 5)).rotate(cq.Vector(8, 15, 0), cq.Vector(8, 15, 1), 30)
-    pin = cq.Solid.makeCylinder(14, 3, cq.Vector(20, 36, 10)).intersect(BLOCK.translate(cq.Vector(0, 0, 10)))
-    part = bored(pin).cut(slot).Solids()[0]
-    assert [one.radius for one in holes(part)] == [8]
 
 
 def test_holes_are_wider_in_print_by_what_the_process_takes_away() -> None:
@@ -213,12 +210,9 @@ def test_a_step_file_without_these_is_refused(tmp_path: Path) -> None:
         read_part(tmp_path / "a.step")
 
 
-def test_a_mirror_leaves_holes_holes() -> None:
+def test_mirrors_leave_holes_and_arcs_their_span() -> None:
     mirrored = bracket().mirror("XZ").Solids()[0]
     assert [one.concave for one in upright_cylinders(mirrored)] == [True, True, False]
-
-
-def test_an_arc_has_its_span_and_its_middle() -> None:
     (arc,) = upright_cylinders(cut_in_half())
     assert arc.span == pytest.approx(pi)
     assert cos(arc.middle) == pytest.approx(-1.0)

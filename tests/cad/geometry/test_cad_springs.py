@@ -37,11 +37,15 @@ def test_any_coil_is_one_solid_with_the_volume_of_its_wire(index: float, turns: 
     assert solid.Volume() == pytest.approx(0.25 * pi * 4.0 * shape.wire_length, rel=1e-4)
 
 
-def test_free_spring_is_the_wire_of_the_model(design: Design) -> None:
+def test_free_spring_is_the_wire_of_the_model_and_reaches_its_pin(design: Design) -> None:
     shape = free_coil(dimensions(design))
     assert shape.wire_length == pytest.approx(1e3 * design.values["wire_length"], rel=1e-12)
     assert shape.start_level == pytest.approx(1e3 * design.values["coil_start_level"], rel=1e-12)
     assert spring_solid(shape).Volume() == pytest.approx(1e9 * design.values["spring_volume"], rel=1e-4)
+    good = design_of("paper", {})
+    design = good.model_copy(update={"values": good.values | {"pin_radius": 0.05}})
+    with pytest.raises(GeometryError, match="cannot reach"):
+        build(design)
 
 
 def test_winding_keeps_the_wire_and_the_tang(design: Design) -> None:
@@ -104,13 +108,6 @@ def test_mesh_is_the_solid() -> None:
 def test_a_wire_that_cannot_be_bent_is_an_error(changes: dict[str, float], words: str) -> None:
     with pytest.raises(GeometryError, match=words):
         spring_solid(coil(**changes))
-
-
-def test_a_pin_out_of_reach_is_an_error() -> None:
-    good = design_of("paper", {})
-    design = good.model_copy(update={"values": good.values | {"pin_radius": 0.05}})
-    with pytest.raises(GeometryError, match="cannot reach"):
-        build(design)
 
 
 SIDES = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")

@@ -28,15 +28,15 @@ def test_parts_are_apart_if_their_meshes_are_further_than_their_error(gap: float
     assert PlacedBodies(placed).apart("rotor", "cover") == apart
 
 
-def test_a_part_inside_the_material_of_another_is_not_apart() -> None:
+def test_parts_in_bores_are_apart_and_in_material_or_open_meshes_not() -> None:
     placed = {"housing": at(cylinder(20.0, 30.0), 0.0), "link_dowel_1": at(cylinder(2.0).translate((0, 0, 10.0)), 0.0)}
     assert not PlacedBodies(placed).apart("housing", "link_dowel_1")
-
-
-def test_a_part_in_the_bore_of_another_is_apart() -> None:
     bored = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
     placed = {"housing": at(bored, 0.0), "link_screw_1": at(cylinder(2.0, 30.0), 0.0)}
     assert PlacedBodies(placed).apart("housing", "link_screw_1")
+    broken = at(cylinder(5.0), 50.0)
+    open_mesh = Instance(type(broken.mesh)(broken.mesh.vertices, broken.mesh.faces[1:]), broken.matrix)
+    assert not PlacedBodies({"housing": at(cylinder(5.0), 0.0), "cover": open_mesh}).apart("housing", "cover")
 
 
 def test_copies_of_a_part_that_is_near_are_held_against_it_exactly() -> None:
@@ -48,12 +48,6 @@ def test_copies_of_a_part_that_is_near_are_held_against_it_exactly() -> None:
     bodies = PlacedBodies(placed)
     assert not bodies.apart("housing", "pcl_arc_1")
     assert not bodies.apart("housing", "pcl_arc_2")
-
-
-def test_a_mesh_that_does_not_close_is_never_told_apart() -> None:
-    broken = at(cylinder(5.0), 50.0)
-    open_mesh = Instance(type(broken.mesh)(broken.mesh.vertices, broken.mesh.faces[1:]), broken.matrix)
-    assert not PlacedBodies({"housing": at(cylinder(5.0), 0.0), "cover": open_mesh}).apart("housing", "cover")
 
 
 def test_only_parts_that_may_meet_are_compared_with_the_same_result() -> None:

@@ -73,30 +73,21 @@ def test_a_box_of_known_wall_is_measured(wall: float, level: str) -> None:
     assert abs(place_of(found)[0]) == pytest.approx(15.0 - 0.5 * wall, abs=1e-3)
 
 
-def test_a_thin_web_beside_a_hole_is_found_between_the_two() -> None:
+def test_walls_are_told_from_edges_and_webs_beside_holes() -> None:
     # A hole of 6 mm, its axis 3.9 mm inside the edge: 0.9 mm are left.
     found = walls(box(40.0, 20.0, 8.0).cut(cq.Workplane().circle(3.0).extrude(8.0).translate((0, 6.1, 0))))["wall"]
     assert found.value == pytest.approx(0.9, abs=0.05)
     assert place_of(found)[:2] == pytest.approx([0.0, 9.55], abs=0.6)
-
-
-def test_a_slotted_post_has_a_wall_in_its_middle_and_edges_at_its_ends() -> None:
     post = cq.Workplane().circle(2.5).extrude(8.0).cut(box(6.0, 0.8, 2.0).translate((0, 0, 7.0)))
     found = walls(post)["wall"]
     assert found.level == "pass"
     assert found.value == pytest.approx(2.5 / sqrt(2.0) - 0.4, abs=0.1)  # where both faces are 45 deg apart
     wide = walls(cq.Workplane().circle(2.5).extrude(8.0).cut(box(6.0, 2.8, 2.0).translate((0, 0, 7.0))))["wall"]
     assert wide.level != "pass"
-
-
-def test_a_round_wall_of_just_the_least_thickness_is_not_warned_of() -> None:
     tube = cq.Workplane().circle(5.2).circle(4.0).extrude(6.0)
     found = walls(tube)["wall"]
     assert found.value < 1.2
     assert found.level == "pass"
-
-
-def test_an_edge_that_tapers_is_no_wall_but_told() -> None:
     # A bore that touches the flat face of a block from inside: two cusps beside the line it opens on.
     work = box(30.0, 20.0, 8.0).cut(cq.Workplane().circle(4.0).extrude(8.0).translate((0, 6.05, 0)))
     found = walls(work)
@@ -159,21 +150,22 @@ def test_a_part_may_be_turned_on_the_bed_but_not_be_longer() -> None:
 # --- milling ---------------------------------------------------------------------------------------------------------
 
 
-def test_a_groove_inside_a_bore_is_an_undercut() -> None:
+def test_undercuts_side_holes_and_deep_holes_are_found() -> None:
     ring = cq.Workplane().circle(8.0).extrude(4.0).translate((0, 0, 8.0))
     work = box(40.0, 40.0, 20.0).cut(cq.Workplane().circle(6.0).extrude(20.0)).cut(ring)
     found = milled(work)["undercut"]
     assert found.level == "failure"
     assert found.value == pytest.approx(2.0 * pi * 8.0 * 4.0 + 2.0 * pi * (64.0 - 36.0), rel=0.05)
     assert 8.0 <= place_of(found)[2] <= 12.0
-
-
-def test_a_hole_from_the_side_takes_a_third_set_up() -> None:
     block = box(40.0, 30.0, 20.0)
     assert milled(block)["set-ups"].value == 2
     found = milled(block.faces(">X").workplane(centerOption="CenterOfBoundBox").hole(6.0, 12.0))
     assert (found["set-ups"].value, found["set-ups"].level) == (3, "warning")
     assert found["undercut"].level == "pass"
+    solid = one_solid(box(30.0, 30.0, 40.0).faces(">Z").workplane().center(5.0, 0.0).hole(2.0, 30.0))
+    found = hole_check("part", holes(solid), 10.0)
+    assert (found.level, found.value) == ("failure", pytest.approx(15.0))
+    assert place_of(found) == pytest.approx([5.0, 0.0, 25.0])
 
 
 def test_corners_of_a_pocket_are_sharp_or_have_their_radius() -> None:
@@ -211,13 +203,6 @@ def test_a_slot_below_counts_beside_a_better_one_above() -> None:
     found = milled(box(50.0, 30.0, 14.0).cut(above).cut(below))["pocket"]
     assert found.value == pytest.approx(3.0, rel=0.03)
     assert place_of(found)[2] == pytest.approx(6.0)
-
-
-def test_a_hole_too_deep_for_its_drill_is_found() -> None:
-    solid = one_solid(box(30.0, 30.0, 40.0).faces(">Z").workplane().center(5.0, 0.0).hole(2.0, 30.0))
-    found = hole_check("part", holes(solid), 10.0)
-    assert (found.level, found.value) == ("failure", pytest.approx(15.0))
-    assert place_of(found) == pytest.approx([5.0, 0.0, 25.0])
 
 
 # --- the module ------------------------------------------------------------------------------------------------------

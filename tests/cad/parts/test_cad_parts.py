@@ -19,11 +19,8 @@ from tvimdesign.cad.inspection.size_checks import all_checks, interference_check
 from tvimdesign.study.design import Design
 
 
-def test_the_cases_keep_the_rules(design: Design) -> None:
+def test_the_cases_keep_the_rules_in_valid_solids(design: Design) -> None:
     assert broken_rules(design) == []
-
-
-def test_every_part_is_one_valid_solid(design: Design) -> None:
     parts = build(design)
     assert {kind_of(name) for name in parts} == set(MODULES[design.mode].kinds(dimensions(design)))
     for solid in parts.values():
@@ -61,15 +58,12 @@ def with_rotor(one: str, other: str) -> bool:
     return "rotor" in (one, other)
 
 
-def test_a_leg_in_its_pin_is_found(paper: Design) -> None:
+def test_legs_pins_and_cores_in_the_way_are_found(paper: Design) -> None:
     parts = build(paper)
     ahead = build(paper, -0.02)["rotor"]  # the rotor winds the right-hand springs, which stay behind
     found = [check for check in interference_checks(parts | {"rotor": ahead}, "here", with_rotor) if not check.ok]
     springs = {check.name for check in found if "spring" in check.name}
     assert springs == {"rotor | spring_right_1 here", "rotor | spring_right_3 here"}
-
-
-def test_a_core_in_the_way_of_the_legs_is_found() -> None:
     design = design_of("fat core", {"core_radius": 0.021, "leg_overhang": 0.02})
     assert "leg_core_gap" in broken_rules(design)
     found = [check for check in interference_checks(build(design), "at rest", with_rotor) if not check.ok]

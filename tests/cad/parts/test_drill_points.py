@@ -1,4 +1,4 @@
-"""Drilled points: blind holes of milled parts end in a drill's, and an adjuster's scale is made of dots."""
+"""Drill points of blind holes and dots of scales, and the closed jig around the parts that are cast in it."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ from math import atan2, degrees, hypot, radians, tan
 
 import cadquery as cq
 import pytest
-from cad_designs import BEARING_BLOCKS, BEARINGS, DRIVEN_BLOCKS, design_of
+from cad_designs import BEARING_BLOCKS, BEARINGS, BLOCKS, DRIVEN_BLOCKS, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
-from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.features import Cylinder, holes
 from tvimdesign.cad.geometry.spring_solids import installed_coil
+from tvimdesign.cad.inspection.inspect import casting_checks, casting_gap
 from tvimdesign.cad.inspection.size_checks import size_checks
+from tvimdesign.cad.parts import casting_jig
 
 
 def cones(solid: cq.Solid) -> list[cq.Face]:
@@ -70,3 +72,48 @@ def test_the_scale_has_dots_every_thirty_degrees_and_a_mark() -> None:
 def _in_order(marks: list[Cylinder]) -> list[tuple[float, float]]:
     """Return their places, counted around the axis."""
     return sorted(((one.x, one.y) for one in marks), key=lambda at: atan2(at[1], at[0]) % 6.283185307179586)
+
+
+CASES = {"keyed arc": ("shear", {}), "plain arc": ("shear", {"key_count": 0.0}), "block": ("compression", BLOCKS)}
+
+
+def jig(name: str) -> tuple[Dimensions, str, dict[str, cq.Solid]]:
+    mode, changes = CASES[name]
+    dims = dimensions(design_of(name, changes, mode))
+    kind = "pcl_arc" if mode == "shear" else "pcl_block"
+    part = drawn_part(dims, kind)
+    return dims, kind, {kind: part} | {piece: draw(dims, part).Solids()[0] for piece, draw in casting_jig.DRAWN.items()}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_jig_goes_together_and_its_gap_is_the_layer_s_thickness(name: str) -> None:
+    dims, kind, solids = jig(name)
+    checks = {check.name: check for check in casting_checks(dims, kind, solids)}
+    assert [check.text for check in checks.values() if not check.ok] == []
+    assert all(solids[piece].isValid() for piece in casting_jig.DRAWN)
+    # 1 mm of the default layer; 3.5 mm of the default block above a clearance of 0.4.
+    wanted = dims.pcl_thickness if kind == "pcl_arc" else dims.vane_height - dims.running_clearance
+    assert casting_gap(dims, solids["casting_mould"], solids["casting_lid"]) == pytest.approx(wanted, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_closed_jig_holds_a_room_of_the_part_s_volume(name: str) -> None:
+    _, kind, solids = jig(name)
+    pieces = [solids[piece] for piece in casting_jig.DRAWN]
+    around = cq.Compound.makeCompound(pieces).BoundingBox()
+    block = cq.Solid.makeBox(around.xlen, around.ylen, around.zlen, cq.Vector(around.xmin, around.ymin, around.zmin))
+    rooms = [room.Volume() for room in block.cut(*pieces).Solids()]
+    assert any(room == pytest.approx(solids[kind].Volume(), rel=1e-6) for room in rooms), rooms
+
+
+def test_lids_and_dams_that_do_not_fit_fail_their_checks() -> None:
+    dims, kind, solids = jig("keyed arc")
+    solids["casting_lid"] = solids["casting_lid"].translate(cq.Vector(0, 0, 0.05)).Solids()[0]
+    failed = [check.name for check in casting_checks(dims, kind, solids) if not check.ok]
+    assert failed == ["casting_jig: gap"]
+    dims, kind, solids = jig("plain arc")
+    box = solids[kind].BoundingBox()
+    slot = cq.Solid.makeBox(20.0, 1.0, 2.0, cq.Vector(box.xmax - 1.0, -0.5, 0.0))
+    solids["casting_mould"] = solids["casting_mould"].cut(slot).Solids()[0]
+    failed = [check.name for check in casting_checks(dims, kind, solids) if not check.ok]
+    assert failed == ["casting_jig: melt"]

@@ -95,7 +95,7 @@ def test_below_the_middle_of_each_tile_is_a_way_out_through_the_floor(
             assert not placed["housing"].isInside(cq.Vector(middle.x, middle.y, level)), f"{name} at {level:.2f} mm"
 
 
-def test_the_note_sets_spreaders_into_the_vanes_and_says_where_wires_go() -> None:
+def test_notes_and_supply_are_for_spreaders_in_the_vanes() -> None:
     texts = [step["text"] for step in steps_of({*KINDS, "rotor"})]
     (step,) = [text for text in texts if "carry {number_of_peltier_pad} tiles" in text]
     assert "down through the slots" in step
@@ -103,6 +103,9 @@ def test_the_note_sets_spreaders_into_the_vanes_and_says_where_wires_go() -> Non
     assert not any("the hole at one end of" in text for text in texts)
     pads = [step["text"] for step in steps_of({*KINDS, "rotor"} - {"spreader"})]
     assert any("Slide the {number_of_peltier_pad} Peltier pads" in text for text in pads)
+    wired = design_of("wired", VANE_TILES | {"heater_wiring": "vanes_parallel"}, "compression")
+    wired.values.update(peak_voltage=9.0, peak_current=2.0)
+    assert "vanes in parallel" in next(item.title for item in beside(wired, {}) if item.kind == "supply")
 
 
 def test_modules_spreaders_adhesive_and_wires_are_in_the_list(design: Design, placed: dict[str, cq.Solid]) -> None:
@@ -114,12 +117,6 @@ def test_modules_spreaders_adhesive_and_wires_are_in_the_list(design: Design, pl
     assert "heat_conducting_adhesive" in listed
     assert (listed["thermistor"].quantity, "hole" in listed["thermistor"].title) == (1, False)
     assert f"for the {counted['peltier_pad']} heaters" in listed["heater_wire"].title
-
-
-def test_the_supply_is_for_the_vanes_as_they_are_wired() -> None:
-    wired = design_of("wired", VANE_TILES | {"heater_wiring": "vanes_parallel"}, "compression")
-    wired.values.update(peak_voltage=9.0, peak_current=2.0)
-    assert "vanes in parallel" in next(item.title for item in beside(wired, {}) if item.kind == "supply")
 
 
 def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:

@@ -179,25 +179,19 @@ def test_they_bear_what_their_sheet_says_where_they_lie_on_the_vane(of: dict[str
     assert weak["holding_torque"] == weak["heater_holding_torque"] == pytest.approx(expected * 0.2 / 1.5, rel=1e-9)
 
 
-def test_pressure_in_a_hold_is_the_block_s_on_the_seats() -> None:
+def test_tiles_and_spreaders_bear_the_block_in_series() -> None:
     point = {"hold_torque": 2.0}
     values = values_of("heater_pressure@cold block_pressure@cold", **point)
     seat, rise = 225.0 - 7.5 * 13.0, 1.0 + 6.0 * 0.25 / 15.0
     pressed = values["block_pressure@cold"] * 16 * 15.5 / seat * rise
     assert values["heater_pressure@cold"] == pytest.approx(pressed, rel=1e-9)
     assert values["heater_pressure@cold"] > 0.0
-
-
-def test_tiles_and_spreader_give_in_series_under_a_block() -> None:
     # Young's modulus three times the shear modulus of 1 GPa on 15 by 15 mm, 3.8 mm thick; 1 mm of aluminium, 71.7 GPa.
     tile, sheet = 3e9 * 225e-6 / 3.8e-3, 71.7e9 * 16 * 15.5e-6 / 1e-3
     found = values_of("pad_press_stiffness structure_compliances")
     assert found["pad_press_stiffness"] == pytest.approx(1.0 / (1.0 / tile + 1.0 / sheet), rel=1e-9)
     about_the_axis = 4 * found["pad_press_stiffness"] * (24e-3) ** 2
     assert found["structure_compliances"][-1] == pytest.approx(1.0 / about_the_axis, rel=1e-9)
-
-
-def test_a_vane_with_two_slots_bends_as_its_three_webs() -> None:
     values = values_of("vane_webs slot_width housing_vane_angle", VANE_TILE_ROWS)
     along = 24.4 * MM * np.cos(0.5 * values["housing_vane_angle"])
     assert values["vane_webs"] == pytest.approx(along - 2 * values["slot_width"], rel=1e-9)

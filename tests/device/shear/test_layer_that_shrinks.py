@@ -59,10 +59,17 @@ def test_a_held_layer_pulls_on_its_bond_and_one_that_is_followed_does_not() -> N
     assert advised("freezing_safety", followed["freezing_safety"])
 
 
-def test_the_traction_ends_where_the_pcl_yields() -> None:
+def test_a_layer_that_shrinks_pulls_until_it_yields_or_has_no_spring() -> None:
     thick = {"rotor_thickness": "20 mm", "floor_thickness": "20 mm", "peltier_shear_modulus": "1 GPa"}
     stiff = values_of("freezing_traction", process="machine_7075", **thick)
     assert stiff["freezing_traction"] == pytest.approx(16e6)
+    rows = (
+        "preload_rate frozen_preload molten_preload stop_force_margin preload_spring_mass stop_play preload_dead_band"
+    )
+    assert set(values_of(rows).values()) == {0.0}
+    found = values_of("melt_lip_margin melt_lip_hub_gap", melt_lip="rings", pcl_thickness="0.45 mm")
+    assert found["melt_lip_margin"] == pytest.approx(-0.05e-3)  # 0.05 mm high
+    assert found["melt_lip_hub_gap"] == pytest.approx((26.0 - 1.5 - 13.4 - 0.4) * 1e-3)
 
 
 def test_the_spring_holds_some_times_the_weight_and_rubs_little() -> None:
@@ -80,13 +87,6 @@ def test_the_spring_holds_some_times_the_weight_and_rubs_little() -> None:
     assert found["preload_dead_band"] == pytest.approx(torque / found["spring_stiffness"], rel=0.01)
     assert found["preload_spring_mass"] == pytest.approx(pi / 4.0 * (25.0**2 - 21.0**2) * 0.2 * 7.85e-6, rel=1e-6)
     assert found["preload_spring_stress"] < 0.5 * 1500e6  # of spring-steel strip
-
-
-def test_without_a_spring_all_its_rows_are_zero() -> None:
-    rows = (
-        "preload_rate frozen_preload molten_preload stop_force_margin preload_spring_mass stop_play preload_dead_band"
-    )
-    assert set(values_of(rows).values()) == {0.0}
 
 
 def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge() -> None:
@@ -156,9 +156,3 @@ def test_a_rotor_that_hangs_on_the_melt_draws_it_thicker_in_minutes() -> None:
         time += (0.1e-3 / steps) * found["pcl_viscosity@hot"] * length * 14e-3**3 / (force * h**3)
     assert found["layer_drawing_time"] == pytest.approx(time, rel=1e-4)
     assert 60.0 < found["layer_drawing_time"] < 600.0
-
-
-def test_a_thin_layer_has_no_room_for_lips() -> None:
-    found = values_of("melt_lip_margin melt_lip_hub_gap", melt_lip="rings", pcl_thickness="0.45 mm")
-    assert found["melt_lip_margin"] == pytest.approx(-0.05e-3)  # 0.05 mm high
-    assert found["melt_lip_hub_gap"] == pytest.approx((26.0 - 1.5 - 13.4 - 0.4) * 1e-3)

@@ -41,16 +41,13 @@ def test_a_liner_in_metal_gives_by_film_and_cold_wall() -> None:
     assert rim_of(one) == pytest.approx(1.0 / (1.0 / one["liner_to_wall"] + 1.0 / around), rel=0.01)
 
 
-def test_a_thicker_film_and_a_plastic_rotor_keep_heat_in_the_liner() -> None:
+def test_liners_keep_heat_and_lips_take_less_below_them() -> None:
     names = ("side_links", "edge_length")
     bare, filmed, plastic = (
         rim_of(found(*names, **more)) for more in ({}, {"liner_film": 0.5 * MM}, {"structure_conductivity": 0.2})
     )
     assert filmed < 0.75 * bare
     assert plastic < 0.9 * bare
-
-
-def test_a_lip_takes_less_from_a_layer_below_a_liner() -> None:
     names = ("cold_end", "side_links", "edge_length")
     lips = {"melt_lip": "rings", "pcl_thickness": 0.6 * MM, "running_clearance": 0.1 * MM}
     lined, bare = (found(*names, **lips, liner_material=liner) for liner in ("pei_1010", "none"))
@@ -58,9 +55,6 @@ def test_a_lip_takes_less_from_a_layer_below_a_liner() -> None:
     # A lip below takes some of what the liner would give.
     assert rim_of(bare) == 0.0
     assert 0.2 < rim_of(lined) / rim_of(found(*names, pcl_thickness=0.6 * MM)) < 1.5
-
-
-def test_the_heat_of_the_rim_comes_to_the_plate_s_edge() -> None:
     one = found("side_links", "edge_length", "plate_to_edge", "rotor_beside")
     by_place = {link.second: float(link.conductance) for link in one["side_links"] if link.first == ("liner", 0)}
     to_plate, to_beside = by_place["plate", 0], by_place["beside", 0]

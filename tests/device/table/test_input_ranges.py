@@ -44,16 +44,13 @@ def test_what_surrounds_a_module_is_not_chosen() -> None:
         assert handbook.entry(name).low < handbook.entry(name).value < handbook.entry(name).high, name
 
 
-def test_a_default_lies_within_its_range_and_that_within_the_limits() -> None:
+def test_defaults_lie_within_ranges_that_are_read_in_their_unit() -> None:
     def check(row: Input) -> None:
         if row.low is None or row.high is None:
             return
         assert row.lower <= row.low <= row.default <= row.high <= row.upper, row.name
 
     of_every(list(INPUTS.values()), check)
-
-
-def test_a_range_is_read_in_the_unit_of_the_default() -> None:
     air = INPUTS["ambient_temperature"]
     assert (air.low, air.high) == (293.15, 298.15)
     assert INPUTS["coil_gap"].high == 0.2e-3

@@ -46,28 +46,19 @@ def test_swapping_two_studies_inverts_ratio_and_verdict(a: float, b: float, bett
     assert other.verdict("b") == opposite[one.verdict("b")]
 
 
-def test_what_differs_by_less_than_the_simulation_is_the_same() -> None:
+def test_what_hardly_differs_never_happens_or_is_open_has_its_own_verdict() -> None:
     assert row(100.0, 100.0 * (1.0 + 0.9 * ALIKE)).verdict("b") == "same"
     assert row(100.0, 100.0 * (1.0 + 1.1 * ALIKE)).verdict("b") == "worse"
-
-
-def test_what_never_happens_is_worse_than_what_does_and_has_no_ratio() -> None:
     one = row(70.0, math.inf)
     assert one.ratio("b") is None
     assert one.verdict("b") == "worse"
     assert row(math.inf, 70.0).verdict("b") == "better"
     both = row(math.inf, math.inf)
     assert (both.ratio("b"), both.verdict("b")) == (1.0, "same")
-
-
-def test_temperatures_and_reserves_below_zero_have_no_ratio() -> None:
     assert row(300.0, 600.0, unit="degC").ratio("b") is None
     reserve = row(-23.0, -49.0, "more", "K")
     assert reserve.ratio("b") is None
     assert reserve.verdict("b") == "worse"
-
-
-def test_where_history_decides_there_is_no_verdict() -> None:
     assert row(70.0, 140.0, ends={"a": (60.0, 150.0)}).verdict("b") == "open"
     assert row(70.0, 140.0, ends={"a": (60.0, 130.0)}).verdict("b") == "worse"
 

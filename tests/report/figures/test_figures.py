@@ -120,15 +120,12 @@ def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, A
     assert not list(root.iter("{http://www.w3.org/2000/svg}image"))
 
 
-def test_stiffness_and_damping_make_the_impedance(found: StudyResult) -> None:
+def test_curves_end_where_the_table_says_and_make_the_impedance(found: StudyResult) -> None:
     for phase, curves in found.histories.items():
         point = "hot" if phase == "softening" else "cold"
         turning = 2.0 * np.pi * found.design.value(f"frequency@{point}")
         both = np.hypot(curves["joint_stiffness"], turning * np.array(curves["joint_damping"]))
         assert both == pytest.approx(np.array(curves["joint_impedance"]), rel=1e-9)
-
-
-def test_energy_and_power_end_where_the_table_says(found: StudyResult) -> None:
     curves = found.histories["softening"]
     assert curves["electrical_energy"][0] == 0.0
     assert curves["electrical_energy"][-1] == pytest.approx(found.design.value("switch_energy"), rel=2e-3)

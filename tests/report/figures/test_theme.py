@@ -32,15 +32,12 @@ from tvimdesign.report.output.axis_labels import axis_label, name_in_words
 OKABE_ITO = {"#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7"}
 
 
-def test_colours_are_okabe_and_ito_s_and_neighbours_differ_in_grey() -> None:
+def test_colours_are_okabe_and_ito_s_and_like_greys_have_other_lines() -> None:
     assert {*COLOURS, BROKEN} <= OKABE_ITO
     assert BROKEN not in COLOURS
     for one, other in pairwise((*COLOURS, COLOURS[0])):
         assert abs(luminance(one) - luminance(other)) > 0.15, (one, other)
     assert luminance("#ffffff") == pytest.approx(1.0)
-
-
-def test_series_with_like_greys_have_other_lines() -> None:
     for i in range(len(LINE_STYLES)):
         for j in range(i):
             assert style_of(i)["linestyle"] != style_of(j)["linestyle"]
@@ -58,21 +55,24 @@ def test_logarithmic_axes_have_at_least_two_ticks(low: float, decades: float) ->
     assert len({plain(tick) for tick in inside}) >= 2
 
 
-def test_numbers_of_ticks_are_plain() -> None:
+def test_ticks_are_plain_and_names_are_words_with_units() -> None:
     assert [plain(value) for value in (0.0, 0.5, 200.0, 1e6, 2e-7)] == ["0", "0.5", "200", "10⁶", "2·10⁻⁷"]
-
-
-def test_names_are_words_with_units() -> None:
     assert name_in_words("joint_damping@hot") == "joint damping, hot"
     assert axis_label("pcl_thickness", "mm") == "PCL thickness (mm)"
     assert axis_label("impedance_range", "1") == "Impedance range (–)"
 
 
-def test_a_few_swings_are_a_line() -> None:
+def test_few_swings_are_a_line_and_a_ripple_is_no_swing() -> None:
     x = np.linspace(0.0, 1.0, 500)
     parts = drawn(x, np.cos(8.0 * np.pi * x))
     assert len(parts.lines) == 1
     assert len(parts.band_x) == 0
+    x = np.linspace(0.0, 20.0, 40001)
+    y = np.cos(2.0 * np.pi * 10.0 * x) + 1e-3 * np.cos(2.0 * np.pi * 190.0 * x)
+    parts = drawn(x, y)
+    assert len(parts.band_x) > 300
+    assert parts.high.min() > 0.99
+    assert len(parts.lines[0][0]) == pytest.approx(6.5 / 200.0 * len(x), rel=0.02)  # six swings and a half
 
 
 def test_many_swings_are_a_line_then_the_band_that_holds_them_then_a_line() -> None:
@@ -87,15 +87,6 @@ def test_many_swings_are_a_line_then_the_band_that_holds_them_then_a_line() -> N
     assert parts.lines[0][0][-1] == parts.band_x[0]
     assert parts.lines[1][0][0] == parts.band_x[-1]
     assert parts.lines[1][0][-1] == x[-1]
-
-
-def test_a_ripple_on_a_swing_is_no_swing() -> None:
-    x = np.linspace(0.0, 20.0, 40001)
-    y = np.cos(2.0 * np.pi * 10.0 * x) + 1e-3 * np.cos(2.0 * np.pi * 190.0 * x)
-    parts = drawn(x, y)
-    assert len(parts.band_x) > 300
-    assert parts.high.min() > 0.99
-    assert len(parts.lines[0][0]) == pytest.approx(6.5 / 200.0 * len(x), rel=0.02)  # six swings and a half
 
 
 def test_fonts_in_a_pdf_have_the_letters_and_nothing_that_lays_out_text() -> None:

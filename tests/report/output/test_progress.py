@@ -1,18 +1,22 @@
-"""What is told while a run works: elapsed time, what is left, and not more than a line every few seconds."""
+"""Progress of a run: elapsed time and time left, a line every few seconds, a user's text as it stands."""
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import signal
 from contextlib import suppress
 
 import pytest
+from rich.markup import escape
+from rich.table import Table
 from support import wait_until
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.report.output import progress
 from tvimdesign.report.output.progress import RemainingTime, clock, duration
+from tvimdesign.report.output.terminal import OwnMarkupConsole
 
 
 def test_what_is_left_is_the_mean_of_the_steps_that_are_done() -> None:
@@ -29,7 +33,7 @@ def test_what_is_left_is_the_mean_of_the_steps_that_are_done() -> None:
     assert left.left(36.0) is None
 
 
-def test_another_series_begins_anew() -> None:
+def test_another_series_begins_anew_and_times_are_told_as_people_do() -> None:
     left = RemainingTime()
     left.heard("start 1 of 2", 0.0)
     left.heard("start 2 of 2", 5.0)
@@ -37,9 +41,6 @@ def test_another_series_begins_anew() -> None:
     assert left.left(10.0) is None
     left.heard("point 3 of 9", 14.0)
     assert left.left(14.0) == pytest.approx(14.0)
-
-
-def test_times_are_told_as_people_do() -> None:
     assert [duration(seconds) for seconds in (8.2, 59.4, 125.0, 4320.0)] == ["8 s", "59 s", "2 min 05 s", "1 h 12 min"]
     assert clock(0.4, 9.0) == ""
     assert clock(3.0, None) == "3 s"
@@ -81,3 +82,26 @@ def test_what_a_library_raises_after_an_interrupt_is_the_interrupt(error: type[E
         fail(interrupted=True)
     with pytest.raises(error):
         fail(interrupted=False)
+
+
+TEXTS = ["[/bold]", "a [/] b", "[link=http://x]u[/link]", "x[1, 2]", "[[", "]", "[bold", "[/red] [/bold]", ":key:"]
+
+
+def shown(what: object) -> str:
+    stream = io.StringIO()
+    OwnMarkupConsole(file=stream, width=80, color_system=None, highlight=False).print(what)
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_what_a_user_wrote_is_shown_as_it_stands(text: str) -> None:
+    assert text in shown(f"Results are in [bold]{escape(text)}[/bold]")
+    assert text in shown(f"Results are in {text}")
+    table = Table()
+    table.add_column(text)
+    table.add_row(text, text)
+    assert shown(table).count(text) == 3
+
+
+def test_our_own_markup_is_obeyed() -> None:
+    assert shown("[bold]a[/bold] [dim]b[/dim] [red]c[/]") == "a b c\n"

@@ -19,6 +19,7 @@ from tvimdesign.report.output.number_format import FORMAT, number_entry
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.output.tables import curves_csv, results, results_csv
+from tvimdesign.report.output.thresholds import meaning, soft_in_words, stiff_in_words
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
@@ -90,7 +91,9 @@ def test_the_si_unit_of_every_unit_is_si(mode: str) -> None:
         assert to_si(1.0, si_unit(unit)) == pytest.approx(1.0, rel=1e-12), unit
 
 
-def test_every_number_stands_in_its_unit_and_in_si(reported: dict[str, Any], found: StudyResult) -> None:
+def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(
+    reported: dict[str, Any], found: StudyResult
+) -> None:
     mass, target = (reported["values"][name] for name in ("module_mass", "target_temperature"))
     assert mass["value"] == pytest.approx(1e3 * found.design.values["module_mass"])
     assert (mass["unit"], mass["si"]["unit"]) == ("g", "kg")
@@ -98,6 +101,11 @@ def test_every_number_stands_in_its_unit_and_in_si(reported: dict[str, Any], fou
     assert (target["value"], target["si"]["value"]) == (pytest.approx(100.0), 373.15)
     assert (target["unit"], target["si"]["unit"]) == ("°C", "K")
     assert number_entry(float("inf"), "s")["value"] is None
+    hot = found.design.values["joint_impedance@hot"]
+    expected = f"soft: |Z| <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice hot"
+    for name in ("softening_time", "response_time"):  # the switch ends when the joint is soft
+        assert reported["values"][name]["note"] == expected
+    assert reported["values"]["mean_time"]["note"] == ""
 
 
 def test_a_record_s_values_show_the_record_s_own_status_range_and_source(rows: dict[str, dict[str, str]]) -> None:
@@ -112,7 +120,7 @@ def test_a_record_s_values_show_the_record_s_own_status_range_and_source(rows: d
         assert row["source"] == f"polymers/pcl_50k: {entry['source']}"
 
 
-def test_what_is_no_record_s_says_whose_it_is(rows: dict[str, dict[str, str]]) -> None:
+def test_every_value_has_status_and_source_and_says_whose_it_is(rows: dict[str, dict[str, str]]) -> None:
     assert (rows["pcl_latent_heat"]["status"], rows["pcl_latent_heat"]["source"]) == ("study", "set by the study")
     assert rows["current"]["status"] == "optimized"
     assert rows["temperature@hot"]["status"] == "study"
@@ -120,9 +128,6 @@ def test_what_is_no_record_s_says_whose_it_is(rows: dict[str, dict[str, str]]) -
     # As inputs.yaml has it: the default's status, and its source apart from that.
     assert rows["softening_band"]["status"] == "chosen"
     assert rows["softening_band"]["source"] == "half to twice is what a hand tells apart"
-
-
-def test_no_input_is_without_status_and_source(rows: dict[str, dict[str, str]]) -> None:
     assert list(rows["module_mass"])[:7] == ["name", "value", "unit", "status", "low", "high", "source"]
     for name, row in rows.items():
         assert row["status"], name
@@ -140,14 +145,6 @@ def test_a_chosen_record_of_a_user_s_folder_is_the_one_that_is_shown(tmp_path: P
     assert values["pcl_melting_start"]["source"] == "polymers/mine: assumed: weighed by me"
 
 
-def test_soft_is_told_with_what_it_means(reported: dict[str, Any], found: StudyResult) -> None:
-    hot = found.design.values["joint_impedance@hot"]
-    expected = f"soft: |Z| <= {2.0 * hot:.3g} N·m/rad at 1 Hz, twice hot"
-    for name in ("softening_time", "response_time"):  # the switch ends when the joint is soft
-        assert reported["values"][name]["note"] == expected
-    assert reported["values"]["mean_time"]["note"] == ""
-
-
 def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -> None:
     with ResultsFolder(tmp_path / "out") as folder:
         folder.write("curves.csv", curves_csv({"stiffness": [1.0]}, {"stiffness": "N*m/rad"}, "1"))
@@ -157,3 +154,25 @@ def test_tables_begin_with_the_mark_that_lets_excel_show_units(tmp_path: Path) -
     assert curves.read_bytes().startswith(b"\xef\xbb\xbf")
     assert curves.read_text("utf-8-sig").splitlines()[0] == "stiffness [N·m/rad]"
     assert not other.read_bytes().startswith(b"\xef\xbb\xbf")
+
+
+STATED = "impedance_targets: stated, soft_impedance: 40 N.m/rad, stiff_impedance: 300 N.m/rad"
+
+
+@pytest.mark.parametrize(
+    ("module", "soft", "stiff"),
+    [
+        (STATED,
+         "|Z| <= 80 N·m/rad at 1 Hz, twice soft_impedance", "|Z| >= 150 N·m/rad at 1 Hz, half of stiff_impedance"),
+        (f"{STATED}, softening_band: 1.5, stiffening_band: 4",
+         "|Z| <= 60 N·m/rad at 1 Hz, 1.5 times soft_impedance", "|Z| >= 75 N·m/rad at 1 Hz, 1/4 of stiff_impedance"),
+    ],
+)  # fmt: skip
+def test_soft_and_stiff_are_said_as_impedances(module: str, soft: str, stiff: str) -> None:
+    """By hand: band times 40, and 300 over the band."""
+    study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n", "a test")
+    found = answer(study)
+    assert soft_in_words(found.design, TABLE) == soft
+    assert stiff_in_words(found.design, TABLE) == stiff
+    assert meaning("softening_time", found.design, TABLE).endswith(f"(soft: {soft})")
+    assert meaning("stiffening_time", found.design, TABLE).endswith(f"(stiff: {stiff})")

@@ -19,12 +19,16 @@ def _stiffness(modes: Modes, omega: np.ndarray) -> np.ndarray:
     return np.sum(stiffnesses * turns / (1.0 + turns), axis=1)
 
 
-def test_with_the_spring_put_back_the_elements_are_the_given_ones() -> None:
+def test_elements_come_back_with_the_spring_and_quick_ones_are_damping() -> None:
     omega, spring = np.geomspace(1e-3, 1e5, 33), 700.0
     rest = without_spring(MODES, spring)
     np.testing.assert_allclose(
         1.0 / (1.0 / _stiffness(rest, omega) + 1.0 / spring), _stiffness(MODES, omega), rtol=1e-9
     )
+    made = maxwell_hinges(_state(False), 5, step=1e-3)
+    assert made.merged == 1
+    assert made.damping == pytest.approx(1e-3 * 55.0)
+    assert [spring.stiffness for spring in made.springs] == [3.0, 120.0, 0.0, 0.0, 0.0]
 
 
 def _state(one_sided: bool) -> JointState:
@@ -46,13 +50,6 @@ def test_after_a_hold_the_torque_is_what_has_not_relaxed(one_sided: bool) -> Non
             torque += spring.stiffness * turned * spring.coefficients["joint"]
     expected = sum(k * angle * np.exp(-state.hold / tau) for tau, k in MODES)
     assert torque == pytest.approx(expected, rel=1e-9)
-
-
-def test_what_relaxes_within_two_steps_is_damping() -> None:
-    made = maxwell_hinges(_state(False), 5, step=1e-3)
-    assert made.merged == 1
-    assert made.damping == pytest.approx(1e-3 * 55.0)
-    assert [spring.stiffness for spring in made.springs] == [3.0, 120.0, 0.0, 0.0, 0.0]
 
 
 def test_all_states_have_the_same_hinges(mode: str) -> None:

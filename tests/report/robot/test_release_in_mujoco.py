@@ -60,16 +60,13 @@ def test_the_link_let_go_moves_as_in_the_virtual_test(
     assert np.max(np.abs(found - expected[seen])) < SHARE * expected[0]
 
 
-def test_what_moves_has_the_inertia_of_the_bench(mode: str) -> None:
+def test_inertia_limits_friction_and_springs_are_the_module_s(mode: str) -> None:
     loaded = _loaded(model_of(mode), "cold")
     data = mujoco.MjData(loaded)
     mujoco.mj_forward(loaded, data)
     torques = np.zeros(loaded.nv)
     mujoco.mj_mulM(loaded, data, torques, np.eye(loaded.nv)[0])
     assert torques[0] == pytest.approx(float(module_of(mode).quantity("moving_inertia")), rel=1e-6)
-
-
-def test_the_joint_s_limits_friction_and_springs_are_the_module_s(mode: str) -> None:
     loaded, resolved = _loaded(model_of(mode), "hot"), module_of(mode)
     joint = loaded.joint("joint")
     stop = float(resolved.quantity("stop_angle"))

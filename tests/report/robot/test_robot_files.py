@@ -1,4 +1,4 @@
-"""`tvimdesign robot`: a folder that simulators load as it is, and what is refused."""
+"""`tvimdesign robot`: bodies as heavy as the table says, files that simulators load, and what is refused."""
 
 from __future__ import annotations
 
@@ -12,12 +12,17 @@ from typing import Any
 
 import mujoco
 import pytest
+import trimesh
 from answers import shipped_answer
-from cad_designs import design_of, whole
+from cad_designs import CASES, design_of, whole
+from robot_models import model_of, module_of
 from support import ROOT, Command
+from urdf_parser_py import xml_reflection
 from urdf_parser_py.urdf import URDF
 
 from tvimdesign.base.atomic_files import TABLE_ENCODING
+from tvimdesign.report.robot.joint_model import make_bodies
+from tvimdesign.report.robot.model_files import urdf
 from tvimdesign.study.design import write_design
 
 PAGE = ROOT / "docs/how-to/robot.md"
@@ -84,3 +89,42 @@ def test_a_time_step_that_is_none_is_refused(tvimdesign: Command, tmp_path: Path
     done = tvimdesign("robot", design, "--timestep", step, "--out", tmp_path / "robot")
     assert done.returncode == 2
     assert said in done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["paper", "blocks", "bearings"])
+def test_the_bodies_have_the_table_s_mass_and_inertia(case: str, tmp_path: Path) -> None:
+    mode, overrides = CASES[case]
+    design = whole(design_of(case, overrides, mode))
+    base, moving, report = make_bodies(write_design(design, tmp_path / "design.json"), tmp_path)
+    assert not report.failed
+    assert base.mass + moving.mass == pytest.approx(design.value("module_mass"), rel=1e-5)
+    assert moving.about_axis() == pytest.approx(design.value("parts_inertia"), rel=1e-5)
+    for body in (base, moving):
+        mesh = trimesh.load(tmp_path / body.mesh)
+        assert (tmp_path / body.mesh).stat().st_size < 2e6
+        assert all(low < at < high for low, at, high in zip(mesh.bounds[0], body.centre, mesh.bounds[1], strict=True))
+        assert max(abs(mesh.bounds[:, :2].ravel())) <= 0.5 * design.value("envelope_diameter") * 1.001
+
+
+def _refuse(message: str) -> None:
+    raise AssertionError(message)
+
+
+def test_a_parser_reads_the_bodies_and_the_joint(mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(xml_reflection.core, "on_error", _refuse)
+    model = model_of(mode)
+    state = model.states[-1]
+    read = URDF.from_xml_string(urdf(model, state).encode())
+    read.check_valid()
+    assert read.get_root() == "base"
+    moving, joint = read.link_map["moving"], read.joint_map["joint"]
+    assert moving.inertial.mass == pytest.approx(model.moving.mass)
+    assert moving.inertial.origin.xyz == pytest.approx(list(model.moving.centre))
+    tensor = moving.inertial.inertia.to_matrix()
+    assert tensor == [pytest.approx(list(row)) for row in model.moving.inertia]
+    assert moving.visual.geometry.filename == "moving.stl"
+    assert (joint.type, joint.parent, joint.child, list(joint.axis)) == ("revolute", "base", "moving", [0.0, 0.0, 1.0])
+    assert (joint.limit.lower, joint.limit.upper) == pytest.approx((-model.stop_angle, model.stop_angle))
+    assert joint.limit.effort == pytest.approx(float(module_of(mode).quantity("holding_torque")))
+    assert joint.dynamics.damping == pytest.approx(float(module_of(mode).quantity(f"joint_damping@{state.point}")))

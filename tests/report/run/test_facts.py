@@ -1,13 +1,14 @@
-"""Facts of a result: what measurements buy, and what was chosen of what is listed."""
+"""Facts of a result: what measurements buy, what was chosen of what is listed, and a layer that stalls."""
 
 from __future__ import annotations
 
 from types import SimpleNamespace
 from typing import Any, cast
 
+import numpy as np
 import pytest
 
-from tvimdesign.report.run.blocks.facts import chosen_fact, measured_fact, shrunk
+from tvimdesign.report.run.blocks.facts import chosen_fact, measured_fact, shrunk, stalling_in_words, time_over_rise
 from tvimdesign.solve.nlp.solution import Choosing, SolverEffort, Standard
 from tvimdesign.solve.result import StudyResult
 
@@ -26,14 +27,11 @@ INTERVALS = {
 }
 
 
-def test_values_that_shrink_have_both_intervals() -> None:
+def test_values_that_shrink_have_both_intervals_and_name_the_measurement() -> None:
     assert [(name, before, now) for name, before, now, _ in shrunk(INTERVALS)] == [
         ("frozen_time", "200 to never", "280 to 330 s"),
         ("softening_time", "40 to 240", "90 to 120 s"),
     ]
-
-
-def test_what_was_measured_is_named() -> None:
     unmeasured = [{"name": "peltier_seebeck", "status": "measured"}, {"name": "rotor_contact", "status": "handbook"}]
     (fact,) = measured_fact({"intervals": INTERVALS, "unmeasured": unmeasured})
     assert fact.text.startswith("peltier_seebeck: frozen_time 280 to 330 s, before 200 to never; softening")
@@ -82,3 +80,28 @@ def test_a_record_that_the_margins_changed_is_the_design_s_own_too() -> None:
     text = chosen(1.0e-3, {"share": 0.95, "sigma": None}, "central_t10160")
     assert text.startswith("wire diameter 1 mm · stock spring central_t10160")
     assert "the best is stock spring none" in text
+
+
+def warmed(share: np.ndarray) -> dict[str, list[float]]:
+    """Two cells that warm from 20 degC by shares of 80 K, one a little behind, over 100 s."""
+    return {"time": np.linspace(0.0, 100.0, len(share)).tolist(), "cell_1": (20.0 + 80.0 * share).tolist(),
+            "cell_2": (20.0 + 76.0 * share).tolist()}  # fmt: skip
+
+
+def test_one_per_cent_of_heat_takes_as_long_as_the_exponential_says() -> None:
+    times = np.linspace(0.0, 1.0, 2001)
+    assert time_over_rise(warmed(times), 60.0) == pytest.approx(1.0, rel=1e-6)
+    assert time_over_rise(warmed(np.sqrt(times)), 60.0) == pytest.approx(2.0, rel=1e-3)
+    # 1 - exp(-t/tau): rise over (t slope) is (exp(x) - 1)/x with x = t/tau, here 3.
+    found = warmed(1.0 - np.exp(-times / 0.2))
+    assert time_over_rise(found, 60.0) == pytest.approx((np.exp(3.0) - 1.0) / 3.0, rel=1e-3)
+    assert stalling_in_words(found, 60.0) == "it stalls: 1 % less heat takes 6 % longer"
+    assert stalling_in_words(found, 20.0) == ""
+
+
+def test_a_layer_that_cools_again_or_never_softens_is_told_as_that() -> None:
+    falling = warmed(np.concatenate([np.linspace(0.0, 1.0, 50), np.linspace(1.0, 0.9, 50)]))
+    assert "never soft" in stalling_in_words(falling, 90.0)
+    assert stalling_in_words(falling, float("inf")) == ""
+    assert stalling_in_words(None, 10.0) == ""
+    assert stalling_in_words(falling, 0.0) == ""  # soft from the start: nothing is waited for

@@ -33,16 +33,13 @@ def found() -> StudyResult:
     return answer(read_study_text(STUDY, "a test"))
 
 
-def test_more_stiffness_costs_mass(found: StudyResult) -> None:
+def test_more_stiffness_costs_mass_and_less_power_time(found: StudyResult) -> None:
     held = next(held for held in binding(found) if held.name == "spring_stiffness_full_stroke >=")  # the least
     cost = held.sensitivity["module_mass"]
     assert 0.0 < cost < 1.0
     begin = "1 % more spring_stiffness_full_stroke (now >= 5 N·m/rad) costs"
     said = next(one for one in sentences(found) if one.startswith(begin))
     assert f"{cost:.2g} % module_mass" in said
-
-
-def test_less_power_costs_time(found: StudyResult) -> None:
     said = next(one for one in sentences(found) if "peak_power" in one)
     assert said.startswith("1 % less peak_power (now <= 9 W) costs")
     assert "response_time" in said
@@ -64,14 +61,11 @@ def test_a_limit_either_binds_or_touches_or_has_room(found: StudyResult) -> None
         ] == "touches"
 
 
-def test_slack_limits_stand_in_the_order_of_their_room(found: StudyResult) -> None:
+def test_slack_limits_stand_in_order_and_the_table_has_every_output(found: StudyResult) -> None:
     rooms = [held.margin for held in slack(found)]
     assert rooms == sorted(rooms)
     room = 100.0 * (found.design.value("spring_stiffness_seven_tenths_stroke") / 5.0 - 1.0)
     assert f"spring_stiffness_seven_tenths_stroke >= 5 N·m/rad (margin {room:.2g} %)" in slack_in_words(found, TABLE)
-
-
-def test_the_table_on_file_has_a_column_for_each_output(found: StudyResult) -> None:
     rows = list(csv.DictReader(io.StringIO(why_csv(found, TABLE))))
     first = binding(found)[0]
     assert rows[0]["limit"] == first.text

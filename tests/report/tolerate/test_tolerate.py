@@ -56,7 +56,7 @@ def test_every_output_stands_in_si_too_and_soft_is_told(results: tuple[Path, dic
     assert any(note.startswith("Soft is |Z| <= ") for note in reported["notes"])
 
 
-def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, Any], str]) -> None:
+def test_shares_add_up_and_sentences_say_what_to_do(results: tuple[Path, dict[str, Any], str]) -> None:
     rows = list(csv.DictReader((results[0] / "contributors.csv").read_text("utf-8-sig").splitlines()))
     mine = [row for row in rows if row["output"] == "spring_stiffness"]
     assert sum(float(row["share"]) for row in mine) == pytest.approx(1.0, abs=1e-4)
@@ -64,6 +64,11 @@ def test_shares_of_the_contributors_add_up(results: tuple[Path, dict[str, Any], 
     # d ln K/d ln d = 4: with 2.413 mm and 5.609 N.m/rad that is 9.3 N.m/rad for each millimetre.
     (wire,) = [row for row in mine if row["contributor"] == "wire_diameter"]
     assert (float(wire["derivative"]), wire["derivative_unit"]) == (pytest.approx(9.3, rel=0.01), "N·m/rad / mm")
+    said = " ".join(results[1]["sentences"])
+    assert "of the modules satisfy every limit" in said
+    assert "Tighten preload_angle first" in said
+    assert "(±18.7° by DIN 2194, grade 2) is 3.1 times the stroke" in said
+    assert "with the preload adjusted to within ±1°, 100 % do" in said
 
 
 def test_what_varies_and_what_nobody_knows_are_two_blocks(results: tuple[Path, dict[str, Any], str]) -> None:
@@ -85,14 +90,6 @@ def test_what_varies_and_what_nobody_knows_are_two_blocks(results: tuple[Path, d
     assert said[1].startswith("Unmeasured inputs: ")
     rows = list(csv.DictReader((folder / "not_known.csv").read_text("utf-8-sig").splitlines()))
     assert {row["output"] for row in rows} == set(unknown["intervals"])
-
-
-def test_the_sentences_say_what_to_do(results: tuple[Path, dict[str, Any], str]) -> None:
-    said = " ".join(results[1]["sentences"])
-    assert "of the modules satisfy every limit" in said
-    assert "Tighten preload_angle first" in said
-    assert "(±18.7° by DIN 2194, grade 2) is 3.1 times the stroke" in said
-    assert "with the preload adjusted to within ±1°, 100 % do" in said
 
 
 def test_a_design_and_its_tables_are_printed(

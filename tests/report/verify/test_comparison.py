@@ -110,9 +110,16 @@ def test_screws_bear_what_friction_leaves(tmp_path: Any) -> None:
     assert rows["link_pin_shear"].fe == pytest.approx(left / pins / section * 1e-6, rel=1e-6)
 
 
-def test_a_time_that_one_of_the_two_has_not_is_left_out(tmp_path: Any) -> None:
+def test_times_that_did_not_come_are_told_as_none_or_left_out(tmp_path: Any) -> None:
     names = {row.name for row in comparison.compared(MODULE, solved(tmp_path), TIMES)}
     assert names & set(comparison.TIMES) == {"mean_time"}
+    # `machined_compression` is not soft by FE: JSON has no word for infinity.
+    heat = Solved({"softening_time": math.inf, "mean_time": 3.0}, {"softening_time": math.inf}, Path())
+    told = json.loads(json.dumps(verify_report.verified([], {"heat": heat}), allow_nan=False))
+    assert told["solved"]["heat"] == {
+        "fine": {"softening_time": None, "mean_time": 3.0},
+        "coarse": {"softening_time": None},
+    }
 
 
 def test_the_worst_comes_first_and_is_named(tmp_path: Any) -> None:
@@ -141,13 +148,3 @@ def test_rigid_modules_are_refused_in_a_vane_alone(study: str, drawn: bool) -> N
         return
     with pytest.raises(InputError, match="heater_form is rigid"):
         verify_design.refuse_other_parts(module)
-
-
-def test_a_time_that_did_not_come_is_told_as_none() -> None:
-    # `machined_compression` is not soft by FE: JSON has no word for infinity.
-    heat = Solved({"softening_time": math.inf, "mean_time": 3.0}, {"softening_time": math.inf}, Path())
-    told = json.loads(json.dumps(verify_report.verified([], {"heat": heat}), allow_nan=False))
-    assert told["solved"]["heat"] == {
-        "fine": {"softening_time": None, "mean_time": 3.0},
-        "coarse": {"softening_time": None},
-    }

@@ -1,10 +1,16 @@
-"""The page of a verification: rows worst first, a picture where there is one, and what solved them."""
+"""`run --verify` and the page of a verification: rows worst first, pictures, and what solved them."""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from typing import Any
+
+import pytest
+from support import Command
 
 from tvimdesign.cad.fe.run_solvers import Solved
+from tvimdesign.cli import commands
 from tvimdesign.page.page_file import page_html
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.verify.comparison import Compared
@@ -43,3 +49,27 @@ def test_eleven_percent_over_or_below_is_beyond_ten() -> None:
         Compared(f"of_{model:g}", "s", "", model=model, fe=100.0, coarse=100.0) for model in (89.0, 91.0, 109.0, 110.5)
     ]
     assert far(rows) == ["of_89", "of_110.5"]
+
+
+STUDY = "mode: shear\n"
+
+
+def test_what_finite_elements_lack_is_told_before_the_run(tmp_path: Path, tvimdesign: Command) -> None:
+    (tmp_path / "mine.yaml").write_text(STUDY)
+    said = tvimdesign("run", "mine.yaml", "--verify", "--fe-python", str(tmp_path / "none"), cwd=tmp_path)
+    assert said.returncode == 2
+    assert "--fe-python" in said.stderr
+    assert not (tmp_path / "results").exists()
+
+
+def test_the_run_comes_first_and_its_folder_is_verified(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    done: list[Any] = []
+    monkeypatch.setattr("tvimdesign.report.run.run_study.run_study", lambda *_, **__: done.append("run"))
+    monkeypatch.setattr("tvimdesign.cad.fe.run_solvers.require_fe", done.append)
+    monkeypatch.setattr(
+        "tvimdesign.report.verify.verify_design.verify_design",
+        lambda path, out, _, **given: done.append((path, out, given["told"])),
+    )
+    out = tmp_path / "wrist"
+    commands.run(tmp_path / "mine.yaml", out=out, verified=True, json=True)
+    assert done == [sys.executable, "run", (out, tmp_path / "wrist-verified", False)]

@@ -39,9 +39,17 @@ def test_resistance_of_layers_in_series(mode: str, count: float) -> None:
     assert found["electrode_gap_margin"] == pytest.approx(12e-3 - found["pcl_depth"])
 
 
-def test_pads_that_heat_have_no_layer_in_their_circuit() -> None:
+def test_what_cannot_heat_or_be_held_is_named() -> None:
     found = table_for("shear").evaluate(given(study("shear", "")), WANTED)
     assert (found["layer_resistance"], found["electrode_gap_margin"]) == (0.0, 0.0)
+    module = "heat_source: layer, peltier_module: qc_17, pcl_resistivity: 0.1 ohm.m, electrode_gap: 2 mm, "
+    values = given(study("shear", f"{module} electrode_width: 1 mm"))
+    with pytest.raises(InputError, match="heat_source: layer needs a heater that lies on the layer; qc_17 is rigid"):
+        table_for("shear").evaluate(values, ["layer_resistance"])
+    with pytest.raises(InputError, match="no type stays closed at the heater's 230 degC, the highest at 225 degC"):
+        chosen(230.0, 1.0, heater=250.0)
+    with pytest.raises(InputError, match=r"no type bears the heater's 20 A, the strongest 16 A"):
+        chosen(80.0, 20.0, heater=120.0)
 
 
 @pytest.mark.parametrize(
@@ -59,13 +67,6 @@ def test_what_cannot_stand_together_is_named(module: str, said: str) -> None:
     own = "pcl_resistivity: 0.1 ohm.m, " if module.startswith("heat_source") else ""
     with pytest.raises(InputError, match=said):
         given(study("shear", own + module))
-
-
-def test_rigid_modules_cannot_feed_the_layer() -> None:
-    module = "heat_source: layer, peltier_module: qc_17, pcl_resistivity: 0.1 ohm.m, electrode_gap: 2 mm, "
-    values = given(study("shear", f"{module} electrode_width: 1 mm"))
-    with pytest.raises(InputError, match="heat_source: layer needs a heater that lies on the layer; qc_17 is rigid"):
-        table_for("shear").evaluate(values, ["layer_resistance"])
 
 
 RECORD = Catalog().record("thermal_fuses", "ultimheat_5ma3")
@@ -119,17 +120,10 @@ def test_a_second_maker_has_a_type_for_polycarbonate(
         heater_fuse(record, 330.0, 10.1, {"structure": 400.0})
 
 
-def test_what_no_type_holds_or_bears_is_named() -> None:
-    with pytest.raises(InputError, match="no type stays closed at the heater's 230 degC, the highest at 225 degC"):
-        chosen(230.0, 1.0, heater=250.0)
-    with pytest.raises(InputError, match=r"no type bears the heater's 20 A, the strongest 16 A"):
-        chosen(80.0, 20.0, heater=120.0)
-
-
 TABLE = table_for("shear")
 
 
-def test_a_dashpot_takes_up_the_work_of_its_period() -> None:
+def test_dashpots_and_molten_slices_take_up_the_work_of_a_period() -> None:
     # T = b dphi/dt over a period of phi = A sin(2 pi f t): b A^2 2 pi^2 f^2, integrated here; a rigid support.
     damping, amplitude, frequency = 1.85, 0.104, 1.0
     turns = np.linspace(0.0, 1.0, 20001)
@@ -137,17 +131,11 @@ def test_a_dashpot_takes_up_the_work_of_its_period() -> None:
     work = np.trapezoid(damping * speed**2, turns / frequency)
     alone = (0.0, layer.loss_stiffness(damping, frequency))
     assert layer.dissipation(alone, alone, amplitude, frequency) == pytest.approx(frequency * work, rel=1e-6)
-
-
-def test_a_soft_support_takes_motion_from_the_dashpot() -> None:
     # A spring in series with a dashpot of the same stiffness at this frequency: half of the motion's square is left.
     stiffness, amplitude = 10.0, 0.1
     behind = layer.series_stiffness(0.0, stiffness, stiffness)
     heat_alone = layer.dissipation((0.0, stiffness), (0.0, stiffness), amplitude, 2.0)
     assert layer.dissipation((0.0, stiffness), behind, amplitude, 2.0) == pytest.approx(0.5 * heat_alone, rel=1e-12)
-
-
-def test_molten_slices_take_up_the_heat() -> None:
     shares = layer.loss_shares(np.array([1e4, 1e8]), np.array([2e4, 4e6]))
     assert np.sum(shares) == pytest.approx(1.0)
     assert shares[1] < 1e-4

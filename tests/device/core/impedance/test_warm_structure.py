@@ -65,13 +65,10 @@ def test_the_hot_structure_is_softer_and_lossier(mode: str) -> None:
     assert hot > 2.0 * cold
 
 
-def test_metal_hardly_softens() -> None:
+def test_metal_hardly_softens_and_a_joint_beyond_its_rating_is_computed() -> None:
     given = inputs_of("shear", process="machine_6061")
     found = table_for("shear").evaluate(given, ["hot_structure_share"])
     assert 0.95 < found["hot_structure_share"] < 1.0
-
-
-def test_a_joint_far_beyond_its_rating_can_be_computed() -> None:
     given = {**inputs_of("shear"), "temperature@hot": 473.15}
     found = table_for("shear").evaluate(given, ["joint_stiffness@hot", "warm_structure_stiffness@hot"])
     assert 0.0 < found["warm_structure_stiffness@hot"] < 200.0

@@ -42,15 +42,12 @@ def test_printed_module_loses_preload_as_pin_and_floor_creep(mode: str) -> None:
     assert 0.005 < found["preload_loss"] / wound < 0.3
 
 
-def test_more_time_and_heat_take_more_and_never_more_than_there_is() -> None:
+def test_creep_grows_with_time_and_heat_and_spares_milled_modules() -> None:
     plain = module()["preload_loss"]
     assert module(rest_time=3.6e7)["preload_loss"] > plain
     assert module(hot_time=3.6e5)["preload_loss"] > plain
     found = module(hot_time=1e8, **{"temperature@hot": 473.15})
     assert plain < found["preload_loss"] < found["preload_angle"]
-
-
-def test_milled_module_keeps_its_preload() -> None:
     found = module(process="machine_6061")
     assert found["preload_loss"] == 0.0
     assert 0.0 < found["preload_give"] < 0.01 * found["preload_angle"]

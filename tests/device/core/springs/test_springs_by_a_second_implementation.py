@@ -26,21 +26,15 @@ AT = (
 )
 
 
-def test_stiffness_of_the_published_module() -> None:
+def test_both_say_the_same_of_the_published_module(inputs: dict[str, Any]) -> None:
     # An independent reading of the drawn module (own geometry) found 4.53 N*m/rad at rest and 4.09 at full stroke.
     assert plain_module.stiffness({**PUBLISHED, "transmission": "unity"}, 0.0) == pytest.approx(5.61, rel=5e-3)
     assert plain_module.stiffness(PUBLISHED, 0.0) == pytest.approx(4.53, abs=0.005)
     assert plain_module.stiffness(PUBLISHED, 0.104) == pytest.approx(4.09, abs=0.005)
-
-
-def test_the_product_says_the_same_of_the_published_module(inputs: dict[str, Any]) -> None:
     names = [*AT, "least_spring_stiffness"]
     found = TABLE.evaluate({**inputs, **PUBLISHED, "transmission": "geometry"}, names)
     for name, angle in zip(names, (0.0, 0.052, 0.0728, 0.624 / 7.0, 0.104, 0.104), strict=True):
         assert found[name] == pytest.approx(plain_module.stiffness(PUBLISHED, angle), rel=1e-5), name
-
-
-def test_geometry_is_what_a_study_gets_that_says_nothing(inputs: dict[str, Any]) -> None:
     study = read_study_text("mode: shear\n")
     assert given_of(study)["transmission"] == "geometry"
     assert inputs["transmission"] == "geometry"

@@ -31,8 +31,13 @@ def without_compiler(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written.path
 
 
-def test_the_description_is_without_fault(without_compiler: Path) -> None:
+def test_the_description_is_without_fault_and_all_sources_are_there(without_compiler: Path) -> None:
     assert validate_fmu(str(without_compiler)) == []
+    (build,) = read_model_description(str(without_compiler)).buildConfigurations
+    with zipfile.ZipFile(without_compiler) as archive:
+        names = archive.namelist()
+    assert {f"sources/{name}" for part in build.sourceFileSets for name in part.sourceFiles} <= set(names)
+    assert not [name for name in names if name.startswith("binaries")]
 
 
 def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_compiler: Path) -> None:
@@ -47,14 +52,6 @@ def test_current_and_angle_go_in_and_torque_and_temperatures_come_out(without_co
     resolved = module_of("shear")
     assert float(found["stroke"].start) == pytest.approx(float(resolved.quantity("stroke")))
     assert float(found["ambient_temperature"].start) == pytest.approx(float(resolved.quantity("ambient_temperature")))
-
-
-def test_without_a_compiler_it_holds_every_source_that_is_named(without_compiler: Path) -> None:
-    (build,) = read_model_description(str(without_compiler)).buildConfigurations
-    with zipfile.ZipFile(without_compiler) as archive:
-        names = archive.namelist()
-    assert {f"sources/{name}" for part in build.sourceFileSets for name in part.sourceFiles} <= set(names)
-    assert not [name for name in names if name.startswith("binaries")]
 
 
 def test_a_compiler_that_fails_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
