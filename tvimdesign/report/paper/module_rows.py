@@ -45,6 +45,7 @@ def _response() -> str:
     )
 
 
+_TIMES = ("near_face_time", "far_face_time", "softening_time")
 _INSULATED = {"rotor_contact": 1e-3}
 """A rotor behind no thermal contact at all: the other end of what the paper leaves open."""
 
@@ -60,7 +61,7 @@ def _switches() -> tuple[float, Callable[[dict[str, float]], dict[str, float]]]:
         inputs = model.start.copy()
         for name, value in changes.items():
             inputs[model.index[name]] = value
-        return simulator.run(inputs).values
+        return simulator.run(inputs, phases=list(model.phases)[:1], wanted=_TIMES).values
 
     return float(model.start[model.index["pcl_thickness"]]), simulate
 

@@ -71,9 +71,11 @@ def published_module() -> ResolvedModule:
 @cache
 def published_values() -> dict[str, float]:
     """Return the values of the module [SI], one working cycle simulated."""
-    from tvimdesign.solve.result import answer
+    from tvimdesign.simulation.working_cycle.cycle import Simulator
 
-    return answer(_study()).design.values
+    model = published_model()
+    numbers = dict(zip(model.names, model.start.tolist(), strict=True))
+    return {**numbers, **model.values(model.start, Simulator(model).run(model.start).values)}
 
 
 def spring_rate(wire_diameter: float, youngs_modulus: float | None = None) -> float:

@@ -16,6 +16,10 @@ from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.report.paper.published_module import Instrument, from_paper, instrument, published_module
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 
+_EACH_DECADE = 5
+"""Frequencies of a usual sweep in a decade."""
+_POISSON = 0.3, 0.5
+"""Poisson's ratio of a stiff plastic and of a melt."""
 _SURE = 0.1
 """Share by which an uncorrected modulus may be low before it is called wrong."""
 
@@ -100,6 +104,43 @@ def _stiff_specimen() -> str:
     )
 
 
+def _loss_modulus() -> str:
+    highest, least = from_paper("highest_frequency"), instrument("least_torque")
+    hot = _modes(from_paper("above"), 0.0)
+    storage, loss = (float(part) for part in polymer.maxwell_moduli(highest, hot))
+    stated = from_paper("loss_modulus")
+    torque = plate_torque(stated * from_paper("sweep_strain"))
+    return (
+        f"the melt's G'' at {highest:g} rad/s is {_pascal(loss)}, its tan(delta) {loss / storage:.2g}. A G'' of "
+        f"{stated:g} Pa at 0.01 % answers with {torque * 1e12:.2g} pN·m, where a rheometer resolves "
+        f"{_share(least, 'uN*m')}"
+    )
+
+
+def _adapted_moduli() -> str:
+    shear = _complex_modulus(from_paper("below"), 1.0, 2.0 * math.pi)
+    ends = [2.0 * (1.0 + ratio) for ratio in _POISSON]
+    return (
+        f"of an isotropic solid E is {ends[0]:.1f} to {ends[1]:.0f} times G, so that one curve follows from the other: "
+        f"G = {shear / 1e6:.0f} MPa at 30 °C and 1 Hz here, E = {ends[0] * shear / 1e6:.0f} to "
+        f"{ends[1] * shear / 1e6:.0f} MPa"
+    )
+
+
+def _sweep_time() -> str:
+    lowest, at = from_paper("lowest_frequency"), from_paper("premelt")
+    low, _, high = fractions_at(published_module(), at)
+    period = 2.0 * math.pi / lowest
+    decades = math.log10(from_paper("highest_frequency") / lowest)
+    points = np.geomspace(lowest, from_paper("highest_frequency"), round(_EACH_DECADE * decades) + 1)
+    whole = float(np.sum(2.0 * math.pi / points))
+    return (
+        f"one period at {lowest:g} rad/s takes {period:.0f} s, and {len(points)} points of one period each "
+        f"{whole / 60.0:.1f} min. At 60 °C the solid share lies between {low:.0%} and {high:.0%} by history, and "
+        "crystals melt and form meanwhile"
+    )
+
+
 def _premelt() -> str:
     at, module = from_paper("premelt"), published_module()
     low, nominal, high = fractions_at(module, at)
@@ -129,5 +170,8 @@ COMPUTED: dict[str, Callable[[], str]] = {
     "small_strain": _small_strain,
     "stiff_specimen": _stiff_specimen,
     "premelt": _premelt,
+    "loss_modulus": _loss_modulus,
+    "adapted_moduli": _adapted_moduli,
+    "sweep_time": _sweep_time,
 }
 """What each row of the paper check says, by the row's name."""

@@ -14,6 +14,7 @@ collocated heat equation.
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -24,6 +25,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.phase_instants import Grid
 
 Array = NDArray[np.float64]
 PLACES = ("near_face_time", "mean_time", "far_face_time", "softening_time")
@@ -158,6 +160,8 @@ class Pair:
         """Start with nothing simulated."""
         self.models = (first, second)
         self._simulators = tuple(Simulator(model) for model in self.models)
+        self._grids = defaultdict[tuple[int, str], dict[str, Grid]](dict)
+        """Steps of the phases by module and event: those of the first run, so that all times have the same errors."""
         self._times: dict[tuple[int, str, tuple[tuple[str, float], ...]], float] = {}
 
     def value(self, name: str) -> float:
@@ -185,7 +189,8 @@ class Pair:
             inputs = model.start.copy()
             for name, value in own:
                 inputs[model.index[name]] = value
-            times = CycleEngine(model).run(inputs, np.zeros((len(inputs), 0)), [event]).values
+            engine, still = CycleEngine(model), np.zeros((len(inputs), 0))
+            times = engine.run(inputs, still, [event], self._grids[which, event]).values
             self._times[which, event, own] = float(times[model.switch_names.index(event)])
         return self._times[which, event, own]
 
