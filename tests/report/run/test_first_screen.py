@@ -129,11 +129,26 @@ def test_a_screen_has_its_lines_and_no_name_of_the_table(name: str, width: int) 
 @each
 def test_facts_stand_in_their_order(name: str, width: int) -> None:
     lines = first_screen(case(name), width)
-    labels = ("Size and mass", "Times", "Energy", "Active constraints", "Manufacturing", "Model", "Chosen", "Warning")
+    labels = (
+        "Size and mass", "Times", "Energy", "Lost motion", "Active constraints", "Manufacturing", "Model", "Chosen",
+        "Warning",
+    )  # fmt: skip
     places = [(i, label) for label in labels for i, line in enumerate(lines) if line.startswith(f"{label}: ")]
     assert places == sorted(places)
     assert {"Size and mass", "Times", "Energy"} <= {label for _, label in places}
     assert {"Manufacturing", "Model"} <= {label for _, label in places} or not case(name).uncertainty
+
+
+@widths
+@each
+def test_large_lost_motion_and_friction_stand_on_the_screen(name: str, width: int) -> None:
+    value, text = case(name).result.design.value, " ".join(line.strip() for line in first_screen(case(name), width))
+    lost = value("lost_motion") / value("stroke")
+    rubs = value("friction_torque") / value("spring_torque_full_stroke")
+    for share, unit in ((lost, "rad"), (rubs, "N·m")):
+        shown = re.search(rf"[\d.]+ of [\d.]+ {unit} \((\d+) %\)", text)
+        assert bool(shown) == (share > 0.1), (unit, share)
+        assert not shown or int(shown[1]) == round(100.0 * share)
 
 
 @widths
@@ -195,7 +210,8 @@ def test_every_headline_and_requirement_has_its_range() -> None:
         value = math.inf if interval["value"] is None else interval["value"]
         assert low <= value <= high, output
     soft = intervals["softening_time"]
-    assert f"soft after {soft['value']:.3g} s ({soft['low']:.3g} to {soft['high']:.3g})" in text
+    assert one.result.design.value("softening_time") == pytest.approx(soft["value"], rel=1e-3)
+    assert f"s ({soft['low']:.3g} to {soft['high']:.3g})" in text
 
 
 def test_the_range_of_the_stiffness_covers_the_whole_stroke() -> None:

@@ -46,6 +46,12 @@ def friction_play(m: Module) -> Scalar:
     return m.pin_friction_torque / m.spring_stiffness
 
 
+@quantities.output("N*m")
+def friction_torque(m: Module) -> Scalar:
+    """Torque by which pins, bore or bearings and wave spring resist a force at the link's end, at full stroke."""
+    return m.pin_friction_torque + m.bearing_friction_torque + m.preload_friction_torque
+
+
 class Support(NamedTuple):
     """Guide of the core in the hub [m, rad]."""
 

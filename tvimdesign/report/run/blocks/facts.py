@@ -83,7 +83,8 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
         Fact("Times", list(_times(value))),
         Fact("Energy", [f"{value('switch_energy')} to soften", peaks]),
     ]
-    return [*facts, *_active_constraints(answer), *_manufacturing(uncertainty), *_model(uncertainty)]
+    doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
+    return [*facts, *_lost_motion(value), *_active_constraints(answer), *doubts]
 
 
 def _times(value: _Values) -> Iterator[str]:
@@ -93,6 +94,28 @@ def _times(value: _Values) -> Iterator[str]:
         yield f"stiff {value('stiffening_time')} after heating stops"
     elif math.isfinite(soft):
         yield "never stiff again"
+
+
+_LARGE = 0.1
+"""Share of stroke or spring torque from which lost motion or friction stands on the first screen."""
+_LOST = (
+    ("lost_motion", "stroke", "", ("friction_play", "link_play", "bearing_play")),
+    ("friction_torque", "spring_torque_full_stroke", "friction ",
+     ("pin_friction_torque", "bearing_friction_torque", "preload_friction_torque")),
+)  # fmt: skip
+"""What counts as lost, of what, and by which sources."""
+
+
+def _lost_motion(value: _Values) -> list[Fact]:
+    """Return lost motion of the stroke and friction of the springs' torque where they are large, with main sources."""
+    parts, most = [], []
+    for name, whole, words, sources in _LOST:
+        lost, of, unit = value.values[name], value.values[whole], value.table.unit(name)
+        if lost > _LARGE * of:
+            numbers = " of ".join(number(from_si(one, unit), _DIGITS) for one in (lost, of))
+            parts.append(f"{words}{numbers} {pretty(unit)} ({100.0 * lost / of:.0f} %)")
+            most.append(label(max(sources, key=lambda source: value.values[source])))
+    return [Fact("Lost motion", parts, f"most by {' and '.join(most)}")] if parts else []
 
 
 def _active_constraints(answer: StudyResult) -> list[Fact]:
