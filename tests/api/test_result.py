@@ -188,5 +188,5 @@ def test_parts_are_made(result: tvim.Result, tmp_path: Path) -> None:
 
 
 def test_the_paper_s_module_is_within_reach_of_two_lines() -> None:
-    result = tvim.load(ROOT / "studies/paper_as_published.yaml").run(progress=False)
+    result = tvim.load(ROOT / "studies/paper_as_published.yaml").evaluate(progress=False)
     assert result["spring_stiffness"].to("N*m/rad").value == pytest.approx(5.6, rel=0.02)  # the paper's Table I

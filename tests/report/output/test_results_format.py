@@ -82,7 +82,7 @@ def test_the_schema_refuses_what_is_not_of_the_format(reported: dict[str, Any], 
     else:
         spoilt["quarrel"] = {}
     with pytest.raises(jsonschema.ValidationError):
-        jsonschema.validate(spoilt, results_schema())
+        jsonschema.Draft202012Validator(results_schema()).validate(spoilt)
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
