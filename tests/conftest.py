@@ -1,7 +1,5 @@
 """What all tests share: the command line as a user calls it."""
 
-from __future__ import annotations
-
 import gc
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The command line: answers at once, says what is wrong, exits with the right code."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

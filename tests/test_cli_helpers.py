@@ -1,7 +1,5 @@
 """What helps on the command line: settings for once, shipped studies, completion, and the old word for paper-check."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The README and the docs: commands run, tables hold the results, links lead somewhere, sizes stay small."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The tutorial and the how-to pages: their files are written and their commands run, in the order of the page."""
 
-from __future__ import annotations
-
 import json
 import re
 import shlex

@@ -1,7 +1,5 @@
 """The docs site: built strictly, nothing from another host; theory names every equation, drawings every radius."""
 
-from __future__ import annotations
-
 import ast
 import os
 import re

@@ -1,7 +1,5 @@
 """What a release is made of says one thing: pyproject.toml, the conda recipe, the container, the check and the page."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 

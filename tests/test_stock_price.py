@@ -1,7 +1,5 @@
 """What parts from stock cost: the page is made from its figures, and these are those of runs."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

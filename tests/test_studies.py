@@ -1,7 +1,5 @@
 """The studies that ship: each runs, and comes to what it promises."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The parts that the shipped studies become."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every shipped study but the paper's own is a module that somebody can order: read off file and answer."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

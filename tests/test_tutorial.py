@@ -1,7 +1,5 @@
 """The tutorial's notebook runs from its first cell to its last, and shows what it says it shows."""
 
-from __future__ import annotations
-
 import ast
 import json
 from collections.abc import Iterator

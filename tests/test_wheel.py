@@ -6,8 +6,6 @@ With `FE_PYTHON`, a Python that has netgen and ngsolve, a design is verified; wi
 lacks. `make check-wheel FE_PYTHON=...` runs this file.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

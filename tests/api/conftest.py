@@ -1,7 +1,5 @@
 """One study that is optimised within seconds, and its result, which the tests of the door share."""
 
-from __future__ import annotations
-
 import pytest
 
 import tvimdesign as tvim

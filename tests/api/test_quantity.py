@@ -1,7 +1,5 @@
 """Quantities know their unit; `import tvimdesign` names all that is public and loads nothing heavy."""
 
-from __future__ import annotations
-
 import ast
 import math
 import subprocess

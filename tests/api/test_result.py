@@ -1,7 +1,5 @@
 """A result in Python: the same numbers as the command line's, as quantities, tables, figures and files."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

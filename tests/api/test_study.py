@@ -1,7 +1,5 @@
 """A study in Python: read from text and paths, changed by copies, refused with the call that made it wrong."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A sweep's cells are the designs that its studies have on their own; progress shows where it is seen."""
 
-from __future__ import annotations
-
 import math
 import sys
 import threading

@@ -1,7 +1,5 @@
 """Extras: a missing one is named, and the other work is done."""
 
-from __future__ import annotations
-
 import json
 from importlib.util import find_spec
 from pathlib import Path

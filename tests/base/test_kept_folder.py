@@ -1,7 +1,5 @@
 """Cache folders: one of another user is not trusted."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

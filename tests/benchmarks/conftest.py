@@ -1,7 +1,5 @@
 """What the benchmarks have written for numba is tested as plain Python: compiling it takes longer than all else."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from unittest.mock import patch
 

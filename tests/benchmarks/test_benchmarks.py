@@ -1,7 +1,5 @@
 """Benchmarks give all contenders the same problem, and tell a right answer from a wrong one."""
 
-from __future__ import annotations
-
 from itertools import islice
 from typing import Any, cast
 

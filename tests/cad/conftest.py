@@ -1,7 +1,5 @@
 """The designs as fixtures, and their parts as the child process makes them."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The child process and the files it writes."""
 
-from __future__ import annotations
-
 import hashlib
 import queue
 import subprocess

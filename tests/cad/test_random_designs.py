@@ -1,7 +1,5 @@
 """Random designs within a study's bounds: refused by a named rule, or sound."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

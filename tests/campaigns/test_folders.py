@@ -1,7 +1,5 @@
 """Small campaigns: random folders, random studies, and a machine that lacks something."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import random

@@ -1,7 +1,5 @@
 """A small campaign of inputs; and that it sees what it looks for."""
 
-from __future__ import annotations
-
 import json
 import os
 import random

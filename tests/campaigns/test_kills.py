@@ -1,7 +1,5 @@
 """Some commands ended at some moments; and that the campaign sees what it looks for."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The frozen oracle: that a comparison sees what changed, was lost or was added."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Mapping

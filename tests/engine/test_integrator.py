@@ -1,7 +1,5 @@
 """Steps of an equation of motion against closed solutions: order, algebraic rows, sensitivities, errors."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Any

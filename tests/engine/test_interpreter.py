@@ -1,7 +1,5 @@
 """The interpreter's operations: values as CasADi's to the last bit, slopes as CasADi's, and the edges of each."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Many designs side by side: functions to their last digits, linear systems, steps in time and what they pass."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

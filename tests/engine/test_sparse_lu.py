@@ -1,7 +1,5 @@
 """Factors of one pattern without pivots against numpy, for random patterns that are dominated by their diagonal."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numba

@@ -1,7 +1,5 @@
 """A CasADi function as data: computed as CasADi does, once, in registers that are used again, or refused."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import casadi as ca

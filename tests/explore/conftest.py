@@ -1,7 +1,5 @@
 """The explorer of a small study, served by the command, and pages of it in a browser."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 

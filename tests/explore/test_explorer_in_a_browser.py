@@ -1,7 +1,5 @@
 """The explorer as a person uses it: drags, types, undoes, pins, saves, loses the connection, on a phone too."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The server: who may ask, what it gives, what it refuses in the study's own words, and what it keeps."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import json

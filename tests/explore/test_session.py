@@ -1,7 +1,5 @@
 """Answers as they come: a drag's newest wins, the optimum follows, pins stand, the worker may die."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 import signal

@@ -1,7 +1,5 @@
 """A sweep is opened: its cells are drawn, and the one that is chosen is what the explorer shows."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

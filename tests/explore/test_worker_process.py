@@ -1,7 +1,5 @@
 """A process that answers jobs: given up if it cannot start, and stopped where a job is interrupted."""
 
-from __future__ import annotations
-
 import asyncio
 import io
 import json

@@ -4,8 +4,6 @@ Heat, plate and floor beside the arcs with the gap between them, melting, freezi
 radiation, from the numbers of a design alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

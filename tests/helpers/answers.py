@@ -1,7 +1,5 @@
 """Answers of the shipped studies, each found once in a process, for all tests that only look at them."""
 
-from __future__ import annotations
-
 from functools import cache
 
 from support import ROOT

@@ -1,7 +1,5 @@
 """Chromium of the system, for pages in a browser. Where there is none, tests in one are skipped, and say why."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Iterator, Sequence
 

@@ -1,7 +1,5 @@
 """Designs to make parts of, in either mode: the paper's size, a wrist's, and one whose coils end at an odd angle."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from math import radians

@@ -1,7 +1,5 @@
 """A study with short lists, and its combinations solved one by one without the search that is tested."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

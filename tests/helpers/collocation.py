@@ -7,8 +7,6 @@ of its own before the others.
 Source: Biegler, Nonlinear Programming (2010), ch. 10.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any

@@ -1,7 +1,5 @@
 """A pair of small studies that can be compared: three variables each, one start, the same task."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from tvimdesign.study import read_study

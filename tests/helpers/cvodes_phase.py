@@ -1,7 +1,5 @@
 """One phase of the working cycle simulated: the heat equation through CVODES until the event that ends it."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass

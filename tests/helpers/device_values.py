@@ -1,7 +1,5 @@
 """Inputs and quantities of a module that is the default one but for some inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

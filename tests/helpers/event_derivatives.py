@@ -1,7 +1,5 @@
 """Derivatives that tests hold against exact ones: by differences, and of an event's time by the implicit function."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """One check of many items as one test, which names every item that fails and why."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 

@@ -1,7 +1,5 @@
 """A small study to explore, and a server with a client that talks to its socket."""
 
-from __future__ import annotations
-
 import asyncio
 from collections.abc import AsyncIterator, Callable, Coroutine
 from concurrent.futures import ThreadPoolExecutor

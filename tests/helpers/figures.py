@@ -1,7 +1,5 @@
 """Checks of every figure: nothing cut off, axes with ticks and words with units, legends beside the data."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

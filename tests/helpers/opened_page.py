@@ -1,7 +1,5 @@
 """A page opened in a browser from the disk, with what it asked of the network and what it complained of."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path

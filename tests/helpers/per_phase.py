@@ -1,7 +1,5 @@
 """A function of an instant in two parts: what is the same all through a phase, and what is not."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import Any

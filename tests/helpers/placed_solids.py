@@ -1,7 +1,5 @@
 """Solids of a module's parts where they stand, for tests of what is between them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import cadquery as cq

@@ -7,8 +7,6 @@ it is tangent to the circle around C of the radius e = D/2 + d/2 + pin/2. Left-h
 Springs: Shigley, 10th ed., 10-12; Castigliano's theorem, summed up along the wire.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 

@@ -3,8 +3,6 @@
 Run as `tvimdesign.cad.jobs.main` is. What is left out has tests of its own in `tests/cad/inspection/`.
 """
 
-from __future__ import annotations
-
 import sys
 
 from tvimdesign.cad.geometry.dimensions import Dimensions

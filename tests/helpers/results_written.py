@@ -1,7 +1,5 @@
 """Results folders for tests: finished, and of a run that was killed."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

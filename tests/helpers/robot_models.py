@@ -1,7 +1,5 @@
 """A module of either mode as models for simulators, on bodies that have its inertia and no mesh."""
 
-from __future__ import annotations
-
 from functools import cache
 
 from support import ROOT

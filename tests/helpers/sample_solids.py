@@ -1,7 +1,5 @@
 """Solids that tests draw, and checks by what they are about."""
 
-from __future__ import annotations
-
 import cadquery as cq
 
 from tvimdesign.cad.cad_report import SolidCheck

@@ -1,7 +1,5 @@
 """The explorer served by the command, and a page of it in a browser."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import time

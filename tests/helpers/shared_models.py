@@ -5,8 +5,6 @@ in numbers alone have the same. Writing them takes most of what it takes to eval
 What a process of its own does, such as the command line's tests that start one, shares nothing.
 """
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Small studies that several tests begin from: their mode, what is given and what varies; each test asks its own."""
 
-from __future__ import annotations
-
 FOUR_SIZES_IN_SHEAR = """
 mode: shear
 vary:

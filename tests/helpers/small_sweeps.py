@@ -1,7 +1,5 @@
 """A sweep of six cells that are evaluated in a second or two, and how tests have it done."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Names that tests share: where the project is, its studies, and the type of the command fixture."""
 
-from __future__ import annotations
-
 import gc
 import io
 import os

@@ -1,7 +1,5 @@
 """Equations that the product does not need and its tests are held against."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A browser, and pages opened in it from the disk. Where there is no browser its tests are skipped, and say why."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path

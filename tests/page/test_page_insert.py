@@ -1,7 +1,5 @@
 """Sections put into a page that is there, and the last line of tests where there is no browser."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """The page of a sweep in a browser: it is drawn offline, and a brush keeps cells in the table too."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

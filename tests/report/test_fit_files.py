@@ -1,7 +1,5 @@
 """The command `fit`: a folder, a record, kinds listed, and errors with exit code 2."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """`rows` is found by group, by name and by the words engineers use; names are whole at any width."""
 
-from __future__ import annotations
-
 import io
 import json
 from importlib.resources import files

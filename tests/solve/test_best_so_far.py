@@ -1,7 +1,5 @@
 """Interrupted searches: the study is started at the best design so far."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -1,7 +1,5 @@
 """Designs that were optimal with the states of every cycle as unknowns are so, or nearly so, to the problem of now."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

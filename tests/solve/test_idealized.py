@@ -1,7 +1,5 @@
 """Idealizations beside the module as drawn, and cooling beside the same with its pads unpowered."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -1,7 +1,5 @@
 """Design and currents found together: no worse than a constant current, within all limits, the same from anywhere."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

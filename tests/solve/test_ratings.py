@@ -1,7 +1,5 @@
 """An optimum beyond a rating is none unless its study accepts that: status, names, and reports."""
 
-from __future__ import annotations
-
 import json
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The optimum: equal from all starts, with the reported active constraints, and as good as an enumeration."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from answers import shipped_answer

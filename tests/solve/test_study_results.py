@@ -1,7 +1,5 @@
 """Results of studies: a feasible design without optimality, its account, walls that a process can make, a yardstick."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any

@@ -1,7 +1,5 @@
 """Conditions of a comparison: each difference is reported with both places."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

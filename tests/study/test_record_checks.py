@@ -1,7 +1,5 @@
 """Records that contradict themselves are named where people look: in `check` and at the end of a run."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Settings of the command line and values from Python meet the reader of study files, and its errors say so."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

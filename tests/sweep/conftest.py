@@ -1,7 +1,5 @@
 """One small sweep, and its table as one process makes it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A real cluster of three worker processes gives the table of one process, whatever of it ends meanwhile."""
 
-from __future__ import annotations
-
 import resource
 import subprocess
 import sys

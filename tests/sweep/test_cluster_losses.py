@@ -1,7 +1,5 @@
 """What a cluster does not say in time is asked again: no cell is lost with the answer."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Cells lie where they are asked for; a key and an answer depend on the cell's study alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

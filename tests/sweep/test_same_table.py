@@ -1,7 +1,5 @@
 """A sweep is the same table, byte for byte, whoever computes it and however often it was stopped."""
 
-from __future__ import annotations
-
 import csv
 import json
 import random

@@ -1,7 +1,5 @@
 """What a shard keeps is whole lines, whatever ends its writer."""
 
-from __future__ import annotations
-
 import math
 import resource
 import subprocess

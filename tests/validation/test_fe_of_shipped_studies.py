@@ -1,7 +1,5 @@
 """Shipped studies' parts as FE found them (validation/fe_structure/results.csv), against today's model and designs."""
 
-from __future__ import annotations
-
 import csv
 import importlib.util
 from types import ModuleType

@@ -1,7 +1,5 @@
 """The plane that judges the heat, against finite elements of drawings of their own (validation/heat_sector/fe.py)."""
 
-from __future__ import annotations
-
 import csv
 import sys
 from collections import defaultdict

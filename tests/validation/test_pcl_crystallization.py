@@ -1,7 +1,5 @@
 """Freezing of the shipped polymers against published calorimetry, by the product's own equations (validation/)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Cases of validation/cases: read and judged; some compared here, all in the slow test."""
 
-from __future__ import annotations
-
 import ast
 import re
 import shutil

@@ -1,7 +1,5 @@
 """Data for programs that show the assembly, compared with the GLB, the note and the CAD kernel's own wire."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The steps say what two hands need: forces, currents, places, the order, and how a module is opened again."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import degrees, radians
 from typing import Any

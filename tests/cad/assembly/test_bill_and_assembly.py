@@ -1,7 +1,5 @@
 """The bill of materials and the assembly's solids agree, one for one; what is bought says what it is ordered by."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections import Counter

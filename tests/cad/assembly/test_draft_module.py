@@ -1,7 +1,5 @@
 """Drafts: the same bodies as the exact kernel's, closed, with their sharp edges."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import pi
 

@@ -1,7 +1,5 @@
 """Items that a heater takes beside its pads: cut-out, thermistor, wires, and how a foil is ordered."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Details of sections: what is under a millimetre and dimensioned is drawn again, to a scale at which it is read."""
 
-from __future__ import annotations
-
 import io
 from math import pi, sqrt
 

@@ -1,7 +1,5 @@
 """Fits, surfaces and threads on drawings: ISO 286 against its tables, and what drawings of a milled module say."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """Drawings, the spring maker's sheet, the bill of materials and the note, against the design's rows and by hand."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -1,7 +1,5 @@
 """Every upright face of a part is on its drawing with size, place and heights: on a plate by hand, and on designs."""
 
-from __future__ import annotations
-
 import io
 import re
 from collections.abc import Mapping, Sequence

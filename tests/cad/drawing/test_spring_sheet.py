@@ -1,7 +1,5 @@
 """The spring maker's sheet: bend, mandrels, nothing beyond the frame; and the page that it is drawn on as PDF."""
 
-from __future__ import annotations
-
 import re
 import zlib
 

@@ -1,7 +1,5 @@
 """Print files against closed forms: wider holes, the right side down, a mesh error that was measured."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 from math import cos, pi, tau

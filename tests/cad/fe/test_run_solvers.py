@@ -1,7 +1,5 @@
 """Solvers run beside this process: what is missing and what fails is said in words."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """The spring's solid and its shape on the pin, against closed forms; and the tight box around a solid."""
 
-from __future__ import annotations
-
 from math import hypot, pi, sin, sqrt
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Which parts are surely apart by their meshes: never two that touch, or one inside the other."""
 
-from __future__ import annotations
-
 import cadquery as cq
 import numpy as np
 import pytest

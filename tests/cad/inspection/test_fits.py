@@ -1,7 +1,5 @@
 """Parts in pockets go in: gaps measured on the solids, and pockets of the pad's own outline are found."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Checks on the solids: what is wrong with a part on purpose is found, with its place and its number."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import cos, pi, radians, sin, sqrt
 from typing import Any

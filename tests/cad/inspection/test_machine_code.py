@@ -1,7 +1,5 @@
 """Machine code: compiled once, then stored."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 from pathlib import Path

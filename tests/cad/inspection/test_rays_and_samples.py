@@ -1,7 +1,5 @@
 """Rays against the triangles of a part, and points on its surface."""
 
-from __future__ import annotations
-
 import cadquery as cq
 import numpy as np
 import pytest

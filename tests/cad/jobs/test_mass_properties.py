@@ -1,7 +1,5 @@
 """Mass properties of solids: against textbook bodies, and against the integrals of another library over a mesh."""
 
-from __future__ import annotations
-
 import cadquery as cq
 import numpy as np
 import pytest

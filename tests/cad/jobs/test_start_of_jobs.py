@@ -1,7 +1,5 @@
 """The process that makes parts: how it loads the kernel, and which pieces of work it starts first."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

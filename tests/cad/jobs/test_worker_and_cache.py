@@ -1,7 +1,5 @@
 """Pieces of work: each in a process of its own with a time-out, done again only where something it read has changed."""
 
-from __future__ import annotations
-
 import gc
 import os
 import pickle

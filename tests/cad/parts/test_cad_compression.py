@@ -1,7 +1,5 @@
 """Vanes, blocks and pads as solids: where they stand, what the stroke makes of them, and that the checks bite."""
 
-from __future__ import annotations
-
 from math import pi
 
 import cadquery as cq

@@ -1,7 +1,5 @@
 """Solids below a module: a torque sensor's flange, and a motor below the feet."""
 
-from __future__ import annotations
-
 from math import atan2, degrees, hypot
 
 import pytest

@@ -1,7 +1,5 @@
 """The solids against the model's rows, and against each other."""
 
-from __future__ import annotations
-
 from math import radians
 
 import cadquery as cq

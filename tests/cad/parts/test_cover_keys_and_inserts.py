@@ -1,7 +1,5 @@
 """Solids of keys, cover and inserts: they fit where the rows say, and what is wrong with them on purpose is found."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import cos, pi, sin
 

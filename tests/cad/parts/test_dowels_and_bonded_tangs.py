@@ -1,7 +1,5 @@
 """Dowel pins between link and core, and bonded tangs: solids, ways in, print files, drawings, bill and steps."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import hypot
 

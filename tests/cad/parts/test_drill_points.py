@@ -1,7 +1,5 @@
 """Drill points of blind holes and dots of scales, and the closed jig around the parts that are cast in it."""
 
-from __future__ import annotations
-
 from math import atan2, degrees, hypot, radians, tan
 
 import cadquery as cq

@@ -1,7 +1,5 @@
 """Liners and the thermal cut-out as solids: in their recesses, of the model's volume and moment, in no one's way."""
 
-from __future__ import annotations
-
 from math import atan2
 
 import cadquery as cq

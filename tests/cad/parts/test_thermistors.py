@@ -1,7 +1,5 @@
 """The thermistor by an arc or a vane: touching what it measures, clear of all else, over a hole for its wires."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import cadquery as cq

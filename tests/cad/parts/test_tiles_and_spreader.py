@@ -1,7 +1,5 @@
 """Solids of rectangular Peltier modules and their spreader: as large as their rows, apart, each over a window."""
 
-from __future__ import annotations
-
 from math import pi
 
 import cadquery as cq

@@ -1,7 +1,5 @@
 """Solids of rectangular Peltier modules in vanes: as large as their rows, apart, each over a slot for its leads."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import cadquery as cq

@@ -1,7 +1,5 @@
 """The drawn rotor turned to its stops: it meets them there, not before, and no leg has left its pin."""
 
-from __future__ import annotations
-
 import cadquery as cq
 import pytest
 from cad_designs import CASES, broken_rules, design_of

@@ -1,8 +1,6 @@
 """Solids of a module whose rotor follows the freezing layer: as large as their rows, in place, and put together in
 order."""
 
-from __future__ import annotations
-
 from math import pi
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Pictures: parts stand in their places, the section's cut, and a field in colours."""
 
-from __future__ import annotations
-
 from math import cos, pi, radians, sin
 from pathlib import Path
 

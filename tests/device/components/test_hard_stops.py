@@ -1,7 +1,5 @@
 """Hard stops: where posts and teeth stand, what they bear by a gear's tooth, and what their rules refuse."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

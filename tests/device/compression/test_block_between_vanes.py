@@ -1,7 +1,5 @@
 """Blocks, vanes and springs put together once more: by quadrature over the sector, with complex numbers, by hand."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

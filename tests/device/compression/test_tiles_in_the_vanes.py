@@ -1,7 +1,5 @@
 """Rectangular Peltier modules in the vanes: where they fit, what they weigh, pass, bear and give, by hand."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Gaps and fits as distances between discs and levels, placed from the inputs alone."""
 
-from __future__ import annotations
-
 from itertools import combinations
 from typing import Any, NamedTuple
 

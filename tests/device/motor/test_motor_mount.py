@@ -1,7 +1,5 @@
 """A motor below the module: where its parts stand, what they weigh and turn, and the rules that keep them apart."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from device_values import inputs_of, values_of

@@ -1,7 +1,5 @@
 """Keys of the PCL arcs: what they hold, what they take of the plate, and when there is no room for them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

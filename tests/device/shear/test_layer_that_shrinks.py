@@ -1,7 +1,5 @@
 """Shrinkage, flow and creep in a shear module, against values computed here from the drawn sizes."""
 
-from __future__ import annotations
-
 from math import exp, pi, radians
 
 import pytest

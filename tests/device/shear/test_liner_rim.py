@@ -1,7 +1,5 @@
 """Heat of a liner sideways to the walls of its recess, in the links of a whole module."""
 
-from __future__ import annotations
-
 from math import log, pi, tan
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Heat of the layer's edge to a lip of the rotor plate, in the links of a whole module."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import pi
 from typing import Any

@@ -1,7 +1,5 @@
 """The seat of a thermistor at the end of a pad: what it takes from the floor, by counting, and when it breaks out."""
 
-from __future__ import annotations
-
 from math import cos, pi, sin
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Ranges of unmeasured inputs are data; an input without one is a decision with its reason."""
 
-from __future__ import annotations
-
 from every import of_every
 
 from tvimdesign.catalog import CATEGORIES, Catalog

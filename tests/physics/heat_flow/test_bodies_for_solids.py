@@ -1,7 +1,5 @@
 """Bodies of one temperature in place of strips, fins and slabs, against what the heat equation says of these."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.linalg import expm

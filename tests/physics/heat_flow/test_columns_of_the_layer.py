@@ -1,8 +1,6 @@
 """A layer in columns from the middle of a strip to its edge, and what its end loses, against conduction in two
 dimensions and boundary value problems."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

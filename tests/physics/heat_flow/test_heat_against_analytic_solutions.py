@@ -9,8 +9,6 @@ Sources: Carslaw and Jaeger, Conduction of Heat in Solids, 2nd ed., sections 2.1
 Incropera, Fundamentals of Heat and Mass Transfer, section 5.5 (slab with convection).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The judge in two dimensions (`validation/heat_sector/plane.py`) against analytic solutions and its own energy."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Shape factors of still air beside tiles and below a lip, against conduction in two dimensions by finite volumes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Heat of a wall and of a lip at the end of a layer, against finite volumes and its closed form."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import casadi as ca

@@ -1,7 +1,5 @@
 """Heat at the end of a gap over a slot, and through a ledge to its root, against conduction in two dimensions."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """Friction, play and tightening torque, against handbooks, statics and integrals of a cycle."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import quad

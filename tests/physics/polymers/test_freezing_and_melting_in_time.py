@@ -1,7 +1,5 @@
 """Freezing in time against Avrami's law, Ozawa's quadrature, a virtual calorimeter, and what is published."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

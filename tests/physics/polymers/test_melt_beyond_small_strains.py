@@ -1,7 +1,5 @@
 """A melt in large oscillations and in a thin gap, against brute force, Stokes' equation and limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """A layer that shrinks between two plates: against beams in finite elements, and handbook moduli."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Fillets against Peterson's charts and finite elements, screws against VDI 2230 and ISO 898-1."""
 
-from __future__ import annotations
-
 import csv
 from math import pi
 

@@ -1,7 +1,5 @@
 """Shaft, rings, plates, feet and the one degree of freedom, against quadrature, differences and worked values."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

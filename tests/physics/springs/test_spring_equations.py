@@ -1,7 +1,5 @@
 """Torsion springs against handbook examples and against the mechanics the equations come from."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """The command `compare`: what it refuses, what it leaves behind, and what it says when a study has no design."""
 
-from __future__ import annotations
-
 import csv
 import json
 import tempfile

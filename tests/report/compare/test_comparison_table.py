@@ -1,7 +1,5 @@
 """Ratios and verdicts: what is better is said by the row, and swapping two studies turns everything round."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -1,7 +1,5 @@
 """Where one of two studies has no optimum, both are drawn and told as drawn, and neither one's optimum stands in."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

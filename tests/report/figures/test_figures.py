@@ -1,7 +1,5 @@
 """The figures of a run: nothing on them is cut off, and they show what the run came to."""
 
-from __future__ import annotations
-
 import io
 import re
 from importlib import import_module

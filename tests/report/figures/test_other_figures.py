@@ -1,7 +1,5 @@
 """The figures of virtual tests, fronts, comparisons, spreads and the paper's case, held to what an editor asks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A drawing process that fails or uses its processor time: every number is written and the command ends partly done."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

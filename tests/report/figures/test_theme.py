@@ -1,7 +1,5 @@
 """The theme: neighbours print apart in grey, logarithmic axes have ticks, swings become bands that hold them."""
 
-from __future__ import annotations
-
 import io
 import re
 import zlib

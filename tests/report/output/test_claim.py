@@ -1,7 +1,5 @@
 """The claim on a results folder: one run writes it at a time, jobs of an array share it."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform

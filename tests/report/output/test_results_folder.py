@@ -1,7 +1,5 @@
 """The results folder: nobody else's files are touched, nothing stands half written, one run writes at a time."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

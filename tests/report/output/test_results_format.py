@@ -1,7 +1,5 @@
 """results.json and results.csv: what each number is, in which units, how well it is known, and from where."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

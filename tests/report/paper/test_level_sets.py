@@ -1,7 +1,5 @@
 """`paper-check --out` writes the designs that take the paper's time, as tables and a figure."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The pair calibrated to the paper's 70 and 140 s: it takes them, is plausible throughout, and proves nothing."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 from typing import Any

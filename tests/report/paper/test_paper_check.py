@@ -1,7 +1,5 @@
 """The paper check computes what it prints; each number is held against a plain calculation from the paper's tables."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Both modes, which every model for simulators is written of."""
 
-from __future__ import annotations
-
 import pytest
 
 

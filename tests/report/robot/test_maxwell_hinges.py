@@ -1,7 +1,5 @@
 """The PCL as hinges and springs: as stiff at every frequency, and as relaxed after a hold, as it is in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from robot_models import model_of

@@ -1,7 +1,5 @@
 """MuJoCo takes the MJCF, and lets the link go as `simulate --test release` does."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 

@@ -1,7 +1,5 @@
 """`tvimdesign robot`: bodies as heavy as the table says, files that simulators load, and what is refused."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re

@@ -1,7 +1,5 @@
 """Facts of a result: what measurements buy, what was chosen of what is listed, and a layer that stalls."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any, cast
 

@@ -1,7 +1,5 @@
 """A front in a run's folder: tables, designs, figure and words; killed and resumed it is the same, byte for byte."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

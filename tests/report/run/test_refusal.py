@@ -1,7 +1,5 @@
 """A run ends before its search with what `check` refuses; a later refusal leaves its reason in the folder."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -1,7 +1,5 @@
 """The page of a run says what summary.txt and results.json say, and what to do where there is nothing to show."""
 
-from __future__ import annotations
-
 import json
 import time
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The table and the heat map of sensitivities: what was asked for, in units people read, and no more."""
 
-from __future__ import annotations
-
 import csv
 import io
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The yield and the assumptions of a first screen, against `tolerate` and against the table evaluated once more."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

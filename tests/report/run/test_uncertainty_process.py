@@ -1,7 +1,5 @@
 """A run whose uncertainty is not computed: it warns, says how to get it, and loses no number."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 from pathlib import Path

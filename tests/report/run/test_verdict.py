@@ -1,7 +1,5 @@
 """The verdict: each rule on a result that it decides, and the first of several."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 from typing import Any, cast

@@ -1,7 +1,5 @@
 """The page of a run shows the verification of its design: put in when it is verified, found when it is run again."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every warning has a line that a study can hold, and one that a run proposes does mend what it warns of."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Why this design: what the page says is what the account found, in words a reader can hold against the numbers."""
 
-from __future__ import annotations
-
 import csv
 import io
 

@@ -1,7 +1,5 @@
 """Parts of chosen cells of a sweep: each in a folder of its own."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A sweep that is resumed draws its figure again only where it would be another."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The figure of a sweep: lines over a grid, a cloud over a sample, and what has no number left out."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The page of a sweep: what it shows, the commands of its cells, and that it is made anew only where it changed."""
 
-from __future__ import annotations
-
 import html
 import json
 import re

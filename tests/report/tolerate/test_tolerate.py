@@ -1,7 +1,5 @@
 """`tvimdesign tolerate`: one folder of tables and a figure, the same as JSON, and sentences people can act on."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

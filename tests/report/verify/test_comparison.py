@@ -1,7 +1,5 @@
 """Rows of the model beside those of FE: the published module, with what FE found of its exported parts."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

@@ -1,7 +1,5 @@
 """`run --verify` and the page of a verification: rows worst first, pictures, and what solved them."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

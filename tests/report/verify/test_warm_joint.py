@@ -1,7 +1,5 @@
 """The joint by temperatures of its parts: what is alike warm is one column, and a molten film is in series."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support import ROOT

@@ -1,7 +1,5 @@
 """What was measured becomes a record that a study names, and what rests on it is surer then."""
 
-from __future__ import annotations
-
 import hashlib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The cycle with derivatives: smooth along every direction, within three thousandths of CVODES, in few steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The module as functions: what is wanted again is not written again."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

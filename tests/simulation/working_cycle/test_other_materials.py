@@ -1,7 +1,5 @@
 """Metals, waxes, glasses and layers that heat themselves: working cycles, and the range of the solid fraction."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

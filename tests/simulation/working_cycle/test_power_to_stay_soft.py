@@ -4,8 +4,6 @@ An independent reading of the modules, which counted the gap but neither ledges 
 with a floor at ambient temperature, had 3.7 W and 5.0 W for these two; `docs/theory/heat.md` says what becomes of that.
 """
 
-from __future__ import annotations
-
 import sys
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What the product's simulator promises: every value of every study within 2e-4 of CVODES, and what it shows."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

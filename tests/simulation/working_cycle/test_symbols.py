@@ -1,7 +1,5 @@
 """Symbols that numpy's functions act on: they are what numpy computes, to the last digit."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

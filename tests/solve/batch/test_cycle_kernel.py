@@ -1,7 +1,5 @@
 """The working cycle of many designs at once: within 0.2 % of the simulator, for each design whatever its neighbours."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tapes down columns: the same numbers as CasADi and the C library, for any count of columns and of workers."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys

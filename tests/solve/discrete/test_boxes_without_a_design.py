@@ -3,8 +3,6 @@
 All combinations are requested, so that no box is left for its bound.
 """
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 from dataclasses import replace

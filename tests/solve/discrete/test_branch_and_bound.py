@@ -1,7 +1,5 @@
 """Branch and bound against enumeration, on problems whose optimum within a box is known in closed form."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import dataclass, field, replace
 from types import SimpleNamespace

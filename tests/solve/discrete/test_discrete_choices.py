@@ -1,7 +1,5 @@
 """Listed choices: the answer is that of solving every combination, and the account of the search is right."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Records in one mixed problem: as each alone at its corners, as enumeration, and started at other records' optimum."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Rigid modules and stock springs are searched whole: the best of a list is the best of each alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Two processes find what one finds, to the last bit; one that dies leaves its tasks to the other."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Studies without a design: the conflicting limits or the nearest target are named, and the way out works."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

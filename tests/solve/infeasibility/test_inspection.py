@@ -1,7 +1,5 @@
 """The deep check finds what is wrong with a problem, and nothing where nothing is."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from small_studies import FOUR_SIZES_IN_SHEAR

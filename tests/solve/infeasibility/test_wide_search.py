@@ -1,7 +1,5 @@
 """Designs all over the ranges keep what depends on no cycle; limits that no point keeps are found infeasible."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from types import SimpleNamespace

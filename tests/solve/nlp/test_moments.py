@@ -1,7 +1,5 @@
 """Mean and deviation of an output where inputs spread, against what a power of one input has."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

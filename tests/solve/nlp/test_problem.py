@@ -1,7 +1,5 @@
 """The problem in the space of the free numbers: derivatives, ends of driven phases, currents, kinks, own rows."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Worst case, root-sum-square and Monte Carlo on functions whose answers are known; points are scipy's."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys

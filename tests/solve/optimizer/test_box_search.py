@@ -1,7 +1,5 @@
 """Searches in boxes lead from a feasible design to an optimum of the whole problem."""
 
-from __future__ import annotations
-
 import pytest
 
 from tvimdesign.solve.discrete.discrete_choices import discrete_sizes

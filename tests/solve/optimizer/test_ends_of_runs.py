@@ -1,7 +1,5 @@
 """Ends of runs: every status of IPOPT has words, and an interrupt ends a search."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

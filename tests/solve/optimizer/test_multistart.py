@@ -1,7 +1,5 @@
 """Starting points: evenly spread, the same for a seed, and only where a module switches."""
 
-from __future__ import annotations
-
 import itertools
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Steps beside the ends of the starts, compared with searches that stay within one turn each."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

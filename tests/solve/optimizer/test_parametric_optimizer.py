@@ -1,7 +1,5 @@
 """A problem solved again with other numbers is the problem that is built with them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Cost of a limit in each output: the implicit function theorem against optima with the limit moved."""
 
-from __future__ import annotations
-
 import pytest
 from support import ROOT
 

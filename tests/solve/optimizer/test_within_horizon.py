@@ -1,7 +1,5 @@
 """No optimum has a switch that ends beyond what is simulated, though nothing that is asked limits its time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

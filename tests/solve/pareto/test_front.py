@@ -1,7 +1,5 @@
 """Fronts: the ends are optima of their own, no point is beaten, points are even, and nothing is dropped in silence."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping
 from dataclasses import replace

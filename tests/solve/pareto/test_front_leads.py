@@ -1,7 +1,5 @@
 """Which front lies lowest where: against crossings worked out by hand."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

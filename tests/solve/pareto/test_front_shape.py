@@ -1,7 +1,5 @@
 """The shape of a front, against points whose answers are worked out by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import assume, given

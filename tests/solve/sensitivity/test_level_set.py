@@ -1,7 +1,5 @@
 """The designs that take a given time do take it, and where none does the line has a gap."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Effect of a variable on an output: exact derivatives against power laws and against simulations made anew."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Sensitivity of two modules' times and their ratio: differences of simulations against the implicit function."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from event_derivatives import event_gradient

@@ -1,7 +1,5 @@
 """Intervals over unmeasured inputs, against plain loops over the table and the simulation, and closed forms."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import FrozenInstanceError, replace
 from functools import cache

@@ -1,7 +1,5 @@
 """A robust optimum keeps its limits by margins of one quantile, and Monte Carlo finds that yield."""
 
-from __future__ import annotations
-
 from statistics import NormalDist
 
 import numpy as np

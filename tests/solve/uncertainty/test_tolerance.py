@@ -1,7 +1,5 @@
 """The module with its tolerances: moments inside the optimiser, the free angle, yields, and the compiled functions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from statistics import NormalDist

@@ -1,7 +1,5 @@
 """Inputs that are assumed or measured: their ranges before and after, and a freezing time's interval."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The sections `tolerances` and `robust`: values, shares and rows, and every problem with its place."""
 
-from __future__ import annotations
-
 import pytest
 
 from tvimdesign.base.units import parse_quantity

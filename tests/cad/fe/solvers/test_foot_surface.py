@@ -1,7 +1,5 @@
 """Places where the stress at a core's foot is read."""
 
-from __future__ import annotations
-
 import foot_surface
 import numpy as np
 import pytest

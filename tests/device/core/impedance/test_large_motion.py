@@ -1,7 +1,5 @@
 """The molten joint over its whole stroke, against plain calculations on the drawn optimum's numbers."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Lost motion by source: friction on the pins by virtual work over a turn, the core in its bore or bearings."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from device_values import values_of

@@ -1,7 +1,5 @@
 """A torsion spring from stock is chosen whole: its numbers follow from the record, and nothing else may set them."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

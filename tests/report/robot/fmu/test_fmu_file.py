@@ -1,7 +1,5 @@
 """The FMU's file: a description that FMPy finds no fault in, sources, and what is said without a compiler."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

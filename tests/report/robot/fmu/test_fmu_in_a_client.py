@@ -1,7 +1,5 @@
 """FMPy runs the FMU: heat as in the run, torque as the joint's stiffness and damping say."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace

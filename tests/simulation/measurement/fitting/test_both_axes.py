@@ -1,7 +1,5 @@
 """Where both axes err, against odrpack: a pad's voltages and faces, each read with an error of its own."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Fits against textbook formulas and against lmfit: values, intervals, outliers, and what is said of the data."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import lmfit

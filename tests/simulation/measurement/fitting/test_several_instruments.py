@@ -1,7 +1,5 @@
 """Data of several instruments, each with a noise of its own: degrees of freedom, covariance of a weighted mean."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

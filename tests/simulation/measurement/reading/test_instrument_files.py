@@ -5,8 +5,6 @@ github.com/bsaintmichel/read-rheol, LIMS in github.com/3mcloud/hermes-rheo, .tts
 github.com/jorge-ramirez-upm/RepTate. `benchmarks/read_public.py` reads the files themselves.
 """
 
-from __future__ import annotations
-
 import json
 import zipfile
 from io import BytesIO
