@@ -14,13 +14,17 @@ from itertools import pairwise
 import numpy as np
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.physics.polymers import polymer
+from tvimdesign.physics.polymers import polymer, viscoelasticity, yielding
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
+from tvimdesign.physics.solids.structure import shear_yield
 from tvimdesign.simulation.trial import Array, Column, Finding, PlottedLine
 from tvimdesign.simulation.working_cycle.melt_history import HISTORIES, fractions_at, melting_range
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
 
+ROOM = 23.0 + ZERO_CELSIUS
+"""Temperature of a yield strength [K]."""
+_NO_STRESS = 1e-30
 PAPER = (303.15, 333.15, 373.15)
 """The temperatures of the paper's rheometer tests [K]."""
 
@@ -34,6 +38,25 @@ class State:
     """Relaxation spectrum: (time [s], modulus [Pa])."""
     linear_strain: float
     """Strain at which the storage modulus has fallen 5 % [1]."""
+
+    activation_stress: float
+    """Stress that sets the yield of the frozen polymer [Pa]; see `yielding`."""
+
+    def step_stress(self, time: Array, strain: float, rise: float) -> Array:
+        """Return the stress [Pa] while and after a strain is reached at a constant rate within `rise` seconds.
+
+        The frozen polymer yields, the melt has its damping function; between them both mix by their logarithms, as the
+        moduli do.
+        """
+        logarithm = np.zeros(len(time))
+        if self.fraction > 0.0:
+            frozen = yielding.stress_of_a_ramp(time, strain, rise, self.modes, self.activation_stress)
+            logarithm += self.fraction * np.log(np.maximum(frozen, _NO_STRESS))
+        if self.fraction < 1.0:
+            molten = viscoelasticity.ramped_stress(time, strain, rise, self.modes) * self.left(strain)
+            logarithm += (1.0 - self.fraction) * np.log(np.maximum(molten, _NO_STRESS))
+        stress: Array = np.exp(logarithm)
+        return stress
 
     def left(self, strain: float | Array) -> float | Array:
         """Return the share of the linear modulus that is left at a strain."""
@@ -91,7 +114,16 @@ def at_fraction(resolved: ResolvedModule, temperature: float, fraction: float) -
     spectrum = polymer.spectrum(temperature, fraction, resolved.quantity("pcl_rheology"))
     modes = tuple((float(time), float(modulus)) for time, modulus in spectrum)
     check_spectrum(modes, f"pcl_grade {resolved.values['pcl_grade'].name} at {_celsius(temperature)} °C")
-    return State(fraction, modes, float(polymer.linear_strain(fraction, resolved.quantity("pcl_linear_range"))))
+    limit = float(polymer.linear_strain(fraction, resolved.quantity("pcl_linear_range")))
+    return State(fraction, modes, limit, _activation_stress(resolved, temperature) if fraction > 0.0 else 0.0)
+
+
+def _activation_stress(resolved: ResolvedModule, temperature: float) -> float:
+    """Return the stress that sets the yield of the frozen polymer; its strength falls with its modulus, assumed."""
+    rheology = resolved.quantity("pcl_rheology")
+    here, room = (polymer.moduli(kelvin, 1.0, polymer.PINNED_FREQUENCY, rheology)[0] for kelvin in (temperature, ROOM))
+    strength = float(shear_yield(resolved.values["pcl_tensile_yield"]) * here / room)
+    return yielding.activation_stress(strength, polymer.spectrum(temperature, 1.0, rheology))
 
 
 def specimen(resolved: ResolvedModule, temperature: float) -> Specimen:
