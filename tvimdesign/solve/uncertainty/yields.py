@@ -92,7 +92,7 @@ class Yields:
         self._drawn: dict[tuple[bytes, int | None], Drawn] = {}
         self._first_orders: dict[bytes, Array] = {}
         self._pace: Pace | None = None
-        """That of the last design of which modules were drawn."""
+        """The pace of the last design whose modules were drawn."""
         functions = self._rig(start).functions if optimizer.mixtures else optimizer.model
         self._many = BatchModel(functions, self._moving, self._outputs) if self._outputs else None
 
