@@ -38,6 +38,27 @@ assert not found, found
     assert "Commands:" in done.stdout
 
 
+LIGHT = """
+import sys
+def light(code, *heavy):
+    exec(code)
+    assert not set(heavy) & set(sys.modules), (code, set(heavy) & set(sys.modules))
+light("import tvimdesign.base.units, tvimdesign.catalog", "pint")
+light("import tvimdesign.study", "casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy")
+light("import tvimdesign.cad", "cadquery", "OCP", "vtk", "trimesh")
+light("import tvimdesign.cli.commands", "casadi", "scipy")
+light("from tvimdesign.report.run import first_screen, front_report, run_study", "matplotlib")
+light("from tvimdesign.solve import result, search", "matplotlib", "scipy.stats")
+light("from tvimdesign.solve.optimizer.multistart import unit_points; next(unit_points(16, 3, 1))", "scipy.stats")
+"""
+"""Each import loads none of the libraries behind it, nor have the ones before it."""
+
+
+def test_imports_leave_libraries_to_those_who_need_them() -> None:
+    done = subprocess.run([sys.executable, "-c", LIGHT], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert done.returncode == 0, done.stderr
+
+
 def test_an_interrupt_at_shutdown_keeps_the_exit_code(tmp_path: Path) -> None:
     text = """
 import atexit, os, signal

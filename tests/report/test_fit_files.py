@@ -1,8 +1,6 @@
 """The command `fit`: a folder, a record, kinds listed, and errors with exit code 2."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -81,11 +79,6 @@ def test_what_is_wrong_is_said(tvimdesign: Command, weights: Path, words: list[s
     done = tvimdesign("fit", *words, "--no-plots", cwd=weights.parent)
     assert done.returncode == 2
     assert said in done.stderr
-
-
-def test_the_command_line_loads_no_solver_before_it_fits() -> None:
-    code = "import sys; import tvimdesign.cli.commands; print(sorted({'scipy', 'casadi'} & set(sys.modules)))"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
 
 
 def test_a_panel_is_titled_by_its_file_and_labelled_by_what_was_measured() -> None:

@@ -20,10 +20,6 @@ def _input(name: str, unit: str, lower: float, upper: float, **more: Any) -> Inp
     return Input(name=name, unit=unit, group="module", lower=lower, upper=upper, **more)
 
 
-def _choice(name: str, default: str, **more: Any) -> Choice:
-    return Choice(name=name, description=name.replace("_", " ").capitalize(), group="module", default=default, **more)
-
-
 def _output(name: str, unit: str, function: Callable[..., Any], kind: type[Output] = Output, **more: Any) -> Output:
     return kind(name=name, unit=unit, description=name.replace("_", " "), group="results", function=function, **more)
 

@@ -2,8 +2,6 @@
 
 import os
 import re
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -166,13 +164,6 @@ def test_the_users_records_in_the_shipped_catalogue(tmp_path: Path) -> None:
     (tmp_path / "x.yaml").write_text(text % "drawr", encoding="utf-8")
     with pytest.raises(StudyError, match=r"wires: 'drawr'; expected one of drawer, .*; did you mean 'drawer'\?"):
         read_study(tmp_path / "x.yaml")
-
-
-def test_import_is_light() -> None:
-    heavy = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy")
-    code = f"import sys, tvimdesign.study; print([name for name in {heavy} if name in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=None)
-    assert done.stdout.strip() == "[]"
 
 
 FOLDER = Path(__file__).with_name("messages")

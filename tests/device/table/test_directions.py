@@ -1,6 +1,5 @@
 """Which way results move when an input grows, over the range in which people build such modules."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,6 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 
 TABLE = table_for("shear")
-Change = Callable[[dict[str, Any]], dict[str, Any]]
 # (input, output, which way): mechanics and rheology say so whatever the rest of the module.
 GROWS = [
     ("wire_diameter", "spring_stiffness"), ("wire_diameter", "springs_mass"), ("coil_count", "springs_mass"),

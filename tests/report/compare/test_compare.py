@@ -11,8 +11,6 @@ from comparable import COARSE, COMPRESSION, SHEAR, written
 from support import ROOT, Command
 
 from tvimdesign.report.compare.children import Asked, answers
-from tvimdesign.solve.search import optimize
-from tvimdesign.study import read_study_text
 
 PICTURES = {f"{name}.{ending}" for name in ("fronts", "release", "heat") for ending in ("png", "pdf", "svg")}
 
@@ -251,19 +249,6 @@ def test_finished_runs_are_compared_without_computing(
     assert len([*(tmp_path / "out").glob("*/drawn.json")]) == 2
 
 
-@pytest.mark.slow
-def test_evaluated_studies_are_compared_as_drawn(tvimdesign: Command, tmp_path: Path) -> None:
-    paths = [ROOT / "studies/paper_as_published.yaml", ROOT / "studies/paper_compression.yaml"]
-    done = tvimdesign("compare", *paths, "--no-plots", "--json", "--out", tmp_path / "out")
-    assert done.returncode == 0, done.stderr
-    reported = json.loads(done.stdout)
-    assert reported["comparisons"].keys() == {"drawn"}
-    assert reported["leads"] == []
-    rows = {row["name"]: row for row in reported["comparisons"]["drawn"]}
-    # 60 degC lies in the melting range: there the ends overlap, and nothing is said to be better.
-    assert rows["joint_impedance@melting"]["intervals"].keys() == {"shear", "compression"}
-
-
 @pytest.mark.parametrize(
     ("names", "words"),
     [
@@ -311,22 +296,3 @@ def test_shipped_pair_converges(tvimdesign: Command, tmp_path: Path) -> None:
     found = {row["name"]: row["values"] for row in reported["comparisons"]["optimised"]}
     for name in ("response_time", "module_mass"):
         assert found[name]["shear"] < found[name]["compression"]
-
-
-@pytest.mark.slow
-def test_damping_has_a_price_in_compression_only() -> None:
-    """A module of either mode is found; the shear module of the pair damps as much without being asked."""
-    solved = {}
-    for mode in ("shear", "compression"):
-        text = (ROOT / f"studies/compare_{mode}.yaml").read_text().replace("starts: 10", "starts: 2")
-        text = text.replace("require:", 'require:\n  joint_damping@hot: ">= 1 N.m.s/rad"')
-        solved[mode] = optimize(read_study_text(text, mode))
-        assert solved[mode].status == "optimal"
-    assert solved["shear"].values["joint_damping@hot"] > 1.5
-    assert solved["compression"].values["joint_damping@hot"] == pytest.approx(1.0, rel=1e-4)
-    prices = {
-        mode: next(one.shadow_price for one in solution.held if one.name == "joint_damping@hot >=")
-        for mode, solution in solved.items()
-    }
-    assert prices["shear"] == pytest.approx(0.0, abs=1e-6)
-    assert prices["compression"] > 0.1

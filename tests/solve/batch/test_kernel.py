@@ -1,10 +1,7 @@
 """Tapes down columns: the same numbers as CasADi and the C library, for any count of columns and of workers."""
 
 import math
-import subprocess
-import sys
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -105,18 +102,3 @@ def test_arrays_that_are_not_row_by_row_are_copied() -> None:
     assert kernel(columns)[0] == pytest.approx(columns[0] - 2.0 * columns[1])
     with pytest.raises(ValueError, match="takes 2 rows, got 3"):
         kernel(np.zeros((3, 4)))
-
-
-def test_a_run_does_not_load_matplotlib(tmp_path: Path) -> None:
-    code = (
-        "import sys; from tvimdesign.report.figures import plot_process;"
-        "from tvimdesign.report.run import front_report, run_study;"
-        "from tvimdesign.report.run import first_screen;"
-        "from tvimdesign.solve import result, search;"
-        "print([m for m in ('matplotlib',) if m in sys.modules])"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, env={"PYTHONPATH": str(ROOT)},
-        check=False,
-    )  # fmt: skip
-    assert (done.stdout, done.stderr) == ("[]\n", "")

@@ -1,8 +1,6 @@
 """Starting points: evenly spread, the same for a seed, and only where a module switches."""
 
 import itertools
-import subprocess
-import sys
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any, cast
@@ -144,16 +142,6 @@ def test_a_seed_gives_its_points_evenly_spread_if_many() -> None:
     for column in points.T:
         assert len(set((column * 64).astype(int))) == 64
     assert qmc.discrepancy(points) < 0.5 * qmc.discrepancy(np.random.default_rng(1).random((64, 12)))
-
-
-def test_few_starts_leave_the_sobol_sequence_unloaded() -> None:
-    code = (
-        "import sys; from tvimdesign.solve import search; "
-        "from tvimdesign.solve.optimizer.multistart import unit_points; "
-        "next(unit_points(16, 3, 1)); assert 'scipy.stats' not in sys.modules"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, check=False)
-    assert done.returncode == 0, done.stderr
 
 
 STUDY = """
