@@ -1,19 +1,20 @@
 """How often a fit's interval of 95 % holds the value the data were made with: every kind, many seeds of noise.
 
-    python benchmarks/fit_coverage.py [KIND ...] [--seeds 100] [--workers 2] [--kept FILE]
+    python benchmarks/fit_coverage.py [KIND ...] [--seeds 100] [--workers 2] [--kept FILE] [--faults]
 
 fits each kind with noise of every seed. For each parameter it counts the seeds whose interval held the truth, and sets
 the mean width against the scatter of the values found: an interval that always holds because it is far too wide is
 wrong as well. Data are the product's own equations with normal noise: `made_measurements`. Fits are kept in a file with
 the digest of the code that made them; a seed that the file has from this code is not fitted again, so that a count goes
-on where it was left. Prints the table of `docs/measurements.md`.
+on where it was left. With `--faults` the data have faults as well (`made_measurements/faults.py`), and a value is
+right where its interval holds the truth or no record has it. Prints the table of `docs/measurements.md`.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from functools import cache
 from hashlib import sha256
@@ -23,15 +24,26 @@ from typing import NamedTuple
 
 import numpy as np
 from made_measurements import MADE
+from made_measurements.faults import FAULTS, IN_TIME
 
 import tvimdesign
+from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
 from tvimdesign.simulation.measurement.measure_files import measure_of
+from tvimdesign.simulation.measurement.reading.data_file import Block
 
 KEPT = Path("results/fit_coverage.jsonl")
 _NORMAL = 1.959964  # deviations to the end of an interval of 95 % of a normal distribution
 _PACKAGE = Path(tvimdesign.__file__).parent
 _SOURCES = (_PACKAGE / "simulation" / "measurement", _PACKAGE / "physics", Path(__file__).parent / "made_measurements")
+
+
+AS_RECORDED = {
+    "linear_strain_melt": "linear_strain", "youngs_modulus": "stiffness", "moving_inertia": "inertia",
+}  # fmt: skip
+"""Values of records by the names of what the data were made with."""
+SIZES = {"torque_angle": {"wire_diameter": "1 mm", "coil_diameter": "1 mm", "coil_count": str(1e-9 / 64.0)}}
+"""Of a spring whose modulus is its stiffness, in numbers."""
 
 
 class Found(NamedTuple):
@@ -63,11 +75,35 @@ def code() -> str:
 
 
 def fit_of(kind: str, seed: int) -> dict[str, Found]:
-    """Value and interval of all that is reported from the data of a seed; a mode that was not found is not there."""
+    """Value and interval of all that is reported from the data of a seed; a mode that was not found is not there.
+
+    Of a kind with a fault, `creep+slow`, what a record has: nothing where none is written.
+    """
+    kind, _, fault = kind.partition("+")
     blocks, given, truth = MADE[kind](np.random.default_rng(seed))
+    if fault:
+        return _recorded(kind, FAULTS[fault](kind, blocks, np.random.default_rng(seed)), given, truth)
     fit = measure_of(kind_sheet(kind))(blocks, kind_sheet(kind).values(given)).fit
     reported = {one.name: one for one in (*fit.parameters, *fit.derived)}
     return {name: Found(truth[name], one.value, one.low, one.high) for name, one in reported.items() if name in truth}
+
+
+def _recorded(
+    kind: str, blocks: Sequence[Block], given: Mapping[str, str], truth: Mapping[str, float]
+) -> dict[str, Found]:
+    sheet = kind_sheet(kind)
+    try:
+        measurement = measure_of(sheet)(blocks, sheet.values({**SIZES.get(kind, {}), **given}), profiles=False)
+    except InputError:
+        return {}
+    if measurement.fit.misfit:
+        return {}
+    values = dict(measurement.record_values) or {
+        each.name: each for each in measurement.fit.parameters if kind == "release"
+    }  # whose record needs a module
+    truth = {**truth, **{name: truth[of] for name, of in AS_RECORDED.items() if of in truth}}
+    return {name: Found(truth[name], value.value, value.low, value.high)
+            for name, value in values.items() if name in truth}  # fmt: skip
 
 
 def kept_in(path: Path) -> Fits:
@@ -107,14 +143,17 @@ def width_over_scatter(found: Sequence[Found]) -> float:
 def table(found: Fits) -> Iterator[str]:
     """Rows in Markdown: kind, seeds, and for each parameter the share held, with the width over the scatter."""
     yield from ("| kind | seeds | held the truth, % of the seeds (width over scatter) |", "|---|---|---|")
-    for kind in MADE:
+    for kind in dict.fromkeys(name for name, _ in found):
         fits = [one for (name, _), one in found.items() if name == kind]
         told = []
         for name in dict.fromkeys(name for fit in fits for name in fit):
             every = [fit[name] for fit in fits if name in fit]
             open_ = sum(one.low is None or one.high is None for one in every)
             ratio = f"{width_over_scatter(every):.2f}" + (f", {open_} open" if open_ else "")
-            told.append(f"{name} {100.0 * sum(one.held for one in every) / len(fits):.1f} ({ratio})")
+            right = sum(one.held for one in every) + (len(fits) - len(every) if "+" in kind else 0)
+            told.append(f"{name} {100.0 * right / len(fits):.1f} ({ratio})")
+        if "+" in kind:
+            told.append(f"{sum(map(bool, fits))} records")
         if fits:
             yield f"| `{kind}` | {len(fits)} | {', '.join(told)} |"
 
@@ -126,8 +165,12 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=100)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--kept", type=Path, default=KEPT)
+    parser.add_argument("--faults", action="store_true")
     asked = parser.parse_args()
-    print("\n".join(table(counted(asked.kinds or list(MADE), asked.seeds, asked.workers, asked.kept))))
+    kinds = asked.kinds or list(MADE)
+    if asked.faults:
+        kinds = [f"{kind}+{fault}" for fault in FAULTS for kind in kinds if fault != "slow" or kind in IN_TIME]
+    print("\n".join(table(counted(kinds, asked.seeds, asked.workers, asked.kept))))
 
 
 if __name__ == "__main__":

@@ -42,6 +42,7 @@ class Diagnostics:
         return (
             self.derivatives.right
             and not self.structure.idle
+            and not self.structure.goal_flat
             and self.conditioning.equations < _NEARLY_SINGULAR
             and max(self.rows.ratio, self.columns.ratio) < _BADLY_SCALED
         )
@@ -151,6 +152,11 @@ def _structure(structure: Structure) -> list[str]:
     lines = []
     if structure.idle:
         lines.append(f"! no limit and no goal depends on {', '.join(structure.idle)}; take it out of `vary`.")
+    if structure.goal_flat:
+        lines.append(
+            "! nothing under `vary` moves the goal: every design within the limits is as good as any other. Vary what "
+            "the goal depends on, or minimise something else."
+        )
     if structure.unchangeable:
         lines.append(f"  nothing under `vary` can change {'; '.join(structure.unchangeable)}; it holds.")
     return lines

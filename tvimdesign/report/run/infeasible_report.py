@@ -12,13 +12,19 @@ from tvimdesign.report.output.results_format import Conflict, Optimum, SideEntry
 from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.solve.infeasibility.conflict_set import conflict_in_words
 from tvimdesign.solve.nlp.solution import ConflictSet, Side, Start
-from tvimdesign.solve.nlp.solver_run import FEASIBLE, meaning
+from tvimdesign.solve.nlp.solver_run import FEASIBLE, FLAT_GOAL, meaning
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 
 def complaint(answer: StudyResult, table: Table) -> str:
     """Report that no design was found: the conflict, the least violations, and what to do."""
     solution = answer.solution
+    if solution is not None and answer.design.status == FLAT_GOAL:
+        goals = " and ".join(answer.design.study.get("minimize") or {})
+        return (
+            f"{answer.design.name}: {FLAT_GOAL}, {goals}: every design within the limits is as good as this "
+            "one. Vary what it depends on, or minimise something else."
+        )
     conflict_set = solution.conflict_set if solution else None
     is_feasible = solution is not None and solution.feasible and meaning(FEASIBLE).words in answer.design.status
     missed = "no design known to be the best one" if is_feasible else "no feasible design found"

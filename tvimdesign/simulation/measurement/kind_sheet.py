@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _FILE = Path(__file__).with_name("kinds.yaml")
 _KELVIN = 6.0
-_THIRD, _STRAY, _TAKEN_OFF = 0.33, 0.1, 0.1
+_THIRD, _STRAY, _TAKEN_OFF, _ON = 0.33, 0.1, 0.1, 3
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,8 @@ class KindSheet:
     """Whether it is fitted only where it is asked for."""
     decided_by: tuple[str, ...] = ()
     """Columns; any of them decides for this kind."""
+    rather_than: str = ""
+    """Kind that is not taken where a table may be of both."""
     excluded_by: tuple[str, ...] = ()
     """Columns; any of them rules it out, unless it is asked for."""
 
@@ -51,13 +53,17 @@ class KindSheet:
         """Return the first of the columns that will do and that a block has."""
         return next((name for name in need if name in block.columns), None)
 
+    @property
+    def _in_time(self) -> bool:
+        return any("time" in need for need in self.needs)
+
     def fits(self, block: Block) -> bool:
         """Return whether a block has every column, and what must change in it changes, what must not does not."""
         there = [name for name in self.varies if name in block.columns]
         return (
             all(self.column(block, need) for need in self.needs)
             and (not there or any(_changes(block, name) for name in there))
-            and not any(_changes(block, name) for name in self.constant if name in block.columns)
+            and not any(_changes(block, name, settled=self._in_time) for name in self.constant if name in block.columns)
         )
 
     def likely(self, block: Block) -> bool:
@@ -78,7 +84,9 @@ class KindSheet:
 
     def mismatch(self, block: Block) -> str:
         """Say which column that must change does not, or the other way round."""
-        changing = [name for name in self.constant if name in block.columns and _changes(block, name)]
+        changing = [
+            name for name in self.constant if name in block.columns and _changes(block, name, settled=self._in_time)
+        ]
         if changing:
             return f"{changing[0]} changes from row to row, which rules {self.name} out"
         return f"{' or '.join(self.varies)} does not change, which rules {self.name} out"
@@ -113,19 +121,22 @@ def _refuse_beyond(name: str, value: float, setting: Mapping[str, Any]) -> None:
         raise InputError(f"--set {name}: {value:g} is not between {low} and {high}")
 
 
-def _changes(block: Block, name: str) -> bool:
+def _changes(block: Block, name: str, *, settled: bool = False) -> bool:
     """Return whether a column changes: a temperature by some kelvin, all else by more than a third from its middle.
 
-    Values near zero are none of its own: what is taken off, as the stress of a recovery. A tenth of the rows may stray.
+    With `settled` the second half of the rows counts, for at first it may rise. Values near zero are none of its own:
+    what is taken off, as the stress of a recovery. A tenth of the rows may stray, and what is on in fewer than three is
+    not constant.
     """
     import numpy as np
 
     values = np.abs(block.values(name)[np.isfinite(block.values(name))])
     if name == "temperature":
         return bool(np.quantile(values, 0.95) - np.quantile(values, 0.05) > _KELVIN)
-    on = values[values > _TAKEN_OFF * np.max(values)] if len(values) else values
-    if len(on) == 0:
-        return False
+    counted = values[len(values) // 2 :] if settled else values
+    on = counted[counted > _TAKEN_OFF * np.max(values)] if len(values) else values
+    if len(on) < _ON:
+        return len(on) > 0
     middle = float(np.median(on))
     return bool(np.mean(np.abs(on / middle - 1.0) > _THIRD) > _STRAY)
 
@@ -139,7 +150,7 @@ def kind_sheets() -> dict[str, KindSheet]:
             name, entry["function"], entry["about"], tuple(map(_words, entry["needs"])), tuple(entry.get("takes", ())),
             entry.get("category", ""), entry["settings"], _words(entry.get("varies", "")),
             _words(entry.get("constant", "")), entry.get("only_asked", False), _words(entry.get("decided_by", "")),
-            _words(entry.get("excluded_by", "")),
+            entry.get("rather_than", ""), _words(entry.get("excluded_by", "")),
         )
         for name, entry in tree.items()
     }  # fmt: skip

@@ -124,6 +124,7 @@ def _likely_kind(blocks: Sequence[Block]) -> KindSheet:
     likely = [sheet for sheet in sheets if any(sheet.decided(block) for block in blocks)] or [
         sheet for sheet in sheets if not sheet.only_asked and any(sheet.likely(block) for block in blocks)
     ]
+    likely = [sheet for sheet in likely if sheet.name not in {other.rather_than for other in likely}]
     if len(likely) == 1:
         return likely[0]
     headings = sorted({name for block in blocks for name in block.columns})

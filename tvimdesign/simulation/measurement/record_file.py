@@ -79,7 +79,10 @@ def write_records(
             Catalog(folder).record(category, name)
         except CatalogError as error:
             _put_back(earlier)
-            raise CatalogError(f"what was measured does not go with {base}:\n{error}") from None
+            raise CatalogError(
+                f"what was measured does not go with {base}, which has all that was not measured: {error}\n"
+                "--based-on names another record, such as a shipped one; leave out what contradicts it"
+            ) from None
         written[choice] = path
     return written
 

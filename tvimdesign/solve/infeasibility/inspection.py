@@ -75,6 +75,8 @@ class Structure:
     """Free numbers that neither a limit nor the objective depends on."""
     unchangeable: tuple[str, ...]
     """Limits of the study that nothing free can change, though they hold."""
+    goal_flat: bool
+    """True where the goal has no derivative by any unknown."""
 
 
 class Inspection:
@@ -184,6 +186,7 @@ class Inspection:
         return Structure(
             idle=tuple(name for i, name in enumerate(free) if i not in used),
             unchangeable=tuple(in_words(limit, table) for limit in fixed),
+            goal_flat=not np.any(self._jacobian[-1]),
         )
 
 

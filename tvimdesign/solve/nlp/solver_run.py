@@ -84,6 +84,8 @@ MARGINS = "the margins against spread"
 """Steps, as they are named where the time limit left them out."""
 NO_COMBINATION = "infeasible: nothing that is listed goes together"
 """Status where lists are searched and no combination of what they hold has a design."""
+FLAT_GOAL = "no optimum: nothing under `vary` moves the goal"
+"""Status of a search whose objective has no derivative at any start: all designs within the limits are as good."""
 NO_DESIGN = "Infeasible_Problem_Detected"
 """IPOPT's word for a point from which no step brings the limits nearer."""
 

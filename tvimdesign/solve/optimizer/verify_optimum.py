@@ -25,7 +25,7 @@ from tvimdesign.solve.nlp.constraints import (
 )
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import ActiveConstraint, Solution, Start
-from tvimdesign.solve.nlp.solver_run import OPTIMAL, Run, meaning
+from tvimdesign.solve.nlp.solver_run import FLAT_GOAL, OPTIMAL, Run, meaning
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.optimizer.post_optimal import Place, Response
 from tvimdesign.study import Range, Study
@@ -54,6 +54,7 @@ def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], se
     if run.start.converged:
         status = OPTIMAL if feasible else "converged, but a check outside the solver fails"
         status = status if ended else "converged, but the switch does not end within `horizon`"
+        status = FLAT_GOAL if status == OPTIMAL and _goal_flat(optimizer, run, starts) else status
     else:
         status = f"not converged: {meaning(run.start.status).words}"
     return Solution(
@@ -70,6 +71,22 @@ def verify_optimum(optimizer: Optimizer, run: Run, starts: tuple[Start, ...], se
         reference={name: optimizer.reference[name] for name in optimizer.study.minimize},
         seconds=seconds,
     )
+
+
+def _goal_flat(optimizer: Optimizer, run: Run, starts: tuple[Start, ...]) -> bool:
+    """Return whether the objective has no derivative by any unknown, where the search ended and at all starts."""
+    if not optimizer.free and not optimizer.currents:
+        return False
+    parameters = optimizer.parameters(Objective(optimizer.study.minimize))
+    if np.any(optimizer.problem.at(run.unknowns, parameters).gradient):
+        return False
+    begins = []
+    for start in starts:
+        inputs = optimizer.model.start.copy()
+        for name, value in start.begin.items():
+            inputs[optimizer.model.index[name]] = value
+        begins.append(optimizer.guess(inputs))
+    return not any(np.any(optimizer.problem.at(unknowns, parameters).gradient) for unknowns in begins)
 
 
 def _active(

@@ -27,7 +27,7 @@ from tvimdesign.report.output.axis_labels import in_labels, label
 from tvimdesign.report.output.tables import margin_text, number, percent
 from tvimdesign.report.run.blocks.warnings import RunWarning
 from tvimdesign.report.run.yield_words import yield_of
-from tvimdesign.solve.nlp.solver_run import BELOW_YIELD
+from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 TARGET = 0.95
@@ -102,6 +102,8 @@ def _infeasible(answer: StudyResult) -> str:
         return f"Infeasible because {both} cannot {'hold' if len(sides) == 1 else 'hold together'}"
     if solution is not None and solution.out_of_time is not None:
         return "No design found in time: raise solver.time_limit"
+    if answer.design.status == FLAT_GOAL:
+        return "No optimum: nothing under `vary` moves what is minimised"
     violated = [check for check in answer.checks if not check.kept]
     if violated:
         table = table_for(answer.design.mode)

@@ -26,6 +26,8 @@ _NEGLIGIBLE = 2e-3
 _RARE = 3.1
 """Deviations: 1 in 1000 by chance."""
 _FEWEST_RUNS = 8
+_AWAY, _ALSO = 4.5, 2.0
+"""Deviations that two rows at an end of a series are off together, in the mean and each, where a law ends."""
 _UNKNOWN = float(np.log(1e6))
 """Half the width of a logarithm's interval from which on the data say nothing of what follows."""
 
@@ -138,15 +140,25 @@ def _misfit(residuals: Residuals, best: RobustFit, known: Spread) -> str:
         if follows.rho > _TOO_ALIKE and follows.by_chance <= _CHANCE:
             why = f"follow one another (correlation {follows.rho:.2f})"
         parts = [values[residuals.parts[i]] for i in group]
+        off = max((_off_at_an_end(part / best.noise[group[0]]) for part in parts), default=0.0)
         short = _missing_runs([part[1:] - follows.rho * part[:-1] for part in parts])
         if not why and short > _RARE:
             why = f"keep their sign for longer than chance explains ({short:.1f} deviations)"
+        if not why and off > _AWAY:
+            why = f"at an end are {off:.1f} deviations, as where a law's range ends"
         if why:
             return (
                 f"The equations do not describe {channel.name}: its residuals {why}. No record is written. The figure "
                 "and residuals.csv show where the data part from the equations; leave those rows out."
             )
     return ""
+
+
+def _off_at_an_end(z: Array) -> float:
+    """Return the mean size of the residuals of the first or last two rows, where both are off to the same side."""
+    pairs = [z[:2], z[-2:]] if len(z) >= _FEWEST_RUNS else []
+    alike = [pair for pair in pairs if np.all(pair > _ALSO) or np.all(pair < -_ALSO)]
+    return max((float(np.mean(np.abs(pair))) for pair in alike), default=0.0)
 
 
 def _missing_runs(series: Sequence[Array]) -> float:

@@ -19,6 +19,7 @@ from scipy.special import stdtrit
 
 from tvimdesign.simulation.measurement.fitting.problem import Array, Parameter, Residuals
 from tvimdesign.simulation.measurement.fitting.robust_fit import (
+    MEAN_SQUARE,
     RobustFit,
     cost,
     influence,
@@ -145,7 +146,8 @@ def _group(channels: Sequence[tuple[Array, Array]], everything: Array, taken: fl
     series = [Series(influence(channel)[0], slopes) for channel, slopes in channels]
     follows = following(series, everything - squares, freedom)
     moved = np.sum([moved_by_noise(slopes, follows.rho) for _, slopes in channels], axis=0)
-    size = few**2 * float(np.mean(pull**2)) / left * follows.wider
+    scatter = max(float(np.mean(pull**2)) / left, MEAN_SQUARE)  # more than the residuals' where a step bounds the noise
+    size = few**2 * scatter * follows.wider
     return _Group(mean * squares, size * moved, freedom, follows)
 
 

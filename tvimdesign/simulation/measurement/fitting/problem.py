@@ -81,6 +81,8 @@ class Channel:
     at_unit: str
     relative: bool = False
     """Whether the error is a share of the value: then the logarithms are compared."""
+    step: float = 0.0
+    """Step of the last digit of the values, in SI or as a share: their noise is no less than what rounding makes."""
     noise_of: str = ""
     """Channels of one word here err alike; a channel without one has a noise of its own."""
 

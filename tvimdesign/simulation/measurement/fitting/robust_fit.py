@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.fitting.problem import Array, Residuals
+from tvimdesign.simulation.measurement.fitting.problem import Array, Channel, Residuals
 
 LINEAR_UP_TO = 2.0
 """Deviations from which on a residual pulls as its size and no more as its square; 3 % wider intervals without
@@ -56,7 +56,7 @@ def _mean_square() -> float:
     return float(np.sum(influence(z)[0] ** 2 * density) / np.sum(density))
 
 
-_MEAN_SQUARE = _mean_square()
+MEAN_SQUARE = _mean_square()
 
 
 def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
@@ -77,7 +77,7 @@ def robust_fit(residuals: Residuals, start: Array) -> RobustFit:
             raise InputError(
                 f"{parameter.name}: the data suggest {parameter.start:.0e} {parameter.unit}; look for a wrong number"
             )
-    floor = _LEAST_NOISE * np.array([_size(residuals, part) for part in residuals.parts])
+    floor = np.array([_floor(channel) for channel in residuals.problem.channels])
     noise = _noises(residuals, start, np.zeros(len(residuals.parts)))
     noise = np.where(noise > 0.0, noise, floor)
     inner = start
@@ -169,10 +169,11 @@ def _noise_of(values: Array, parameters: float) -> float:
     noise = float(_NORMAL * np.median(np.abs(values))) or float(np.std(values))
     for _ in range(_ROUNDS if noise > 0.0 else 0):
         pull, _ = influence(values / noise)
-        noise *= float(np.sqrt(np.mean(pull**2) / (share * _MEAN_SQUARE)))
+        noise *= float(np.sqrt(np.mean(pull**2) / (share * MEAN_SQUARE)))
     return noise
 
 
-def _size(residuals: Residuals, part: slice) -> float:
-    channel = residuals.problem.channels[residuals.parts.index(part)]
-    return 1.0 if channel.relative else float(np.max(np.abs(channel.measured))) or 1.0
+def _floor(channel: Channel) -> float:
+    """Return the least noise of a channel: that of rounding to its step, a deviation of step/sqrt(12)."""
+    size = 1.0 if channel.relative else float(np.max(np.abs(channel.measured))) or 1.0
+    return max(_LEAST_NOISE * size, channel.step / float(np.sqrt(12.0)))

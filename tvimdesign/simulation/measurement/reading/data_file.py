@@ -18,13 +18,14 @@ from tvimdesign.base.units import pretty
 from tvimdesign.simulation.measurement.reading.clock_times import clock_seconds, is_clock
 from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
 from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, rank, unit_of
-from tvimdesign.simulation.measurement.reading.sheets import Row, Sheet, file_bytes, read_sheets
+from tvimdesign.simulation.measurement.reading.sheets import DECIMALS, Row, Sheet, file_bytes, read_sheets
 from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blocks_of
 
 Array = NDArray[np.float64]
 _COLDEST = 1.0  # K; nothing that is measured here is as cold
 _LOWEST = 150.0
 """K; a sample in a rheometer or a calorimeter for polymers is not as cold."""
+_TINY = 1e-200
 _NOTHING = {"", "-", "--", "---", "n/a", "na", "nan", "none", "nd", "no value", "#n/a", "#nv", "#value!", "#wert!",
             "#div/0!", "ol", "open", "****"}  # fmt: skip
 """Cells without a value, as instruments, loggers (OL, OPEN: no thermocouple) and spreadsheets write them."""
@@ -39,6 +40,10 @@ class Column:
     unit: str
     values: Array
     """Not a number where the cell is empty."""
+    step: float = 0.0
+    """Step of the last digit, in SI: the middle one of those of all cells."""
+    share: float = 0.0
+    """Step over the size of the value, the middle one."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,14 @@ class Block:
     def values(self, quantity: str) -> Array:
         """Return the values of a column in SI. Raises KeyError where the block lacks it."""
         return self.columns[quantity].values
+
+    def step(self, *quantities: str) -> float:
+        """Return the largest step of the last digit of columns [SI]."""
+        return max(self.columns[quantity].step for quantity in quantities)
+
+    def share(self, *quantities: str) -> float:
+        """Return the largest step of columns over the size of their values."""
+        return max(self.columns[quantity].share for quantity in quantities)
 
     def complete(self, quantities: Sequence[str]) -> int:
         """Count rows in which all these stand; 0 where a column lacks. Raises InputError for an unreadable one."""
@@ -237,7 +250,21 @@ def _column(at: int, heading: Heading, raw: RawBlock, sheet: Sheet, file: str) -
         raise InputError(f"{where}: a value is too large, or none is a number")
     if heading.quantity.endswith("temperature") and np.nanmin(values) < _COLDEST:
         raise InputError(f"{where}: {np.nanmin(values):g} K is at absolute zero, or below; look at the column's unit")
-    return Column(heading.quantity, heading.text, heading.unit, values)
+    steps = converted[1] * _steps(cells, sheet.decimal)
+    share = float(np.nanmedian(steps / np.maximum(np.abs(values), _TINY)))
+    return Column(heading.quantity, heading.text, heading.unit, values, float(np.median(steps)), share)
+
+
+def _steps(cells: Sequence[str], decimal: str) -> Array:
+    """Return the step of the last digit of each cell; cells without an exponent have that of the longest of them."""
+    parts = [cell.lower().replace(DECIMALS[decimal], ".").partition("e") for cell in cells]
+    decimals = [len(mantissa.partition(".")[2]) for mantissa, _, _ in parts]
+    longest = max((count for count, (_, sign, _) in zip(decimals, parts, strict=True) if not sign), default=0)
+    powers = [
+        int(power) - count if sign and power.lstrip("+-").isdigit() else -longest
+        for count, (_, sign, power) in zip(decimals, parts, strict=True)
+    ]
+    return np.asarray(10.0 ** np.clip(np.array(powers, float), -300.0, 300.0))
 
 
 def _no_kelvins(cells: Sequence[str], sheet: Sheet) -> bool:

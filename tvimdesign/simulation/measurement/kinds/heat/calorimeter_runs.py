@@ -33,6 +33,8 @@ class Run:
     """[K]"""
     heat: Array
     """Heat that the sample gives off [W/kg]; as the file has it until `turned`."""
+    step: float = 0.0
+    """Step of its last digit [W/kg]."""
 
     @property
     def rate(self) -> float:
@@ -48,7 +50,7 @@ def runs_of(blocks: Sequence[Block], settings: Settings) -> tuple[list[Run], boo
     runs = [run for block in blocks for run in _runs(block, settings)]
     if runs and not mass_known(blocks, settings):
         mass = max(float(np.trapezoid(np.abs(_bent(run)), run.time)) for run in runs) / TYPICAL_HEAT
-        runs = [replace(run, heat=run.heat / (mass or 1.0)) for run in runs]
+        runs = [replace(run, heat=run.heat / (mass or 1.0), step=run.step / (mass or 1.0)) for run in runs]
     if not runs:
         raise InputError("no part of the data is cooled, held or heated for long enough to be fitted")
     sign = _exothermic(runs)
@@ -60,8 +62,8 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
     time, temperature, heat = _at_new_times(block, which)
     if len(time) < _LEAST_ROWS:
         return []
-    if which == "heat_flow":
-        heat = heat / (_mass(block, settings) or 1.0)
+    mass = (_mass(block, settings) or 1.0) if which == "heat_flow" else 1.0
+    heat, step = heat / mass, block.step(which) / mass
     rates = np.gradient(temperature, time)
     smooth = np.convolve(np.pad(rates, _WINDOW // 2, mode="edge"), np.ones(_WINDOW) / _WINDOW, mode="valid")
     threshold = max(_LEAST_RATE, 0.2 * float(np.median(np.abs(smooth))))
@@ -76,7 +78,7 @@ def _runs(block: Block, settings: Settings) -> list[Run]:
         every = -(-(end - begin) // _MOST_ROWS)
         part = slice(begin, end, every)
         name = f"{block.title or block.file}, {way}"
-        runs.append(Run(name, way, time[part] - time[begin], temperature[part], heat[part]))
+        runs.append(Run(name, way, time[part] - time[begin], temperature[part], heat[part], step))
     return runs
 
 

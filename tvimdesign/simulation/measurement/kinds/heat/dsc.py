@@ -68,7 +68,16 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         ]  # fmt: skip
         predicted = (melted if run.way == "heated" else frozen)(run, i, settings)
         channels.append(
-            Channel(f"heat of {run.name}", "W/kg", run.heat, predicted, run.temperature, "temperature", "degC")
+            Channel(
+                f"heat of {run.name}",
+                "W/kg",
+                run.heat,
+                predicted,
+                run.temperature,
+                "temperature",
+                "degC",
+                step=run.step,
+            )
         )
     end = Derived("melting_end", "degC", "Temperature at which melting ends",
                   lambda values: values["melting_start"] + values["melting_width"])  # fmt: skip

@@ -135,7 +135,7 @@ def _channels(
         raise InputError(f"{block.file}: {', '.join(missing)}: the module of the study has no such place")
     return [
         Channel(f"{place.replace('_', ' ')} of {block.file}", "degC", values[rows], predicted(place), moments.time,
-                "time", "s", noise_of="temperature")
+                "time", "s", step=block.step(place), noise_of="temperature")
         for place, values in seen.items()
     ]  # fmt: skip
 

@@ -45,9 +45,11 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
         ]
         state = _State(current, names, heat, settings["leak"], settings["ambient"])
         channels += [
-            Channel(f"voltage of {block.file}", "V", voltage, state.voltage, current, "current", "A"),
+            Channel(f"voltage of {block.file}", "V", voltage, state.voltage, current, "current", "A",
+                    step=block.step("voltage")),
             Channel(f"faces of {block.file}", "degC", np.concatenate([hot, cold]), state.faces,
-                    np.concatenate([current, current]), "current", "A"),
+                    np.concatenate([current, current]), "current", "A",
+                    step=block.step("hot_temperature", "cold_temperature")),
         ]  # fmt: skip
     seebeck, resistance, conductance = np.median(starts, axis=0)
     fit = fitted(

@@ -41,6 +41,7 @@ class Turned(NamedTuple):
     broke: bool
     """Whether the torque fell after its largest value."""
     end: str
+    step: float
 
     @property
     def line(self) -> tuple[float, float]:
@@ -70,7 +71,7 @@ class Turned(NamedTuple):
             return torque_of(angle, values, f"zero_angle{self.end}", bends=self.bends)
 
         return Channel(f"torque of {self.file}", "N*m", self.torque, predicted, self.angle, "angle", "deg",
-                       noise_of="torque")  # fmt: skip
+                       step=self.step, noise_of="torque")  # fmt: skip
 
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
@@ -124,7 +125,7 @@ def _turned(block: Block, end: str) -> Turned:
             f"{block.file}: up to its largest torque, {torque[top]:.3g} N.m, the joint has one angle, {angle[0]:.3g} "
             "rad: no stiffness follows; check that row, or leave out what comes before the joint is turned"
         )
-    return Turned(block.file, angle[:last], torque[:last], bool(len(after)), end)
+    return Turned(block.file, angle[:last], torque[:last], bool(len(after)), end, block.step("torque"))
 
 
 def _bond(settings: Settings) -> list[Derived]:

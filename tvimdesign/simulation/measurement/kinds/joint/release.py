@@ -47,6 +47,7 @@ class Record(NamedTuple):
     period: float
     decay: float
     end: str
+    step: float
 
     @property
     def size(self) -> float:
@@ -79,7 +80,7 @@ class Record(NamedTuple):
             own = {name: values[name + self.end] for name in _OWN}
             return swing(self.time, {**values, **known, **own}, steps, self.corner)
 
-        return Channel(f"angle of {self.file}", "deg", self.angle, predicted, self.time, "time", "s")
+        return Channel(f"angle of {self.file}", "deg", self.angle, predicted, self.time, "time", "s", step=self.step)
 
 
 def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = True) -> Measurement:
@@ -112,7 +113,7 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
 
 def _record(block: Block, end: str) -> Record:
     time, angle = series_of(block, ["time", "angle"], _MOST_SAMPLES)
-    return Record(block.file, time, angle, *period_and_decay(time, angle), end)
+    return Record(block.file, time, angle, *period_and_decay(time, angle), end, block.step("angle"))
 
 
 def _derived(known: Values) -> list[Derived]:

@@ -47,6 +47,8 @@ class Sine(NamedTuple):
     start: Array
     """Mean, then cosine and sine of each harmonic [rad]."""
     end: str
+    steps: tuple[float, float]
+    """Of the last digits of angle and torque [SI]."""
 
     @property
     def size(self) -> float:
@@ -89,8 +91,9 @@ class Sine(NamedTuple):
 
         return [
             Channel(f"angle of {self.file}", "deg", self.angle, lambda values: self.course(values)[0], self.time,
-                    "time", "s", noise_of="angle"),
-            Channel(f"torque of {self.file}", "N*m", self.torque, torque, self.time, "time", "s", noise_of="torque"),
+                    "time", "s", step=self.steps[0], noise_of="angle"),
+            Channel(f"torque of {self.file}", "N*m", self.torque, torque, self.time, "time", "s",
+                    step=self.steps[1], noise_of="torque"),
         ]  # fmt: skip
 
 
@@ -164,7 +167,7 @@ def _record(block: Block, end: str) -> Sine:
     if omega * (time[-1] - time[0]) < 2.0 * np.pi:
         raise InputError(f"{block.file}: the record holds less than one period")
     start: Array = np.linalg.lstsq(_harmonics(time - time[0], omega), angle, rcond=None)[0].astype(np.float64)
-    return Sine(block.file, time, angle, torque, omega, start, end)
+    return Sine(block.file, time, angle, torque, omega, start, end, (block.step("angle"), block.step("torque")))
 
 
 def _harmonics(time: Array, omega: float) -> Array:

@@ -48,7 +48,16 @@ def measure(blocks: Sequence[Block], settings: Settings, *, profiles: bool = Tru
     if both_signs:
         parameters.append(from_zero("backlash", "deg", "Play between the two directions", 0.01 * turned))
     channels = [
-        Channel(f"angle of {block.file}", "deg", angles, _predicted(torques), torques, "torque", "N*m")
+        Channel(
+            f"angle of {block.file}",
+            "deg",
+            angles,
+            _predicted(torques),
+            torques,
+            "torque",
+            "N*m",
+            step=block.step("angle"),
+        )
         for block, (torques, angles) in zip(blocks, series, strict=True)
     ]
     derived = [_modulus(settings)] if any(name in settings for name in _SIZES) else []

@@ -47,6 +47,8 @@ class Sweep(NamedTuple):
     """Share of the storage modulus that is left at the last row used."""
     beyond: int
     """Rows left out."""
+    share: float
+    """Step of the last digit of the moduli over them."""
 
     def parameters(self) -> list[Parameter]:
         """Return the plateaus, and the change of the loss modulus up to the limit with its power."""
@@ -77,7 +79,7 @@ class Sweep(NamedTuple):
 
         def channel(name: str, moduli: Array, predicted: Callable[[Values], Any], at: Array) -> Channel:
             return Channel(f"{name} modulus of {self.where}", "Pa", moduli, predicted, at, "strain", "%", relative=True,
-                           noise_of=f"{name}_modulus")  # fmt: skip
+                           step=self.share, noise_of=f"{name}_modulus")  # fmt: skip
 
         return [channel("storage", self.storage, storage, strain),
                 channel("loss", self.loss[: self.linear], loss, linear)]  # fmt: skip
@@ -120,7 +122,8 @@ def _sweep(block: Block, settings: Settings, end: str) -> Sweep:
     limit = float(strain[min(linear, len(strain) - 1)])
     temperature = temperature_of(block, settings)
     return Sweep(temperature, title_of(block, temperature), end, strain[:last], storage[:last], loss[:last],
-                 min(linear, last), limit, float(np.min(left[:last])), len(strain) - last)  # fmt: skip
+                 min(linear, last), limit, float(np.min(left[:last])), len(strain) - last,
+                 block.share("storage_modulus", "loss_modulus"))  # fmt: skip
 
 
 def _until(left: Array, share: float) -> int:

@@ -36,12 +36,13 @@ class _Curves:
     """Flow curves of one melt, each at a temperature of its own."""
 
     def __init__(self, blocks: Sequence[Block], settings: Settings) -> None:
-        self.where, self.temperatures, self.rates, self.viscosities = [], [], [], []
+        self.where, self.temperatures, self.rates, self.viscosities, self.shares = [], [], [], [], []
         for block in blocks:
             temperature = temperature_of(block, settings)
             self.where.append(title_of(block, temperature))
             self.temperatures.append(temperature)
-            rate, viscosity = _curve(block)
+            rate, viscosity, share = _curve(block)
+            self.shares.append(share)
             self.rates.append(rate)
             self.viscosities.append(viscosity)
         untold = np.isnan(self.temperatures)
@@ -100,7 +101,7 @@ class _Curves:
             return shift * carreau(rate * shift, values)
 
         return Channel(f"viscosity of {self.where[i]}", "Pa*s", self.viscosities[i], predicted, self.rates[i],
-                       "shear rate", "1/s", relative=True, noise_of="viscosity")  # fmt: skip
+                       "shear rate", "1/s", relative=True, step=self.shares[i], noise_of="viscosity")  # fmt: skip
 
 
 def carreau(rate: Any, values: Values) -> Any:
@@ -152,8 +153,8 @@ def _simplest(curves: _Curves) -> tuple[int, BestFit]:
     return chosen, fits[chosen]
 
 
-def _curve(block: Block) -> tuple[Array, Array]:
-    """Return shear rates [1/s] and viscosities [Pa s] above zero, rates rising. Raises InputError for too few."""
+def _curve(block: Block) -> tuple[Array, Array, float]:
+    """Return rising shear rates [1/s], viscosities [Pa s] and their step. Raises InputError for too few above zero."""
     which = "viscosity" if block.complete(["viscosity"]) else "stress"
     rate, other = (np.abs(column) for column in rows_of(block, ["shear_rate", which]))
     good = (rate > 0.0) & (other > 0.0)
@@ -161,4 +162,4 @@ def _curve(block: Block) -> tuple[Array, Array]:
     if len(rate) == 0:
         raise InputError(f"{block.place}: no row has a shear rate and a {which} that are not zero")
     order = np.argsort(rate, kind="stable")
-    return rate[order], (other if which == "viscosity" else other / rate)[order]
+    return rate[order], (other if which == "viscosity" else other / rate)[order], block.share(which)

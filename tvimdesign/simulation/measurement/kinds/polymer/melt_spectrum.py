@@ -36,6 +36,10 @@ _FAR = 0.15
 """Shift factors may miss Arrhenius' law by this share of themselves and it is still of use; more, and it is not."""
 _BEYOND = 10.0
 """Factor by which a relaxation time may lie outside the times that a test sees."""
+_SOLID = 1e3
+"""Factor beyond that by which the time of a mode lies that stands for a solid."""
+_AT_END = 0.01
+"""Share of a time up to which a mode lies at the end of what is looked for."""
 _SPLIT = 0.02
 """A mode that stands for two in a record is split this share above and below its time: no test could tell."""
 
@@ -52,6 +56,8 @@ class Curve(NamedTuple):
     at_name: str
     at_unit: str
     relative: bool = True
+    step: float = 0.0
+    """Step of the last digit of the values, as a channel has it."""
     own: Parameter | None = None
     """An unknown of this curve alone."""
 
@@ -69,6 +75,8 @@ class MeltTest(NamedTuple):
     """Modulus at each of them [Pa], roughly."""
     note: str = ""
     """Parts that were left out."""
+    blind: str = ""
+    """`inertia` or `rise` where first rows were left out for it: what relaxes faster is not seen."""
 
 
 class Melt(NamedTuple):
@@ -82,6 +90,23 @@ class Melt(NamedTuple):
     """Start of the activation energy where the shift goes by Arrhenius' law; a factor each otherwise."""
     known_energy: float | None = None
     """The activation energy, where it is known."""
+    fast: bool = False
+    """True where what relaxes faster than the tests see is a viscosity."""
+    solid: bool = False
+    """True where what relaxes slower than the tests see is the modulus of a solid."""
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Shortest and longest relaxation time [s] that is looked for: `_BEYOND` outside what the tests see."""
+        shifts = [guessed_shift(test.temperature, self.reference) for test in self.tests]
+        rates = np.concatenate([test.rates * shift for test, shift in zip(self.tests, shifts, strict=True)])
+        return float(1.0 / (_BEYOND * rates.max())), float(_BEYOND / rates.min())
+
+    def modes(self, values: Values, count: int) -> list[tuple[Any, Any]]:
+        """Return the spectrum (time [s], modulus [Pa]), slowest first, with the modes of a solid and of a viscosity."""
+        slow = [(_SOLID * self.window[1], values["solid_modulus"])] if self.solid else []
+        fast = [(values["fast_time"], values["fast_viscosity"] / values["fast_time"])] if self.fast else []
+        return [*slow, *modes_of(values, count), *fast]
 
     @property
     def values(self) -> int:
@@ -124,12 +149,67 @@ def fit_spectrum(tests: Sequence[MeltTest], settings: Settings, *, profiles: boo
     most = round(settings["largest_modes"])
     melt = _melt(molten, settings)
     count, first = _fewest_modes(melt, most)
+    melt, count, first = _without_ends(melt, count, first)
     best, notes = _best(melt, count, first, profiles=profiles)
     notes = [*_notes(tests, melt, count, most), *notes]
     if untold:
         notes.append(_UNTOLD)
         return Measurement(best, tuple(notes))
+    if melt.fast or melt.solid or _blind(melt):
+        return _viscosity_record(best, melt, count, notes)
     return spectrum_record(best, count, most, melt.reference, notes)
+
+
+def _without_ends(melt: Melt, count: int, first: BestFit) -> tuple[Melt, int, BestFit]:
+    """Return the fit in which modes at the ends of what is looked for are a viscosity and the modulus of a solid."""
+    shortest, longest = melt.window
+    times = {parameter.name: parameter.outer(float(inner))
+             for parameter, inner in zip(first.problem.parameters, first.found.inner, strict=True)}  # fmt: skip
+    modes = [times[f"time_{i}"] for i in range(1, count + 1)]
+    fast = sum(time < shortest * (1.0 + _AT_END) for time in modes)
+    slow = sum(time > longest / (1.0 + _AT_END) for time in modes)
+    if not fast + slow:
+        return melt, count, first
+    melt = melt._replace(fast=melt.fast or fast > 0, solid=melt.solid or slow > 0)
+    count -= fast + slow
+    return _without_ends(melt, count, best_fit(_problem(melt, count)))
+
+
+def _blind(melt: Melt) -> str:
+    """Return `rise` or `inertia` where that hides the fast modes from all tests, those by the rise first."""
+    fastest = max((float(test.rates.max()) for test in melt.tests if not test.blind), default=0.0)
+    hidden = [test.blind for test in melt.tests if test.blind and test.rates.max() > fastest]
+    return max(hidden, default="")
+
+
+def _viscosity_record(best: Fit, melt: Melt, count: int, notes: Sequence[str]) -> Measurement:
+    """Return the measurement of a melt whose spectrum goes on outside the tests: its viscosity, if it flows."""
+    conditions = {"melt_reference_temperature": (melt.reference, "degC")}
+    if melt.solid:
+        solid = best["solid_modulus"]
+        why = (
+            f"The data do not flow: {solid.value:.3g} Pa are left at the longest times, as of a solid. No viscosity "
+            "follows, and no record is written. Measure at lower frequencies or for longer, or hotter."
+        )
+        return Measurement(best, (*notes, why))
+    if _blind(melt) == "rise":
+        why = (
+            "What relaxes while the strain rises is not seen, and the viscosity is its sum with the rest: no record is "
+            "written. Set rise_time, or fit a frequency sweep together with it (--as melt)."
+        )
+        return Measurement(best, (*notes, why))
+    slowest = max((best.value(f"time_{i}") for i in range(1, count + 1)), default=0.0)
+    if slowest > melt.window[1] / _BEYOND:
+        return Measurement(best, (*notes, _extrapolated(slowest, melt.window[1] / _BEYOND)))
+    viscosity = best["zero_shear_viscosity"]
+    there = f", {best['fast_viscosity'].value:.3g} Pa.s" if melt.fast else " or what the inertia hides"
+    why = f"Faster than the tests see there is only a viscosity{there}: the plateau modulus does not follow. "
+    if viscosity.low is None or viscosity.high is None:
+        return Measurement(best, (*notes, why + "The data leave the viscosity open: no record is written."))
+    values = {each.name: each for each in (*best.parameters, *best.derived)
+              if each.name in {"zero_shear_viscosity", "flow_activation_energy"}}  # fmt: skip
+    why += "The record has the viscosity alone, with the plateau modulus of the record it is based on."
+    return Measurement(best, (*notes, why), values, {}, conditions)
 
 
 def _melt(tests: Sequence[MeltTest], settings: Settings) -> Melt:
@@ -220,24 +300,46 @@ def _problem(melt: Melt, count: int) -> Problem:
     elif melt.known_energy is None:
         parameters.append(Parameter("flow_activation_energy", "kJ/mol", "Of the shift with temperature", melt.energy))
 
+    if melt.solid:
+        parameters.append(Parameter("solid_modulus", "Pa", "Modulus left at the longest times, as of a solid",
+                                    float(min(np.min(test.sizes) for test in melt.tests))))  # fmt: skip
+    if melt.fast:
+        shortest = melt.window[0]
+        parameters.append(
+            Parameter("fast_time", "s", "Time of it", 0.1 * shortest, least=shortest / _SOLID, most=shortest,
+                      nuisance=True)
+        )  # fmt: skip
+        parameters.append(
+            Parameter(
+                "fast_viscosity",
+                "Pa*s",
+                "Viscosity of all that relaxes faster than is seen",
+                float(max(np.max(test.sizes) for test in melt.tests)) * melt.window[0] * _BEYOND,
+            )
+        )
+
     def predicted(test: MeltTest, curve: Curve) -> Callable[[Values], Any]:
         own = curve.own.name if curve.own else ""
         return lambda values: curve.predicted(
-            modes_of(values, count), melt.factor(values, test), *([values[own]] if own else [])
+            melt.modes(values, count), melt.factor(values, test), *([values[own]] if own else [])
         )
 
     channels = [
         Channel(curve.name, curve.unit, curve.measured, predicted(test, curve), curve.at, curve.at_name, curve.at_unit,
-                relative=curve.relative, noise_of=curve.name.partition(" of ")[0])
+                relative=curve.relative, step=curve.step, noise_of=curve.name.partition(" of ")[0])
         for test in melt.tests
         for curve in test.curves
     ]  # fmt: skip
-    return Problem(parameters, channels, [
+    derived = [] if melt.solid else [
         Derived("zero_shear_viscosity", "Pa*s", "Viscosity of slow flow: sum of modulus times time",
-                lambda values: sum(time * modulus for time, modulus in modes_of(values, count))),
-        Derived("plateau_modulus", "MPa", "Sum of the moduli: the modulus at the highest rates measured",
-                lambda values: sum(modulus for _, modulus in modes_of(values, count))),
-    ])  # fmt: skip
+                lambda values: sum(time * modulus for time, modulus in melt.modes(values, count)))
+    ]  # fmt: skip
+    if count:
+        derived.append(
+            Derived("plateau_modulus", "MPa", "Sum of the moduli: the modulus at the highest rates measured",
+                    lambda values: sum(modulus for _, modulus in modes_of(values, count)))
+        )  # fmt: skip
+    return Problem(parameters, channels, derived)
 
 
 def modes_of(values: Values, count: int) -> list[tuple[Any, Any]]:
@@ -246,21 +348,19 @@ def modes_of(values: Values, count: int) -> list[tuple[Any, Any]]:
 
 
 def _modes(melt: Melt, count: int) -> list[Parameter]:
-    """Return starts: times evenly over the range of the rates, moduli from those nearest to one over each.
-
-    Times stay within the range and `_BEYOND` on either side: what relaxes faster or slower is not seen.
-    """
+    """Return starts: times evenly over the range of the rates, moduli from those nearest to one over each."""
     shifts = [guessed_shift(test.temperature, melt.reference) for test in melt.tests]
     rates = np.concatenate([test.rates * shift for test, shift in zip(melt.tests, shifts, strict=True)])
     size = np.concatenate([test.sizes for test in melt.tests])
     order = np.argsort(rates)
     logs = np.linspace(np.log(rates.min()), np.log(rates.max()), 2 * count + 1)[1::2]
+    shortest, longest = melt.window
     parameters = []
     for i, log in enumerate(logs, start=1):
         modulus = float(np.exp(np.interp(log, np.log(rates[order]), np.log(size[order]))))
         parameters.append(
             Parameter(f"time_{i}", "s", "Relaxation time of a mode", float(np.exp(-log)), profiled=False,
-                      least=float(1.0 / (_BEYOND * rates.max())), most=float(_BEYOND / rates.min()))
+                      least=shortest, most=longest)
         )  # fmt: skip
         parameters.append(Parameter(f"modulus_{i}", "Pa", "Modulus of that mode", modulus, profiled=False))
     return parameters
@@ -332,7 +432,8 @@ def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: S
     No record follows of modes that the data leave open, or of a viscosity beyond the times that they see.
     """
     modes = sorted(((best.value(f"time_{i}"), best.value(f"modulus_{i}")) for i in range(1, count + 1)), reverse=True)
-    own = (best[f"{name}_{i}"] for i in range(1, count + 1) for name in ("time", "modulus"))
+    own = [best[f"{name}_{i}"] for i in range(1, count + 1) for name in ("time", "modulus")]
+    own += [best["zero_shear_viscosity"], best["plateau_modulus"]]
     left_open = [parameter.name for parameter in own if parameter.low is None or parameter.high is None]
     if left_open:
         viscosity = best["zero_shear_viscosity"]
@@ -342,17 +443,20 @@ def spectrum_record(best: Fit, count: int, most: int, reference: float, notes: S
         return Measurement(best, (*notes, f"The data leave {', '.join(left_open)} open: no record is written.{known}"))
     seen = next(parameter.most for parameter in best.problem.parameters if parameter.name == "time_1") / _BEYOND
     if modes[0][0] > seen:
-        why = (
-            f"The slowest mode takes {modes[0][0]:.3g} s, and the tests see {seen:.3g} s: the viscosity is "
-            "extrapolated, and no record is written. Measure at lower frequencies, or for longer."
-        )
-        return Measurement(best, (*notes, why))
+        return Measurement(best, (*notes, _extrapolated(modes[0][0], seen)))
     values = {name: best[name] for name in ("zero_shear_viscosity", "plateau_modulus")}
     if any(parameter.name == "flow_activation_energy" for parameter in best.parameters):
         values["flow_activation_energy"] = best["flow_activation_energy"]
     table = RecordTable({"relaxation_time": "s", "modulus": "Pa"}, split_to(modes, most))
     return Measurement(
         best, tuple(notes), values, {"melt_spectrum": table}, {"melt_reference_temperature": (reference, "degC")}
+    )
+
+
+def _extrapolated(slowest: float, seen: float) -> str:
+    return (
+        f"The slowest mode takes {slowest:.3g} s, and the tests see {seen:.3g} s: the viscosity is extrapolated, and "
+        "no record is written. Measure at lower frequencies, or for longer."
     )
 
 

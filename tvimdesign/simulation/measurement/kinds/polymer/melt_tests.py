@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.physics.motions import motion
@@ -38,6 +39,13 @@ _SAME_SWEEP = 1.5
 _CUT_OFF, _ALIKE, _IN_A_ROW = 20.0, 5e-3, 4
 """Ratio of the moduli, its largest change from row to row and the rows in which an instrument has cut a modulus off."""
 _ALMOST = 0.99
+_RISEN, _AFTER_RISE, _FALLS = 0.98, 10.0, 0.9
+"""Share of the strain at which it has risen; times that rise from which on rows count; share of the largest modulus
+below which the first one shows a rise."""
+_FASTER, _RINGING = 0.15, 10.0
+"""Slope of a creep beyond one, of logarithms, that only inertia makes; times its end up to which it may ring."""
+_OF_SECOND_DIFFERENCES = 1.4826 / 6.0**0.5
+"""Deviation over the median size of second differences."""
 _UNLOADED = 0.1
 """Share of the largest stress below which the stress is off."""
 _NO_COMPLIANCE = np.finfo(float).tiny
@@ -135,7 +143,7 @@ def _oscillated(
     where = title_of(block, temperature)
     at = (omega, "angular frequency", "rad/s") if ramp is None else (ramp, "temperature", "degC")
     curves = [
-        Curve(f"{name} of {where}", "Pa", moduli, predicted(which), *at)
+        Curve(f"{name} of {where}", "Pa", moduli, predicted(which), *at, step=block.share(f"{name.replace(' ', '_')}"))
         for which, (name, moduli) in enumerate((("storage modulus", storage), ("loss modulus", loss)))
     ]
     rates = omega if ramp is None else omega * guessed_shift(ramp, temperature)
@@ -156,11 +164,61 @@ def creeps_in(block: Block, settings: Settings) -> list[MeltTest]:
         raise InputError(f"{block.place}: no three rows under load with a compliance above zero")
     temperature = temperature_of(block, settings)
     where = title_of(block, temperature)
-    creep = _under_load(where, time[loaded], measured[loaded])
+    last = float(time[loaded][-1])
+    first = _inert_rows(time[loaded], measured[loaded])
+    if np.sum(loaded) - first < LEAST_ROWS:
+        raise InputError(f"{block.place}: the compliance rises as the instrument's inertia has it; log for longer")
+    note = first and (
+        f"{block.place}: up to {time[loaded][first]:.3g} s the compliance rises faster than any melt's, as the "
+        f"instrument's inertia makes it: the first {first} rows are left out."
+    )
+    creep = _under_load(where, time[loaded][first:], measured[loaded][first:], block.share(*_creep_columns(block)))
     curves = [creep]
     if np.sum(~loaded) >= LEAST_ROWS:
-        curves.append(_recovery(where, float(time[loaded][-1]), time[~loaded], measured[~loaded]))
-    return [MeltTest(where, temperature, None, curves, 1.0 / creep.at, 1.0 / creep.measured)]
+        curves.append(_recovery(where, last, time[~loaded], measured[~loaded]))
+    return [
+        MeltTest(
+            where,
+            temperature,
+            None,
+            curves,
+            1.0 / creep.at,
+            1.0 / creep.measured,
+            note or "",
+            "inertia" if first else "",
+        )
+    ]
+
+
+def _inert_rows(time: Array, compliance: Array) -> int:
+    """Return how many first rows rise faster than time, or ring: an instrument's inertia makes that, no melt does.
+
+    A slope counts over a doubling of the time, and where it is more than the scatter of the rows explains.
+    """
+    x, y = np.log(time), np.log(compliance)
+    scatter = float(np.median(np.abs(np.diff(y, 2)))) * _OF_SECOND_DIFFERENCES if len(y) > 4 else 0.0
+    first = 0
+    for i in range(len(x) - 1):
+        later = int(np.searchsorted(x, x[i] + np.log(2.0)))
+        if later >= len(x):
+            break
+        run = x[later] - x[i]
+        if y[later] - y[i] > run * (1.0 + _FASTER) + 4.0 * scatter:
+            first = later
+        elif i > first:
+            break
+    reach = int(np.searchsorted(x, x[first] + np.log(_RINGING))) if first else 0
+    rings = np.flatnonzero(np.diff(y[: reach + 1]) < -5.0 * scatter - _FASTER * _FASTER)
+    return max(first, int(rings[-1]) + 2) if len(rings) else first
+
+
+def _creep_columns(block: Block) -> list[str]:
+    return ["compliance" if "compliance" in block.columns else "strain"]
+
+
+def _time_of(block: Block) -> str:
+    """Return the column of the time: that of the step, where the file has it."""
+    return "step_time" if block.complete(["step_time"]) else "time"
 
 
 def compliance(time: Any, modes: Modes) -> Any:
@@ -183,13 +241,13 @@ def compliance(time: Any, modes: Modes) -> Any:
     return at_once.map(count)(ca.MX(time).T, ca.repmat(given, 1, count)).T
 
 
-def _under_load(where: str, time: Array, measured: Array) -> Curve:
+def _under_load(where: str, time: Array, measured: Array, share: float) -> Curve:
     used = _thinned(time)
 
     def predicted(modes: Modes, shift: Any) -> Any:
         return compliance(ca.DM(time[used]) / shift, modes)
 
-    return Curve(f"compliance of {where}", "1/Pa", measured[used], predicted, time[used], "time", "s")
+    return Curve(f"compliance of {where}", "1/Pa", measured[used], predicted, time[used], "time", "s", step=share)
 
 
 def _recovery(where: str, last: float, time: Array, measured: Array) -> Curve:
@@ -212,13 +270,13 @@ def _compliance(block: Block, settings: Settings) -> tuple[Array, Array, Any]:
     """Return time, compliance and whether the stress is on: by columns, or by a stress that is set."""
     value = "compliance" if "compliance" in block.columns else "strain"
     if "stress" in block.columns:
-        time, measured, stress = rows_of(block, ["time", value, "stress"])
+        time, measured, stress = rows_of(block, [_time_of(block), value, "stress"])
         most = float(np.median(np.abs(stress[np.abs(stress) > 0.5 * np.max(np.abs(stress))])))
         loaded = np.abs(stress) > _UNLOADED * most
         last = int(np.flatnonzero(loaded)[-1])
         loaded[: last + 1] = True  # a sample or two while the stress comes on
         return time, measured if value == "compliance" else np.abs(measured) / most, loaded
-    time, measured = rows_of(block, ["time", value])
+    time, measured = rows_of(block, [_time_of(block), value])
     if value == "strain":
         of_file = None if "stress" in settings else block.number("stress")
         why = f"as {block.file} has a strain and neither stress nor compliance"
@@ -228,12 +286,18 @@ def _compliance(block: Block, settings: Settings) -> tuple[Array, Array, Any]:
 
 def relaxations_in(block: Block, settings: Settings) -> list[MeltTest]:
     """Return the relaxation of a table: rows after the rise, with a modulus above zero."""
-    time, modulus = _modulus(block, settings)
-    rise = settings["rise_time"]
-    good = (time > rise) & (modulus > 0.0)
+    time, modulus, strain = _modulus(block, settings)
+    rise, note = settings["rise_time"], ""
+    seen = 0.0 if rise else _rise_seen(time, modulus, strain)
+    good = (time > rise) & (modulus > 0.0) & (time >= _AFTER_RISE * seen)
+    if seen:
+        note = (
+            f"{block.place}: the strain rises for {seen:.3g} s; rows up to {_AFTER_RISE:g} times that are left out. "
+            f"If its rate was constant, --set rise_time='{seen:.3g} s' uses those after the rise."
+        )
+    if np.sum(good) < (LEAST_ROWS if seen else 1):
+        raise InputError(note or f"{block.place}: no row has a time after the rise and a modulus above zero")
     time, modulus = time[good], modulus[good]
-    if len(time) == 0:
-        raise InputError(f"{block.place}: no row has a time after the rise and a modulus above zero")
     used = _thinned(time)
     time, modulus = time[used], modulus[used]
     temperature = temperature_of(block, settings)
@@ -250,20 +314,36 @@ def relaxations_in(block: Block, settings: Settings) -> list[MeltTest]:
             for mode in modes
         )  # fmt: skip
 
-    curve = Curve(f"relaxation modulus of {where}", "Pa", modulus, predicted, time, "time", "s")
-    return [MeltTest(where, temperature, None, [curve], 1.0 / time, modulus)]
+    share = block.share("relaxation_modulus" if "relaxation_modulus" in block.columns else "stress")
+    curve = Curve(f"relaxation modulus of {where}", "Pa", modulus, predicted, time, "time", "s", step=share)
+    return [MeltTest(where, temperature, None, [curve], 1.0 / time, modulus, note, "rise" if seen else "")]
 
 
-def _modulus(block: Block, settings: Settings) -> tuple[Array, Array]:
-    """Return time and modulus: the file's, or stress over strain, which may be set."""
+def _rise_seen(time: Array, modulus: Array, strain: Array | None) -> float:
+    """Return the time [s] in which the strain rises: by its column, or to the largest modulus; 0 where none is seen."""
+    if strain is not None:
+        size = np.abs(strain)
+        risen = int(np.argmax(size > _RISEN * float(np.median(size[len(size) // 2 :]))))
+        return float(time[risen]) if risen else 0.0
+    smooth = median_filter(modulus, 3, mode="nearest")
+    top = int(np.argmax(smooth))
+    return float(time[top]) if smooth[0] < _FALLS * smooth[top] else 0.0
+
+
+def _modulus(block: Block, settings: Settings) -> tuple[Array, Array, Array | None]:
+    """Return time, modulus and any strain: the file's modulus, or stress over strain, which may be set."""
+    at = _time_of(block)
+    if block.complete([at, "strain"]):
+        which = "relaxation_modulus" if "relaxation_modulus" in block.columns else "stress"
+        time, stress, strain = rows_of(block, [at, which, "strain"])
+        most = float(np.median(np.abs(strain[len(strain) // 2 :])))
+        return time, stress if which == "relaxation_modulus" else np.abs(stress) / most, strain
     if "relaxation_modulus" in block.columns:
-        time, modulus = rows_of(block, ["time", "relaxation_modulus"])
-        return time, modulus
-    if "strain" in block.columns:
-        time, stress, strain = rows_of(block, ["time", "stress", "strain"])
-        return time, stress / np.max(np.abs(strain))
-    time, stress = rows_of(block, ["time", "stress"])
-    return time, stress / required(settings, "strain", f"as {block.file} has a stress and neither strain nor modulus")
+        time, modulus = rows_of(block, [at, "relaxation_modulus"])
+        return time, modulus, None
+    time, stress = rows_of(block, [at, "stress"])
+    why = f"as {block.file} has a stress and neither strain nor modulus"
+    return time, stress / required(settings, "strain", why), None
 
 
 def _thinned(time: Array) -> Any:
