@@ -20,8 +20,9 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study.study import STANDARD_POINTS
 
 LINEAR = (
-    "The PCL is linear at every strain: it neither softens with strain nor slips, tears or yields. The structure loses "
-    "the same share at every pace, exactly that of the operating point at its frequency; it is the stiffer the quicker."
+    "The PCL is linear at every strain: it does not soften with strain, and yields only where a note says so. The "
+    "structure loses the same share at every pace, exactly that of the operating point at its frequency; it is the "
+    "stiffer the quicker."
 )
 PUSHES = (
     "Blocks push and never pull: those ahead act against positive angles, those behind against negative ones, and the "
@@ -32,6 +33,7 @@ HISTORY = (
     "the equilibrium on heating, high is heated with the record's highest melting range; "
     "a finding's ends are the least and the most between low and high."
 )
+_ROUNDING = 1.0 + 1e-9
 MELTING_POINT = {"temperature": 333.15, "frequency": 1.0}
 """The paper's third temperature, 60 degC, which joins cold and hot where a study names no points of its own."""
 BETWEEN = 3
@@ -189,7 +191,7 @@ def notes_for(tested_cases: Sequence[Case]) -> tuple[str, ...]:
 def overload_notes(resolved: ResolvedModule, torques: Sequence[tuple[Case, float]]) -> tuple[str, ...]:
     """Return a sentence on the points where a test asks more torque [N*m] of a joint than it bears."""
     most = float(resolved.quantity("holding_torque"))
-    beyond = " and ".join(dict.fromkeys(case.point for case, torque in torques if torque > most))
+    beyond = " and ".join(dict.fromkeys(case.point for case, torque in torques if torque > _ROUNDING * most))
     if not beyond:
         return ()
     return (

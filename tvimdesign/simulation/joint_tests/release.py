@@ -50,6 +50,8 @@ class Released:
 
     case: Case
     found: OneSided
+    slip: float
+    """Angle by which the layer slipped, or yielded, while the link was held [rad]."""
     backlash: float
     """Angle over which nothing touches right after the hold [rad]."""
     frequency: float
@@ -97,6 +99,7 @@ def release(
             "of seconds the melt keeps nothing, frozen PCL nearly all.",
             "Torque is that of the module on the link, friction of the springs' legs on their pins counted.",
             *_friction_note(releases),
+            *_slip_note(resolved, releases),
             *notes_for([swing.case for swing in releases]),
             *overload_notes(resolved, [(swing.case, float(abs(swing.motion.torque[0]))) for swing in releases]),
             *_unsettled(releases),
@@ -113,6 +116,18 @@ def _friction_note(releases: Sequence[Released]) -> tuple[str, ...]:
     return (
         f"Friction of {1e3 * friction:.3g} mN.m is a constant torque against the motion: the loop is twice that wide, "
         f"and the springs alone leave the link up to {1e3 * band:.3g} mrad off its rest.",
+    )
+
+
+def _slip_note(resolved: ResolvedModule, releases: Sequence[Released]) -> tuple[str, ...]:
+    """Return a sentence on the points at which the layer slipped or yielded."""
+    slips = {swing.case.point: abs(swing.slip) for swing in releases if swing.slip}
+    if not slips:
+        return ()
+    most = float(resolved.quantity("holding_torque"))
+    return (
+        f"At {' and '.join(slips)} the joint bears {most:.3g} N·m and no more: the layer slips or yields by "
+        f"{1e3 * max(slips.values()):.3g} mrad while the link is held, and the link stays turned.",
     )
 
 
@@ -153,17 +168,21 @@ def _first_swing_of(resolved: ResolvedModule, case: Case, angle: float) -> dict[
 
 
 def _released(resolved: ResolvedModule, case: Case, angle: float, hold: float, kelvin_voigt: bool) -> Released:
-    internal = link.held(case.plant, angle, hold)
+    internal, slip = link.held(case.plant, angle, hold), 0.0
+    if not case.one_sided:
+        internal, slip = link.slipped(case.plant, angle, internal, float(resolved.quantity("holding_torque")))
     motion = link.released(case.plant, angle, internal, case.friction)
     # Friction holds the link off its old rest: it settles where it stays.
     settling = motion.settling_time(SETTLED)
     if case.one_sided:
-        return Released(case, motion, case.plant.gap(internal), *_first_ringing(motion), settling, None)
+        return Released(case, motion, 0.0, case.plant.gap(internal), *_first_ringing(motion), settling, None)
     swings = link.swings(case.joint, case.modes, angle, internal)
-    if not np.isfinite(settling):
+    if slip:
+        settling = swings.ringing_time(SETTLED)
+    elif not np.isfinite(settling):
         settling = swings.fading_time(SETTLED * abs(angle))
     simple = _simple(resolved, case, angle, motion.motion) if kelvin_voigt else None
-    return Released(case, motion, 0.0, *swings.ringing(), settling, simple)
+    return Released(case, motion, slip, 0.0, *swings.ringing(), settling, simple)
 
 
 def _first_ringing(motion: OneSided) -> tuple[float, float]:

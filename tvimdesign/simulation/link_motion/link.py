@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tvimdesign.physics.motions import motion
-from tvimdesign.simulation.link_motion.course import Course, Plant
+from tvimdesign.simulation.link_motion.course import HELD, Course, Plant
 from tvimdesign.simulation.link_motion.sampled_motion import (
     DEAD,
     LONGEST,
@@ -38,6 +38,16 @@ def held(plant: Plant, angle: float, seconds: float, precompression: float = 0.0
             for _ in range(count):
                 course.across(step)
     return course.states()[2:, -1]
+
+
+def slipped(plant: Plant, angle: float, internal: Array, most: float) -> tuple[Array, float]:
+    """Return the internal angles [rad] of a bonded layer at an angle, and how far it slipped to get there.
+
+    It slips until springs and layer together resist with `most` [N*m], as all of it turns with the slip.
+    """
+    torque, less = (float(plant.torque(np.array(angle), list(internal + slip), HELD)) for slip in (0.0, 1.0))
+    slip = max(abs(torque) - most, 0.0) * np.sign(torque) / (torque - less)
+    return internal + slip, float(slip)
 
 
 def released(plant: Plant, angle: float, internal: Array, friction: float = 0.0, turns: float = np.inf) -> OneSided:
@@ -109,12 +119,23 @@ class Swings:
 
     def ringing(self) -> tuple[float, float]:
         """Return frequency [Hz] and damping ratio of the swing that stands out; 0 and 1 where none does."""
+        main = self._main
+        if main is None:
+            return 0.0, 1.0
+        return float(main.imag / (2.0 * np.pi)), float(-main.real / abs(main))
+
+    def ringing_time(self, share: float) -> float:
+        """Return time [s] after which that swing has fallen to a share; 0 where none stands out."""
+        return 0.0 if self._main is None else float(np.log(share) / self._main.real)
+
+    @property
+    def _main(self) -> complex | None:
+        """Rate of the swing that stands out."""
         visible = 2.0 * np.abs(self.shares) > 0.05 * abs(np.sum(self.shares))
         swinging = (self.rates.imag > 0.0) & visible & (-self.rates.real < 0.5 * np.abs(self.rates))
         if not np.any(swinging):
-            return 0.0, 1.0
-        main = self.rates[swinging][np.argmax(np.abs(self.shares[swinging]))]
-        return float(main.imag / (2.0 * np.pi)), float(-main.real / abs(main))
+            return None
+        return complex(self.rates[swinging][np.argmax(np.abs(self.shares[swinging]))])
 
     def fading_time(self, limit: float) -> float:
         """Return time [s] after which all swings together stay below a limit [rad]; infinite if that never comes."""
