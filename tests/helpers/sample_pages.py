@@ -83,7 +83,8 @@ def write_parts(cad: Path) -> None:
     atomic_write(cad / "checks.json", json.dumps({"checks": [_check("pass"), _check("warning")]}).encode())
     _table(cad / "bom.csv", {
         "item": 1, "part": "housing", "quantity": 1, "made_or_bought": "made", "title": "PETG", "fit": "",
-        "mass_each_g": "45.571", "mass_all_g": "45.571", "files": "step/housing.step print/housing.3mf",
+        "mass_each_g": "45.571", "mass_all_g": "45.571", "number": "", "price": "made",
+        "files": "step/housing.step print/housing.3mf",
     })  # fmt: skip
     _table(
         cad / "springs/spring.csv", {"name": "rate", "value": 24.474, "unit": "N.mm/deg", "tolerance": "", "note": ""}

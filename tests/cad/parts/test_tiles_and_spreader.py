@@ -105,7 +105,7 @@ def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:
 
 def test_the_note_lays_spreaders_on_tiles_and_says_where_wires_go() -> None:
     texts = [step["text"] for step in steps_of({*KINDS, "rotor"})]
-    assert any("spreader" in text and "the hole at one end" in text for text in texts)
+    assert any("spreader" in text and "the slot beside its end" in text for text in texts)
     assert not any("Lay the {number_of_peltier_pad} Peltier pads" in text for text in texts)
     assert any(
         "Lay the {number_of_peltier_pad} Peltier pads" in step["text"] for step in steps_of({*KINDS} - {"spreader"})

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad.assembly import file_names
 from tvimdesign.cad.assembly.assembly_figures import Figures
-from tvimdesign.cad.assembly.bill_of_materials import Item
+from tvimdesign.cad.assembly.bill_of_materials import Item, cost
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure
 from tvimdesign.study.design import Design
@@ -38,11 +38,22 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     total = sum(one.mass * one.quantity for one in items)
     lines += ["", f"Together {total:.1f} g. Files and records of the catalogue: `{file_names.BILL_OF_MATERIALS}`.", ""]
     lines += [f"Beside them: {_words(one.kind)}, {one.title}{_about(one.mass)}." for one in extra]
+    lines += ["", _cost([*items, *extra])]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
     lines += [f"{number}. {step.text}" for number, step in enumerate(written_steps(design, dims, items), start=1)]
     lines += ["", f"![Cut through the axis]({file_names.SECTION})", ""]
     return "\n".join(lines).encode()
+
+
+def _cost(items: Sequence[Item]) -> str:
+    """Return the sum of what has a price, and how much has none."""
+    sums = cost(items)
+    between = f"{sums.low:.2f} USD" if sums.high == sums.low else f"{sums.low:.2f} to {sums.high:.2f} USD"
+    return (
+        f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list: {between} for whole packs. "
+        f"Of the others `{file_names.BILL_OF_MATERIALS}` says quote: ask a supplier."
+    )
 
 
 def _about(mass: float) -> str:

@@ -13,7 +13,8 @@ import cadquery as cq
 from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.cad.assembly import file_names
-from tvimdesign.cad.assembly.heater_leads import pad_count, thermistor_in_words, up, wire_in_words
+from tvimdesign.cad.assembly.heater_leads import lead_in_words, pad_count, thermistor_in_words, up, wire_in_words
+from tvimdesign.cad.assembly.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, kind_of
 from tvimdesign.cad.parts import casting_jig
@@ -32,8 +33,6 @@ _WIRED = {
 _RINGS = ("bearing_inner", "bearing_outer")
 _SEALED = (*_RINGS, "motor_bearing")
 """Bearings: chips, grease and molten polymer are near, and a sealed one has the size of an open one."""
-_NOT_KNOWN = "not known"
-"""Price of what no source with a price was read for."""
 _SHEETS = ("spreader", "liner")
 """Kinds cut from a sheet."""
 _HANDS = {"spring_right": "right", "spring_left": "left"}
@@ -60,6 +59,25 @@ class Item:
     """Tolerance classes of what it sits in and on."""
     fixture: bool = False
     """Whether it is made to make the module, and no part of it."""
+    asks: tuple[float, float] = (0.0, 0.0)
+    """Volts and amperes that a supply or a driver must bear."""
+
+    @property
+    def is_ordered(self) -> bool:
+        """True for what one orders: neither made, nor part of what is ordered."""
+        return not self.made and self.kind != "heater_lead"
+
+    @property
+    def offer(self) -> Offer | None:
+        """Its number, pack and price, where a public list gives them."""
+        return offer_for(self.kind, self.material, self.title, *self.asks) if self.is_ordered else None
+
+    @property
+    def price(self) -> str:
+        """Price of a pack in words, or how else one comes by it."""
+        if not self.is_ordered:
+            return "made" if self.made else "with its module"
+        return self.offer.in_words if self.offer else QUOTE
 
 
 def bill(
@@ -98,6 +116,8 @@ def _titled(design: Design, kind: str, title: str) -> str:
     """Return what a part is ordered by: a spring is no piece of wire, so its sizes go with the wire's name."""
     if kind == "thermistor":
         return thermistor_in_words(design)
+    if kind == "heater_lead":
+        return f"{lead_in_words(design)}; it comes with its module, drawn as far as the ground"
     if kind == "peltier_pad" and design.values.get("peltier_seebeck") == 0.0:
         return f"{title}, {_resistance(design):.3g} ohm each, made to the outline of its STEP file"
     if kind in _SEALED:
@@ -128,7 +148,7 @@ def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return what is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the
     pads."""
     items = [_polymer(design, titles), *_under_pads(design), *_with_spreaders(design)]
-    items += [*_of_the_heater(design), *_supply(design), *_glues(design)]
+    items += [*_of_the_heater(design), *_supply(design), *_glues(design), *_beside_the_module(design, titles)]
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
         record = str(design.choices["liner_adhesive"])
         film = inlay - design.value("liner_thickness")
@@ -189,6 +209,19 @@ def _glues(design: Design) -> list[Item]:
     return items
 
 
+def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """Return the screws that fix the module, and grease where parts rub."""
+    bears = up(design.value("structure_service_temperature") - ZERO_CELSIUS)
+    grease = f"Grease for plastics and metals, for {bears} °C: retainer, wave spring, springs' posts and pins"
+    items = [Item("grease", 1, False, "", grease, 0.0, ())]
+    if design.values.get("drive_height", 0.0) > 0.0:
+        return items
+    record, count = str(design.choices["mount_screw"]), round(design.value("spring_count"))
+    longer = f"longer than {1e3 * (design.value('floor_thickness') + design.value('foot_height')):.3g} mm"
+    title = f"{titles.get('mount_screw', record)}, {longer} by what bears the module"
+    return [*items, Item("mount_screw", count, False, record, title, 0.0, ())]
+
+
 def _under_pads(design: Design) -> list[Item]:
     """Return what lies between pads and housing: adhesive on the ledges that a freezing layer pulls at, grease in
     vanes.
@@ -221,8 +254,9 @@ def _with_spreaders(design: Design) -> list[Item]:
 
 
 def _of_the_heater(design: Design) -> list[Item]:
-    """Return wires, and a thermistor where none is drawn; through a hole of its own below a spreader."""
+    """Return wires, what joins and covers them, and a thermistor where none is drawn, below a spreader in a hole."""
     items = []
+    covers = 2 * round(design.values.get("thermistor_count", 1.0))
     if design.values.get("thermistor_diameter", 0.0) <= 0.0:
         hole = design.values.get("lead_hole_diameter", 0.0) if _has_lead_holes(design) else 0.0
         through = f", through a hole of {1e3 * hole:.3g} mm" if hole else ""
@@ -231,8 +265,15 @@ def _of_the_heater(design: Design) -> list[Item]:
     if design.values.get("cutout_diameter", 0.0) > 0.0:
         film = f"Polyimide film with adhesive for {_hottest(design)}, to wrap the thermal cut-out"
         items.append(Item("polyimide_film", 1, False, "", film, 0.0, ()))
-    wire = wire_in_words(design, pad_count(design))
-    return items + ([Item("heater_wire", 1, False, "", wire, 0.0, ())] if wire else [])
+        covers += 2
+    sleeves = f"Sleeve of PTFE or glass fibre for {_hottest(design)}, over each bare wire of thermistors and cut-out"
+    items.append(Item("wire_sleeve", covers, False, "", sleeves, 0.0, ()))
+    if not (wire := wire_in_words(design, pad_count(design))):
+        return items
+    items.append(Item("heater_wire", 1, False, "", wire, 0.0, ()))
+    joints = 2 * pad_count(design) + (2 if design.values.get("cutout_diameter", 0.0) > 0.0 else 0)
+    words = f"Uninsulated crimp splice for the wires it joins, for {_hottest(design)}, with a shrink sleeve over it"
+    return [*items, Item("crimp_splice", joints, False, "", words, 0.0, ())]
 
 
 def _has_lead_holes(design: Design) -> bool:
@@ -254,10 +295,12 @@ def _supply(design: Design) -> list[Item]:
     both = " both ways round" if design.values.get("cooling_current", 0.0) > 0.0 else ""
     wired = _WIRED[design.choices.get("heater_wiring", "series")]
     asked = f"at least {up(volts)} V and {up(amperes)} A over {wired}"
-    bridge = "H-bridge" if both else "Switch"
+    bridge, bears = "H-bridge" if both else "Switch", (volts, amperes)
     return [
-        Item("supply", 1, False, "", f"DC supply, {asked}", 0.0, ()),
-        Item("driver", 1, False, "", f"{bridge} with a controlled current{both}, {asked}", 0.0, ()),
+        Item("supply", 1, False, "", f"DC supply, {asked}", 0.0, (), asks=bears),
+        Item(
+            "driver", 1, False, "", f"{bridge} with a controlled current{both}, {asked}", 0.0, (), asks=(volts, amperes)
+        ),
     ]
 
 
@@ -277,16 +320,27 @@ def _come_by(one: Item) -> str:
     return "made" if one.made else "bought"
 
 
+def _noted(offer: Offer) -> str:
+    return f"{offer.number}, {offer.note}" if offer.note else offer.number
+
+
+def cost(items: Sequence[Item]) -> Total:
+    """Return what the bought lines cost that have a price, in whole packs."""
+    return total((item.offer, item.quantity) for item in as_ordered(items) if item.is_ordered)
+
+
 def bill_csv(items: Sequence[Item]) -> bytes:
     """Return the bill as CSV, a row for each thing made or bought; `solids` names what it is in the assembly."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["item", "part", "quantity", "made_or_bought", "catalogue_record", "title", "fit", "mass_each_g",
-                     "mass_all_g", "price", "solids", "files"])  # fmt: skip
-    for number, one in enumerate(as_ordered(items), start=1):
+                     "mass_all_g", "supplier", "number", "pack", "price", "link", "solids", "files"])  # fmt: skip
+    for number, item in enumerate(as_ordered(items), start=1):
+        offer = item.offer
+        ordered = (offer.supplier, _noted(offer), offer.pack) if offer else ("", "", "")
         writer.writerow([
-            number, one.kind, one.quantity, _come_by(one), one.material, one.title,
-            one.fit, f"{one.mass:.3f}", f"{one.mass * one.quantity:.3f}", _NOT_KNOWN, " ".join(one.solids),
-            " ".join(one.papers),
+            number, item.kind, item.quantity, _come_by(item), item.material, item.title,
+            item.fit, f"{item.mass:.3f}", f"{item.mass * item.quantity:.3f}", *ordered, item.price,
+            offer.link if offer else "", " ".join(item.solids), " ".join(item.papers),
         ])  # fmt: skip
     return stream.getvalue().encode(TABLE_ENCODING)

@@ -154,7 +154,21 @@ def wire_in_words(design: Design, pads: int) -> str:
     rated = up(design.value("peltier_max_temperature") - ZERO_CELSIUS)
     said = f"Insulated wire for the {pads} heaters, two from each, for {up(current)} A and {rated} °C"
     wire = next((one for one in wires() if one.current >= current), None)
-    return f"{said}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {_source()})" if wire else said
+    said = f"{said}: copper of {1e6 * wire.section:.3g} mm² ({wire.gauge}; {_source()}) or thicker" if wire else said
+    return f"{said}, spliced to the heaters' own leads{_own_leads(design)}"
+
+
+def _own_leads(design: Design) -> str:
+    """Return gauge, diameter and length of the leads that heaters come with, as far as their record says."""
+    gauge, length = (design.values.get(f"lead_{name}", 0.0) for name in ("gauge", "length"))
+    known = [f"AWG {gauge:.0f}"] if gauge else []
+    known += [f"{1e3 * length:.3g} mm long"] if length else []
+    return f" ({', '.join(known)})" if known else ""
+
+
+def lead_in_words(design: Design) -> str:
+    """Return a lead of a rectangular heater: its outer diameter, and what else its record says."""
+    return f"Lead of {1e3 * design.value('lead_diameter'):.3g} mm{_own_leads(design)}"
 
 
 class Wire(NamedTuple):

@@ -24,6 +24,8 @@ _STEEPEST = -0.1
 """A face whose normal has at least this much of the way in is one the part goes in with."""
 _WAY = {"above": np.array([0.0, 0.0, 1.0]), "below": np.array([0.0, 0.0, -1.0])}
 """Back out, by the side a part comes from."""
+_FLEXIBLE = ("heater_lead",)
+"""Wires, which are bent on their way in."""
 TOOL_LENGTH = 60.0
 """Free length of a hexagon key's long leg [mm]; assumed: 50 to 100 mm."""
 _TOOL_RAYS = 24
@@ -93,7 +95,7 @@ def order_checks(dims: Dimensions, placed: Mapping[str, Instance]) -> Iterator[S
     for group in _groups(order):
         together = Standing(there) if there else None
         names = [one.name for one in group]
-        if together:
+        if together and kind_of(names[0]) not in _FLEXIBLE:
             # Copies of a part go in alike: what is before one is before all of them but for the angle.
             yield _way_check(kind_of(names[0]), group[0].side, {name: shapes[name] for name in names}, together)
         there |= {name: shapes[name] for name in names}

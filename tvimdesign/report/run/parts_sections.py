@@ -80,18 +80,23 @@ def _with_unit(check: Mapping[str, Any], what: str) -> str:
     return f"{number(check[what])} {pretty(check['unit'])}".rstrip()
 
 
+_HEADS = {"made_or_bought": "made or bought", "mass_each_g": "g each", "mass_all_g": "g all"}
+"""Of columns of the bill of materials, where the page has other words."""
+
+
 def materials_section(cad: Path) -> list[Section]:
     """Return the bill of materials, with links to the files a part is made from."""
     rows = _csv(cad / file_names.BILL_OF_MATERIALS)
     if not rows:
         return []
-    heads = ("item", "part", "quantity", "made or bought", "title", "fit", "g each", "g all", "files")
-    shown = ("item", "part", "quantity", "made_or_bought", "title", "fit", "mass_each_g", "mass_all_g")
+    shown = ["item", "part", "quantity", "made_or_bought", "title", "fit", "mass_each_g", "mass_all_g"]
+    shown += ["number", "price"]
+    heads = [*(_HEADS.get(name, name) for name in shown), "files"]
     numbers = ("item", "quantity", "mass_each_g", "mass_all_g")
     right = [name in numbers for name in shown]
     cells = [
         [
-            *(Cell(row[name], float(row[name]) if name in numbers else None) for name in shown),
+            *(Cell(row.get(name, ""), float(row[name]) if name in numbers else None) for name in shown),
             _files(row["files"].split()),
         ]
         for row in rows

@@ -45,6 +45,11 @@ for name, unit, field, description in (
     ("peltier_width", "mm", "width", "Width of one rectangular Peltier module, across its row"),
 ):
     kinds.property(name, unit, ("peltier_module", field), description, default=0.0)
+for name, unit, description in (
+    ("lead_gauge", "1", "Gauge (AWG) of the leads that rectangular Peltier modules come with"),
+    ("lead_length", "mm", "Length of these leads"),
+):
+    kinds.property(name, unit, ("peltier_module", name), description, default=0.0, read_by="cad")
 for name, unit, field, description in (
     ("spreader_density", "kg/m^3", "density", "Density of the spreader"),
     ("spreader_conductivity", "W/m/K", "thermal_conductivity", "Thermal conductivity of the spreader"),

@@ -1,0 +1,55 @@
+"""Offers for bought parts: real records, supplies that are enough, whole packs in the sum, and quotes for the rest."""
+
+from __future__ import annotations
+
+import pytest
+
+from tvimdesign.cad.assembly.offers import QUOTE, offer_for, offers, total
+from tvimdesign.catalog import Catalog
+
+KINDS = {"thread_locker", "supply", "driver"}
+
+
+def test_each_offer_is_of_a_record_or_a_known_line_and_names_its_source() -> None:
+    catalog = Catalog()
+    known = {name for category in catalog.categories() for name in catalog.names(category)}
+    for offer in offers():
+        assert (offer.record in known) if offer.record else (offer.kind in KINDS), offer
+        assert offer.source
+        assert (offer.price is None) or offer.date, offer
+        assert offer.high is None or offer.high >= (offer.price or 0.0)
+
+
+def test_a_screw_is_ordered_by_its_length() -> None:
+    ten = offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 10 - 10.9")
+    assert ten is not None
+    assert (ten.number, ten.pack, ten.in_words) == ("92095A182", 100, "7.19 USD a pack of 100 (2025-06)")
+    assert offer_for("link_screw", "iso_7380_m3", "Button head screw ISO 7380-1 - M3 x 11 - 10.9") is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "asks", "number"),
+    [
+        ("driver", (9.5, 2.0), "4035 (DRV8874 carrier)"),
+        ("driver", (9.5, 2.6), "2992 (G2 24v13)"),
+        ("driver", (36.0, 2.6), None),
+        ("supply", (9.5, 2.6), "LRS-50-12"),
+        ("supply", (13.0, 2.6), "LRS-100-24"),
+    ],
+)
+def test_the_first_that_bears_volts_and_amperes_is_taken(
+    kind: str, asks: tuple[float, float], number: str | None
+) -> None:
+    offer = offer_for(kind, "", "", *asks)
+    assert (offer.number if offer else None) == number
+
+
+def test_the_sum_is_of_whole_packs_and_counts_what_has_no_price() -> None:
+    screws = offer_for("", "iso_7380_m3", "M3 x 10 ")
+    inserts = offer_for("", "heat_set_m3", "")
+    supply = offer_for("supply", "", "", 12.0, 1.0)
+    assert supply is not None
+    assert supply.in_words == QUOTE
+    sums = total([(screws, 101), (inserts, 8), (supply, 1), (None, 3)])
+    assert (sums.low, sums.high) == pytest.approx((2 * 7.19 + 10.90, 2 * 7.91 + 10.90))
+    assert (sums.priced, sums.lines) == (2, 4)
