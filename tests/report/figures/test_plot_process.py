@@ -44,7 +44,10 @@ def _draws_by(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plot_process, "PROCESSOR_LIMIT", 0.2)
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[pytest.mark.gate] if name in {"run", "compare", "sweep"} else []) for name in COMMANDS],
+)
 def test_plots_that_take_too_long_cost_no_number(
     name: str, tvimdesign: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
