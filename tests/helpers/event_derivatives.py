@@ -1,21 +1,17 @@
-"""Derivatives that tests hold against exact ones: by differences, and of an event's time by the implicit function."""
+"""Derivatives by differences of a function and of CVODES, and the engine's exact ones in finer steps."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from collocation import guess, phase_block
 from numpy.typing import NDArray
 from support import fine
 
-from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.cycle_engine import CycleEngine, Supplied
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.phase_instants import Grid
-from tvimdesign.simulation.working_cycle.trajectory import Cycle
 
 Array = NDArray[np.float64]
-ELEMENTS = 128
 FINER = 16
 """At a search's own steps the derivative of `softening_time` by one radius is 2 % off, at a quarter of them 0.2 %."""
 
@@ -63,28 +59,3 @@ def found_by_engine(model: DeviceFunctions, variables: Sequence[str]) -> Supplie
         for name, grid in grids.items()
     }
     return engine.run(model.start, along, events, finer)
-
-
-def event_gradient(model: DeviceFunctions, cycle: Cycle, event: str) -> tuple[float, Array]:
-    """Time of an event by collocation, and its derivative by every input from the implicit function theorem."""
-    inputs = ca.MX.sym("inputs", len(model.names))
-    phase = model.phases["softening"]
-    current = inputs[model.index["current"]]
-    block = phase_block(phase, event, ELEMENTS, inputs, phase.initial(inputs), current)
-    unknowns = ca.vertcat(ca.vec(block.states), block.log_time)
-    system = ca.Function("system", [unknowns, inputs], [block.equations])
-    solve = ca.rootfinder("solve", "newton", system, {"abstol": 1e-11, "max_iter": 50})
-    time = cycle.values[event]
-    scaled = guess(cycle.trajectory, ELEMENTS) if event == "response_time" else _until(cycle, time)
-    begin = np.append(scaled.ravel(order="F"), np.log(time))
-    gradient = ca.Function("gradient", [inputs], [ca.jacobian(solve(begin, inputs)[-1], inputs)])
-    found = float(np.asarray(solve(begin, model.start))[-1, 0])
-    return float(np.exp(found)), np.exp(found) * np.asarray(ca.DM(gradient(model.start)).full()).ravel()
-
-
-def _until(cycle: Cycle, time: float) -> Array:
-    """Guess of the states at the collocation points of a switch that ends at another time than the simulated one."""
-    trajectory = cycle.trajectory
-    times = np.linspace(0.0, time, 400)
-    states = np.array([np.interp(times, trajectory.times, row) for row in trajectory.states])
-    return guess(type(trajectory)(times=times, states=states, currents=np.zeros(400)), ELEMENTS)
