@@ -112,7 +112,7 @@ def _lost_motion(value: _Values) -> list[Fact]:
     for name, whole, words, sources in _LOST:
         lost, of, unit = value.values[name], value.values[whole], value.table.unit(name)
         if lost > _LARGE * of:
-            numbers = " of ".join(number(from_si(one, unit), _DIGITS) for one in (lost, of))
+            numbers = " of ".join(number(from_si(amount, unit), _DIGITS) for amount in (lost, of))
             parts.append(f"{words}{numbers} {pretty(unit)} ({100.0 * lost / of:.0f} %)")
             most.append(label(max(sources, key=lambda source: value.values[source])))
     return [Fact("Lost motion", parts, f"most by {' and '.join(most)}")] if parts else []
