@@ -21,7 +21,7 @@ MM = 1e-3
 WRIST = {
     "wire_diameter": 1.4 * MM, "coil_diameter": 9.0 * MM, "coil_count": 4.25, "placement_radius": 26.5 * MM,
     "pcl_inner_radius": 11.5 * MM, "pcl_outer_radius": 18.5 * MM, "arc_span": radians(60.0), "pcl_thickness": 0.6 * MM,
-    "core_radius": 5.9 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
+    "core_radius": 6.2 * MM, "hub_wall": 2.0 * MM, "radial_clearance": 0.6 * MM, "rotor_rim": 1.0 * MM,
     "rotor_thickness": 2.5 * MM, "pin_diameter": 2.5 * MM, "leg_overhang": 3.0 * MM,
     # Half the size takes smaller screws: M2 in the core.
     "link_screw": "iso_4762_m2", "link_screw_length": 8.0 * MM, "retainer_screw": "iso_7380_m3",
@@ -72,7 +72,7 @@ DRIVEN_BLOCKS = BLOCKS | {"motor": "frameless_85x13", "process": "machine_6061",
 ON_SENSOR = DRIVEN | {"sensor_flange": "iso_9409_50_4_m6", "motor_base_thickness": 13.0 * MM,
                       "flange_screw_reach": 10.5 * MM}  # fmt: skip
 # A wave spring around the core of a plain bore, with lips beside the layer, and one below a bearing.
-SPRUNG = {"axial_preload": "wave_21x25", "melt_lip": "rings"}
+SPRUNG = {"axial_preload": "wave_21x25", "melt_lip": "rings", "pcl_thickness": 0.95 * MM}
 SPRUNG_BEARINGS = BEARINGS | {
     "bearing": "ball_6802",
     "axial_preload": "wave_22_2x23_8",

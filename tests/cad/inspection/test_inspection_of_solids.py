@@ -14,6 +14,7 @@ from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.assembly_data import instances
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.export.mesh import solid_mesh
+from tvimdesign.cad.export.print_files import with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.features import holes
 from tvimdesign.cad.geometry.kinds import kind_of
@@ -30,7 +31,7 @@ from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
-from tvimdesign.cad.inspection.walls import wall_checks
+from tvimdesign.cad.inspection.walls import slot_check, wall_checks
 from tvimdesign.cad.parts.common_parts import mounts
 from tvimdesign.study.design import Design
 
@@ -96,6 +97,24 @@ def test_walls_are_told_from_edges_and_webs_beside_holes() -> None:
 
 
 # --- printing --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("width", "level"), [(0.19, "failure"), (0.3, "pass"), (2.0, "pass")])
+def test_a_slot_narrower_than_a_process_makes_is_found(width: float, level: str) -> None:
+    check = slot_check("block", Triangles(solid_mesh(one_solid(box(20, 20, 5).cut(box(width, 12, 9))))), 0.3)
+    assert check.value == pytest.approx(width, abs=1e-6)
+    assert check.level == level
+
+
+def test_the_wall_beside_a_hole_is_that_of_the_print_file() -> None:
+    # A hole of 2.5 mm, 1.26 mm within the rim of a post of 2.51 mm: with 0.3 mm more 1.11 mm are left.
+    post = one_solid(cq.Workplane().circle(2.51).extrude(8).cut(cq.Workplane().circle(1.25).extrude(8)))
+    thin, nominal = (
+        wall_checks("post", Triangles(solid_mesh(solid)), 1.2, 0.8)[0] for solid in (with_wider_holes(post, 0.3), post)
+    )
+    assert nominal.value == pytest.approx(1.26, abs=0.02)
+    assert thin.value == pytest.approx(1.11, abs=0.02)
+    assert (nominal.level, thin.level) == ("pass", "warning")
 
 
 def test_a_table_needs_support_under_its_top() -> None:

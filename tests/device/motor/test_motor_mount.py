@@ -196,17 +196,17 @@ def test_each_gap_of_a_motor_mount_is_what_its_drawing_gives() -> None:
     # In mm: a disc of 20.8 with corners of 0.2, printed walls of 1.2, 0.4 to turn in, M3 in plastic (5.25 of thread).
     drawn = {
         "motor_foot_gap": 57.0 - 20.8 - 0.2, "motor_spoke_gap": 21.0 * np.sqrt(0.5) - 3.5 - 0.2,
-        "motor_retainer_gap": (6.0 + 4.0 - 4.0 - 0.4 - 2.5 - 2.2) - 0.4, "motor_spoke_wall_margin": 3.5 - 1.25 - 1.2,
+        "motor_retainer_gap": (6.0 + 4.0 - 4.0 - 0.4 - 2.5 - 2.2) - 0.4, "motor_spoke_wall_margin": 3.5 - 1.25 - 1.35,
         "mount_thread_margin": 16.0 - 10.0 - 5.25, "mount_tip_margin": 6.0 + 10.0 - 16.0,
         "motor_tube_gap": (20.8 - 2.5) - (12.05 + 2.5) - 0.4, "motor_hub_wall_margin": 1.3, "motor_wall_margin": 1.3,
-        "motor_barrel_gap": 0.5 * (22.6 - 11.2) - 0.4, "motor_journal_wall_margin": 7.45 - 1.25 - 1.2,
+        "motor_barrel_gap": 0.5 * (22.6 - 11.2) - 0.4, "motor_journal_wall_margin": 7.45 - 1.25 - 1.35,
         # From the stator's upper end at -17 to the retainer: above a board of 3, 1 of air and its own 7.15.
         "motor_lip_margin": (47.6 - 3.0 - 1.0 - 7.15) - 17.0 - 10.0 - 1.2,
         # A screw of 12 through 2 of retainer and 0.4 of air, with 0.5 for its tip; from the journal's end at -36.05.
         "motor_thread_margin": 12.0 - 2.0 - 0.4 - 5.25, "motor_disc_margin": (36.05 - 10.0) - (9.6 + 0.5) - 1.2,
         "motor_retainer_wall_margin": 8.5 - 3.25 - 1.2, "motor_base_thread_margin": (8.0 - 1.2) - 0.5 - 5.25,
         # Midway between the stator's 24.85 and 34.5, around the recess for a board of 14.
-        "motor_base_hole_gap": 0.5 * (24.85 + 34.5) - 1.25 - 14.2 - 1.2, "encoder_ledge_margin": 14.0 - 12.05 - 1.2,
+        "motor_base_hole_gap": 0.5 * (24.85 + 34.5) - 1.25 - 14.2 - 1.35, "encoder_ledge_margin": 14.0 - 12.05 - 1.2,
         "encoder_floor_margin": 8.0 - 3.0 - 1.2,
     }  # fmt: skip
     assert set(drawn) == RULES | ENCODER_RULES

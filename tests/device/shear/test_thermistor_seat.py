@@ -47,10 +47,10 @@ def test_the_web_to_the_window_is_what_is_left_of_the_ledge() -> None:
     middle = seat["thermistor_seat_radius"] * np.array([cos(end), sin(end)])
     edge = pad - known["window_ledge"] / known["pcl_inner_radius"]  # the window's end points to the axis as well
     web = abs(middle @ np.array([-sin(edge), cos(edge)])) - 0.5 * seat["thermistor_seat_diameter"]
-    assert seat["thermistor_window_gap"] == pytest.approx(web - known["minimum_wall"], rel=1e-9)
+    assert seat["thermistor_window_gap"] == pytest.approx(web - known["minimum_wall"] - 0.15 * MM, rel=1e-9)
     next_end = 2.0 * pi / known["arc_count"] - end
     web = abs(middle @ np.array([-sin(next_end), cos(next_end)])) - 0.5 * seat["thermistor_seat_diameter"]
-    assert seat["thermistor_arc_gap"] == pytest.approx(web - known["minimum_wall"], rel=1e-9)
+    assert seat["thermistor_arc_gap"] == pytest.approx(web - known["minimum_wall"] - 0.15 * MM, rel=1e-9)
 
 
 @pytest.mark.parametrize(

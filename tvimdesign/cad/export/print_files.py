@@ -35,26 +35,32 @@ _EPOCH = (1980, 1, 1, 0, 0, 0)
 """The time of every entry of a 3MF archive, so that the same part gives the same file."""
 
 
+def with_wider_holes(solid: cq.Solid, compensation: float, reamed: Sequence[tuple[float, float]] = ()) -> cq.Solid:
+    """Return the part with its upright holes wider by `compensation` [mm on the diameter].
+
+    Holes whose axes are `reamed` stay as they are: they come out small, and a reamer brings them to their size.
+    """
+    if not compensation > 0.0:
+        return solid
+    tools = [
+        cq.Solid.makeCylinder(
+            hole.radius + 0.5 * compensation, hole.top - hole.bottom, cq.Vector(hole.x, hole.y, hole.bottom),
+            cq.Vector(0, 0, 1),
+        )
+        for hole in holes(solid)
+        if not any(hypot(hole.x - x, hole.y - y) < _SAME for x, y in reamed)
+    ]  # fmt: skip
+    return _one_solid(solid.cut(*tools)) if tools else solid
+
+
 def as_printed(
     solid: cq.Solid, making: Production, hole_compensation: float, reamed: Sequence[tuple[float, float]] = ()
 ) -> cq.Solid:
-    """Return the part with its upright holes wider by `hole_compensation` [mm on the diameter], lying on its side.
-
-    Holes whose axes are `reamed` stay as they are: they come out small, and a reamer brings them to their size.
+    """Return the part with wider holes (`with_wider_holes`), lying as it is printed.
 
     What lies on the bed is at z = 0, the part's own axis at x = y = 0.
     """
-    wider = solid
-    if hole_compensation > 0.0:
-        tools = [
-            cq.Solid.makeCylinder(
-                one.radius + 0.5 * hole_compensation, one.top - one.bottom, cq.Vector(one.x, one.y, one.bottom),
-                cq.Vector(0, 0, 1),
-            )
-            for one in holes(solid)
-            if not any(hypot(one.x - x, one.y - y) < _SAME for x, y in reamed)
-        ]  # fmt: skip
-        wider = _one_solid(solid.cut(*tools)) if tools else solid
+    wider = with_wider_holes(solid, hole_compensation, reamed)
     lying = wider.rotate(cq.Vector(), cq.Vector(1, 0, 0), 180.0) if making.down == "top" else wider
     return _one_solid(lying.translate(cq.Vector(0, 0, -tight_box(lying).zmin)), moved=True)
 

@@ -13,6 +13,7 @@ from tvimdesign.cad.assembly.assembly import place
 from tvimdesign.cad.assembly.assembly_data import instances
 from tvimdesign.cad.cad_report import SolidCheck, at_least, at_most, finding
 from tvimdesign.cad.export.mesh import Mesh, solid_mesh
+from tvimdesign.cad.export.print_files import with_wider_holes
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import holes, tight_box
 from tvimdesign.cad.geometry.kinds import PRODUCTION, kind_of, supported_levels
@@ -23,9 +24,9 @@ from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
 from tvimdesign.cad.inspection.rays import Triangles
 from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
-from tvimdesign.cad.inspection.walls import wall_checks
+from tvimdesign.cad.inspection.walls import slot_check, wall_checks
 from tvimdesign.cad.parts import casting_jig
-from tvimdesign.cad.parts.common_parts import between_springs, link_screws, mounts
+from tvimdesign.cad.parts.common_parts import between_springs, link_dowels, link_screws, mounts
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places
 from tvimdesign.device import table_for
 from tvimdesign.study.design import Design
@@ -178,9 +179,11 @@ def part_checks(
 ) -> list[SolidCheck]:  # fmt: skip
     """Compare one made part with its process: all it needs is its own solid, and its mesh if that is there."""
     mesh = mesh or solid_mesh(solid)
-    triangles = Triangles(mesh)
-    bed = (dims.bed_length, dims.bed_width, dims.bed_height)
-    found = [solid_check(kind, solid), *wall_checks(kind, triangles, dims.minimum_wall, dims.thinnest_wall)]
+    triangles, bed = Triangles(mesh), (dims.bed_length, dims.bed_width, dims.bed_height)
+    made = with_wider_holes(solid, dims.hole_compensation, link_dowels(dims))
+    walls = triangles if made is solid else Triangles(solid_mesh(made))
+    found = [solid_check(kind, solid), *wall_checks(kind, walls, dims.minimum_wall, dims.thinnest_wall)]
+    found.append(slot_check(kind, walls, dims.minimum_running_clearance))
     if design.choices.get("making_method") == "milled":
         drilled = holes(solid)
         found += milling_checks(kind, triangles, drilled, dims.pocket_depth_ratio)

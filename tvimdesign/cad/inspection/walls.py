@@ -44,6 +44,24 @@ def wall_checks(part: str, triangles: Triangles, minimum_wall: float, thinnest_w
     ]
 
 
+def slot_check(part: str, triangles: Triangles, least_gap: float) -> SolidCheck:
+    """Compare the gaps between faces of one part that look at each other with the process's least [mm].
+
+    A narrower slot closes as it is made; faces that meet in a corner leave none.
+    """
+    where = samples(triangles, SPACING)
+    hits = triangles.first_hits(where.point, where.normal)
+    facing = np.einsum("ij,ij->i", where.normal, triangles.normal[hits.triangle])
+    gap = np.where(~hits.missed & (facing < _OPPOSED), hits.distance, np.inf)
+    at = int(np.argmin(gap))
+    least = min(float(gap[at]), float(np.hypot(*(triangles.upper - triangles.lower)[:2])))
+    text = f"the narrowest slot is {least:.3g} mm; the process makes {least_gap:.3g} mm"
+    return finding(
+        part, "slot", least, least_gap, "mm", at_least(least, least_gap - CHORD), text,
+        place=where.point[at] + 0.5 * least * where.normal[at], resolution=SPACING,
+    )  # fmt: skip
+
+
 def wall_thickness(triangles: Triangles, where: Samples) -> Array:
     """Return the thickness of the part under each sample [mm].
 

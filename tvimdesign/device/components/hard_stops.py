@@ -69,7 +69,8 @@ def stop_spring_angle(m: Module) -> Scalar:
 
     At the posts' outer radius the spring with its clearance, or its adjuster's pocket, takes that much.
     """
-    taken = np.fmax(m.spring_reach + m.radial_clearance, m.adjuster_radius + m.slip_clearance)
+    pocket = m.adjuster_radius + m.slip_clearance + m.minimum_running_clearance
+    taken = np.fmax(m.spring_reach + m.radial_clearance, pocket)
     cosine = m.placement_radius**2 + m.stop_outer_radius**2 - taken**2
     return np.arccos(np.fmin(cosine / (2.0 * m.placement_radius * m.stop_outer_radius), 1.0 - 1e-6))
 

@@ -88,4 +88,4 @@ def thermistor_hole_gap(m: Module) -> Scalar:
     across = m.placement_radius * np.sin(beside)
     away = np.sqrt((m.placement_radius * np.cos(beside) - m.thermistor_seat_radius) ** 2 + across**2)
     room = np.fmax(away - taken, 0.0)
-    return room - np.fmin(m.minimum_wall + 0.5 * m.thermistor_seat_diameter, room + 1e3 * m.thermistor_seat_diameter)
+    return room - np.fmin(m.hole_wall + 0.5 * m.thermistor_seat_diameter, room + 1e3 * m.thermistor_seat_diameter)

@@ -18,6 +18,11 @@ POCKET_WIDTH = 2.1
 has no way to go to its size, and two round corners that meet leave no edge between them to draw."""
 
 
+def none_or_least(gap: Scalar, least: Scalar) -> Scalar:
+    """Return a length [m] that is not below zero where a gap, itself not below zero, is none or at least so wide."""
+    return gap * (gap - least) / least
+
+
 @quantities.output("mm", at_least(0.0, "the springs must clear the rotor plate"))
 def rotor_spring_gap(m: Module) -> Scalar:
     """Room between the rotor plate and the springs beyond the radial clearance."""
@@ -113,7 +118,7 @@ def core_web(m: Module) -> Scalar:
     return m.link_bottom_level - m.core_bottom_level - m.link_screw_depth - m.retainer_screw_depth - points
 
 
-@quantities.output("mm", at_least(0.0, "the feet must stand inside the skirt"))
+@quantities.output("mm", at_least(0.0, "feet and skirt leave a slot between them that closes: thinner feet"))
 def mount_wall_gap(m: Module) -> Scalar:
-    """Room between the mounting feet and the skirt."""
-    return m.housing_inner_radius - m.placement_radius - m.mount_boss_radius
+    """Room between the mounting feet and the skirt beyond the process's least gap."""
+    return m.housing_inner_radius - m.placement_radius - m.mount_boss_radius - m.minimum_running_clearance

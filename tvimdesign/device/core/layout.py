@@ -71,8 +71,8 @@ def rotor_radius(m: Module) -> Scalar:
 
 @quantities.output("mm")
 def housing_inner_radius(m: Module) -> Scalar:
-    """Inner radius of the housing wall."""
-    return m.placement_radius + m.spring_reach + m.radial_clearance
+    """Inner radius of the housing wall: it clears the springs, and leaves adjusters their pockets."""
+    return m.placement_radius + np.fmax(m.spring_reach + m.radial_clearance, m.adjuster_radius + m.slip_clearance)
 
 
 @quantities.output("mm")

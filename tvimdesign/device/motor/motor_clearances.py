@@ -37,7 +37,7 @@ def motor_spoke_gap(m: Module) -> Scalar:
 @quantities.output("mm", at_least(0.0, "the motor hub's spokes would split around their screws"))
 def motor_spoke_wall_margin(m: Module) -> Scalar:
     """Wall of the spokes around their screws beyond the process's least; zero without a motor."""
-    return m.mount_boss_radius - 0.5 * m.mount_screw_pilot - m.minimum_wall
+    return m.mount_boss_radius - 0.5 * m.mount_screw_pilot - m.hole_wall
 
 
 @quantities.output("mm", at_least(0.0, "the screws in the housing's feet are too short to hold in the motor's hub"))
@@ -89,7 +89,7 @@ def motor_lip_margin(m: Module) -> Scalar:
 )
 def motor_journal_wall_margin(m: Module) -> Scalar:
     """Wall of that journal around its screw beyond the process's least; zero without a motor."""
-    return m.motor_journal_radius - 0.5 * m.motor_screw_pilot - m.minimum_wall
+    return m.motor_journal_radius - 0.5 * m.motor_screw_pilot - m.hole_wall
 
 
 @quantities.output("mm", at_least(0.0, "the screw of the motor's retainer is too short to hold in the journal"))
@@ -127,7 +127,7 @@ def motor_base_hole_gap(m: Module) -> Scalar:
     if m.base_pattern.screws:
         return 0.0
     inside = np.fmax(m.motor_seat_radius, m.encoder_recess_radius)
-    return m.motor_base_hole_radius - 0.5 * m.mount_screw_pilot - inside - m.minimum_wall
+    return m.motor_base_hole_radius - 0.5 * m.mount_screw_pilot - inside - m.hole_wall
 
 
 @quantities.output(

@@ -63,7 +63,7 @@ def thermistor_volume(m: Module) -> Scalar:
 def thermistor_window_gap(m: Module) -> Scalar:
     """Web between the thermistor's seat and the window below the pad, beyond the least wall where there is a seat."""
     ledge = m.thermistor_seat_radius * np.sin((m.window_ledge + m.slip_clearance) / m.pcl_inner_radius)
-    wall = np.fmin(m.minimum_wall, m.thermistor_seat_diameter)
+    wall = np.fmin(m.hole_wall, m.thermistor_seat_diameter)
     return np.fmax(ledge, wall) - wall - 0.5 * m.thermistor_seat_diameter
 
 
@@ -73,5 +73,5 @@ def thermistor_window_gap(m: Module) -> Scalar:
 def thermistor_arc_gap(m: Module) -> Scalar:
     """Web between the thermistor's seat and the next arc's pocket, beyond the least wall where there is a seat."""
     to_next = m.thermistor_seat_radius * np.sin(np.fmin(2.0 * np.pi / m.arc_count - m.pocket_span, 0.5 * np.pi))
-    wall = np.fmin(m.minimum_wall, m.thermistor_seat_diameter)
+    wall = np.fmin(m.hole_wall, m.thermistor_seat_diameter)
     return np.fmax(to_next, wall) - wall - 0.5 * m.thermistor_seat_diameter
