@@ -28,8 +28,7 @@ from made_measurements.faults import FAULTS, IN_TIME
 
 import tvimdesign
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
-from tvimdesign.simulation.measurement.measure_files import measure_of
+from tvimdesign.simulation.measurement.measure_files import kind_sheet, measure_of
 from tvimdesign.simulation.measurement.reading.data_file import Block
 
 KEPT = Path("results/fit_coverage.jsonl")

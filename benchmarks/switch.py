@@ -24,7 +24,7 @@ from scipy.integrate import solve_ivp
 from tvimdesign.device import table_for
 from tvimdesign.device.core.heat import thermal_stack
 from tvimdesign.device.core.impedance import warm_structure
-from tvimdesign.device.shear import layer_columns
+from tvimdesign.device.shear import layer_heat
 from tvimdesign.device.table.module import Module
 from tvimdesign.physics.heat_flow import heat
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
@@ -65,8 +65,8 @@ SETTLED = (
 )  # fmt: skip
 """What the joint's impedance at an instant needs to know of the module."""
 AT_AN_INSTANT = (
-    layer_columns.edge_drops, layer_columns.layer_surroundings, layer_columns.end_places, layer_columns.end_profile,
-    layer_columns.layer_temperatures, thermal_stack.slice_moduli, thermal_stack.column_compliances,
+    layer_heat.edge_drops, layer_heat.layer_surroundings, layer_heat.end_places, layer_heat.end_profile,
+    layer_heat.layer_temperatures, thermal_stack.slice_moduli, thermal_stack.column_compliances,
     thermal_stack.layer_moduli, thermal_stack.layer_stiffness_now, warm_structure.parts_now, warm_structure.support_now,
     thermal_stack.branch_now, thermal_stack.impedance_now,
 )  # fmt: skip

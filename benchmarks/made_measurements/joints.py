@@ -6,7 +6,7 @@ import numpy as np
 
 from made_measurements.made import Made, block, numbers
 from tvimdesign.physics.motions import motion
-from tvimdesign.simulation.measurement.kinds.joint import frozen_torque, release, torque_angle
+from tvimdesign.simulation.measurement.kinds import frozen_torque, release, torque_angle
 
 
 def torque_angle_data(noise: np.random.Generator) -> Made:

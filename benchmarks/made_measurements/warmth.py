@@ -9,10 +9,10 @@ import numpy as np
 
 from made_measurements.made import Array, Made, block, numbers
 from tvimdesign.physics.heat_flow import peltier
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
-from tvimdesign.simulation.measurement.kinds.heat import dsc, pad
-from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run
-from tvimdesign.simulation.measurement.kinds.heat.logged_module import Course, LoggedModule
+from tvimdesign.simulation.measurement.kinds import dsc, pad
+from tvimdesign.simulation.measurement.kinds.dsc import Run
+from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
+from tvimdesign.simulation.measurement.measure_files import kind_sheet
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 

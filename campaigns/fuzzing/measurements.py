@@ -13,10 +13,9 @@ import yaml
 
 from fuzzing.kind import Drawn, Kind
 from fuzzing.mutations import ODD, encoded, mutated_bytes, mutated_data, mutated_table, mutated_text, paths
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
-from tvimdesign.simulation.measurement.measure_files import measure_files
-from tvimdesign.simulation.measurement.reading.column_map import column_map, read_column_map
+from tvimdesign.simulation.measurement.measure_files import kind_sheets, measure_files
 from tvimdesign.simulation.measurement.reading.data_file import read_data_file
+from tvimdesign.simulation.measurement.reading.headings import column_map, read_column_map
 
 SAMPLES = Path(__file__).with_name("samples")
 _ENCODINGS = ("utf-8", "utf-8", "utf-8-sig", "utf-16", "latin-1", "cp1252")

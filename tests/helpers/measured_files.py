@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement
-from tvimdesign.simulation.measurement.measure_files import Measured, measure_files, measure_of
+from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheet, kind_sheets, measure_files, measure_of
+from tvimdesign.simulation.measurement.measurement import Measurement
 from tvimdesign.simulation.measurement.reading.data_file import read_data_file
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cache
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.device.table.quantity import PHASES
+from tvimdesign.device.table.quantity_group import gather
 from tvimdesign.device.table.table import Table
 
 MODES = ("shear", "compression")
@@ -14,12 +16,8 @@ MODES = ("shear", "compression")
 @cache
 def table_for(mode: str) -> Table:
     """Return the table of a mode; raises InputError for a mode that does not exist."""
-    if mode == "shear":
-        from tvimdesign.device.shear.shear_table import TABLE
+    if mode not in MODES:
+        raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")
+    from tvimdesign.device.mode_files import FILES_OF_MODE, SHARED_FILES
 
-        return TABLE
-    if mode == "compression":
-        from tvimdesign.device.compression.compression_table import TABLE
-
-        return TABLE
-    raise InputError(f"mode {mode!r} is not one of: {', '.join(MODES)}")
+    return Table(gather((*SHARED_FILES, *FILES_OF_MODE[mode]), mode), PHASES)

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from tvimdesign.simulation.joint_tests import sine as sine_test
 from tvimdesign.simulation.joint_tests.case import cases
 from tvimdesign.simulation.link_motion import link
-from tvimdesign.simulation.link_motion.lossy_structure import spectrum
+from tvimdesign.simulation.link_motion.sampled_motion import spectrum
 from tvimdesign.simulation.trial import Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study

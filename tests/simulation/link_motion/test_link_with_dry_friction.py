@@ -15,8 +15,7 @@ from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.link import released
-from tvimdesign.simulation.link_motion.lossy_structure import in_series, spectrum, with_loss
-from tvimdesign.simulation.link_motion.sampled_motion import OneSided, turns_of
+from tvimdesign.simulation.link_motion.sampled_motion import OneSided, in_series, spectrum, turns_of, with_loss
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 

@@ -11,7 +11,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
 from tvimdesign.base.units import ZERO_CELSIUS, parse_quantity
 from tvimdesign.base.yaml_data import plain_data
-from tvimdesign.device.components.cutout import heater_fuse
+from tvimdesign.device.core.heat.heater_form import heater_fuse
 from tvimdesign.study.design import Design
 
 _HOTTEST = ("peak_peltier_temperature", "peak_cold_side_temperature")

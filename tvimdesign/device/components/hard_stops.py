@@ -17,8 +17,10 @@ from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.solids import structure
 from tvimdesign.physics.solids.shapes import Section, sector, tooth
 
-places, weights = QuantityGroup("Layout"), QuantityGroup("Size and weight")
-strengths, rules = QuantityGroup("Impedance"), QuantityGroup("Gaps")
+places = QuantityGroup("Layout")
+weights = QuantityGroup("Size and weight")
+strengths = QuantityGroup("Impedance")
+rules = QuantityGroup("Gaps")
 
 STOPS = 2
 """Teeth of the rotor, each between two posts."""

@@ -2,7 +2,7 @@
 
 Of the 2 N blocks only the N that are pressed count. Small motions about rest keep every block touching, so no contact
 is lost here; how a gap opens in large ones is a matter of time and history
-(`device/core/impedance/creep_under_hold.py`).
+(`device/core/impedance/joint_impedance.py`).
 """
 
 from __future__ import annotations

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.components.cutout import WITH_CUTOUT
 from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
-from tvimdesign.device.core.heat.heater_form import CUT
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_CUTOUT
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup

@@ -1,79 +1,98 @@
-"""Layout of vanes, blocks, pads and slots of the compression module; the folder's docstring draws it in words."""
+"""Layout of vanes, blocks, pads and slots of the compression module; the folder's docstring draws it in words.
+
+Volumes of blocks, vanes and slots, which only the compression module has, and the gap of a freezing block.
+
+A block has free sides, so it shrinks alike in each direction. It stays on its pad and leaves the
+rotor's vane; what the springs press into the gap while it is soft is not taken off, so the gap is an upper bound. The
+rotor need not come down with the blocks: a running clearance is below and above them.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
-from tvimdesign.device.core.heat.heater_form import CUT
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.solids.shapes import between_planes
+from tvimdesign.physics.polymers import transitions
+from tvimdesign.physics.solids.shapes import (
+    Section,
+    between_planes,
+    corners,
+    corners_beyond,
+    mean_square,
+    radial_strip,
+    sector,
+    stacked,
+    wedge,
+    wedge_corners,
+)
 
-quantities = QuantityGroup("Layout")
+places = QuantityGroup("Layout")
 
 
-@quantities.output("mm", hidden=True)
+@places.output("mm", hidden=True)
 def rotor_bottom_level(m: Module) -> Scalar:
     """Lower face of the rotor plate: a running clearance below and above the blocks."""
     return m.block_height + 2.0 * m.running_clearance
 
 
-@quantities.output("mm")
+@places.output("mm")
 def vane_height(m: Module) -> Scalar:
     """Height of the vanes of rotor and housing, which keep a running clearance from floor and plate."""
     return m.block_height + m.running_clearance
 
 
-@quantities.helper()
+@places.helper()
 def plate_lean(m: Module) -> Scalar:
     """Angle at which the leaning rotor's vanes are down on the floor [rad], its other side held at the hub."""
     return m.running_clearance / (m.hub_radius + m.pcl_outer_radius)
 
 
-@quantities.helper()
+@places.helper()
 def pcl_depth(m: Module) -> Scalar:
     """Way of heat and load through the PCL [m]."""
     return m.block_depth
 
 
-@quantities.output("mm")
+@places.output("mm")
 def block_width(m: Module) -> Scalar:
     """Radial width of blocks, pads and vanes."""
     return m.pcl_outer_radius - m.pcl_inner_radius
 
 
-@quantities.output("mm", hidden=True)
+@places.output("mm", hidden=True)
 def pocket_inner_radius(m: Module) -> Scalar:
     """Inner radius of the pads' pockets: open there, as the vanes are."""
     return m.pcl_inner_radius
 
 
-@quantities.output("mm", hidden=True)
+@places.output("mm", hidden=True)
 def pocket_outer_radius(m: Module) -> Scalar:
     """Outer radius of the pads' pockets: open there, as the vanes are."""
     return m.pcl_outer_radius
 
 
-@quantities.output("deg")
+@places.output("deg")
 def block_angle(m: Module) -> Scalar:
     """Angle each block covers."""
     return m.block_depth / m.pcl_mean_radius
 
 
-@quantities.output("deg")
+@places.output("deg")
 def rotor_vane_angle(m: Module) -> Scalar:
     """Angle each vane of the rotor covers."""
     return m.vane_thickness / m.pcl_mean_radius
 
 
-@quantities.output("deg")
+@places.output("deg")
 def housing_vane_angle(m: Module) -> Scalar:
     """Angle each vane of the housing covers, pads included: what blocks and rotor vanes leave of the circle."""
     return 2.0 * np.pi / m.vane_count - 2.0 * m.block_angle - m.rotor_vane_angle
 
 
-@quantities.output("mm")
+@places.output("mm")
 def slot_width(m: Module) -> Scalar:
     """Radial width of each slot in the housing's vanes."""
     if m.heater_form == CUT:
@@ -81,7 +100,7 @@ def slot_width(m: Module) -> Scalar:
     return m.tile_window * np.cos(0.5 * m.housing_vane_angle)
 
 
-@quantities.output("mm")
+@places.output("mm")
 def slot_inner_radius(m: Module) -> Scalar:
     """Inner radius of the slots in the housing's vanes."""
     if m.heater_form == CUT:
@@ -89,7 +108,7 @@ def slot_inner_radius(m: Module) -> Scalar:
     return m.tile_slot_radius - 0.5 * (m.slot_count - 1.0) * m.tile_slot_pitch - 0.5 * m.slot_width
 
 
-@quantities.output("mm")
+@places.output("mm")
 def slot_outer_radius(m: Module) -> Scalar:
     """Outer radius of the slots in the housing's vanes; of flat ends, that of their corners."""
     if m.heater_form == CUT:
@@ -98,13 +117,141 @@ def slot_outer_radius(m: Module) -> Scalar:
     return np.sqrt(far**2 + (0.5 * between_planes(m.housing_vane_angle, m.pad_seat, far)) ** 2)
 
 
-@quantities.output("mm")
+@places.output("mm")
 def slot_height(m: Module) -> Scalar:
     """Height over which the pads' cold sides are open to the slots."""
     return (m.block_height if m.heater_form == CUT else m.peltier_width) - m.window_ledge
 
 
-@quantities.helper()
+@places.helper()
 def slot_angle(m: Module) -> Scalar:
     """Angle between the cold sides of a housing vane's two pads at the mean radius [rad]."""
     return m.housing_vane_angle - 2.0 * np.arcsin(m.pad_depth / m.pcl_mean_radius)
+
+
+weights = QuantityGroup("Size and weight")
+
+
+@weights.output("mm^2")
+def block_area(m: Module) -> Scalar:
+    """Face of one block, and of one Peltier pad."""
+    return m.block_width * m.block_height
+
+
+@weights.output("mm^2", headline=True)
+def pcl_area(m: Module) -> Scalar:
+    """Area of all PCL blocks together towards their pads."""
+    return 2.0 * m.vane_count * m.block_area
+
+
+@weights.output("mm^3")
+def pcl_volume(m: Module) -> Scalar:
+    """Volume of all PCL blocks together; a sector has its depth at the mean radius throughout."""
+    return m.pcl_area * m.block_depth
+
+
+@weights.output("mm^3")
+def peltier_volume(m: Module) -> Scalar:
+    """Volume of all Peltier modules together: pads with the faces of the blocks, or rectangular tiles."""
+    area = m.pcl_area if m.heater_form == CUT else m.heater_count * m.peltier_length * m.peltier_width
+    return area * m.peltier_thickness
+
+
+@weights.output("mm^3", requires=WITH_TILES)
+def spreader_volume(m: Module) -> Scalar:
+    """Volume of all spreaders together, which have the faces of the blocks; zero without."""
+    return m.pcl_area * m.spreader_depth
+
+
+def _slot_section(m: Module) -> Section:
+    """Return the plan view of the slots beside the pads: sectors of the vanes, less the pads on either side and their
+    corners.
+
+    Behind tiles: what lies between the tiles of a vane, with flat ends.
+    """
+    if m.heater_form != CUT:
+        row = wedge(
+            m.housing_vane_angle, m.pad_depth, m.slot_width, m.tile_slot_radius, m.slot_count, m.tile_slot_pitch
+        )
+        return row.times(m.vane_count)
+    whole = sector(m.housing_vane_angle, m.slot_inner_radius, m.slot_outer_radius).area
+    pads = 2.0 * radial_strip(m.pad_depth, m.slot_inner_radius, m.slot_outer_radius)
+    rounded = corners_beyond(m.corner_radius, m.slot_inner_radius, m.slot_outer_radius, m.pad_seat, m.pad_depth)
+    area = m.vane_count * (whole - pads - rounded)
+    return Section(area, area * m.pcl_mean_radius**2)
+
+
+@weights.helper()
+def slot_foot_section(m: Module) -> Section:
+    """Plan view of the slots below the pads: less what the pads stand on, corners rounded."""
+    if m.heater_form != CUT:
+        row = wedge(m.housing_vane_angle, m.pad_seat, m.slot_width, m.tile_slot_radius, m.slot_count, m.tile_slot_pitch)
+        taken = m.slot_count * wedge_corners(m.corner_radius, m.housing_vane_angle)
+        return (row - Section(taken, taken * m.tile_slot_radius**2)).times(m.vane_count)
+    whole = sector(m.housing_vane_angle, m.slot_inner_radius, m.slot_outer_radius).area
+    seats = 2.0 * radial_strip(m.pad_seat, m.slot_inner_radius, m.slot_outer_radius)
+    rounded = corners(m.corner_radius, m.slot_inner_radius, m.slot_outer_radius, m.pad_seat)
+    area = m.vane_count * (whole - seats - rounded)
+    return Section(area, area * m.pcl_mean_radius**2)
+
+
+@weights.helper()
+def housing_vanes_moments(m: Module) -> Section:
+    """Volume and its polar moment about the axis, of the housing's vanes less the pads let into them and their slots.
+
+    A pad's moment is that of a plate without thickness.
+    """
+    whole = sector(m.housing_vane_angle, m.pcl_inner_radius, m.pcl_outer_radius)
+    strip = 2.0 * radial_strip(m.pad_depth, m.pcl_inner_radius, m.pcl_outer_radius)
+    pads = Section(strip, strip * mean_square(m.pcl_inner_radius, m.pcl_outer_radius))
+    return stacked(
+        (whole.times(m.vane_count), m.vane_height),
+        (pads.times(m.vane_count), -m.block_height),
+        (_slot_section(m), -m.slot_height),
+        (m.slot_foot_section, m.block_height - m.vane_height),
+    )
+
+
+@weights.helper()
+def floor_openings(m: Module) -> Section:
+    """Volume of the floor's openings and its polar moment: the slots, and a hole for the thermistor."""
+    return m.slot_foot_section.plus(m.thermistor_seat_section).times(m.floor_thickness)
+
+
+@weights.helper()
+def housing_moments(m: Module) -> Section:
+    """Volume and its polar moment about the axis, of the housing with its vanes."""
+    return m.bare_housing_moments.plus(m.housing_vanes_moments)
+
+
+@weights.helper()
+def rotor_vanes(m: Module) -> Section:
+    """Plan view of the rotor's vanes."""
+    return sector(m.rotor_vane_angle, m.pcl_inner_radius, m.pcl_outer_radius).times(m.vane_count)
+
+
+@weights.helper()
+def rotor_moments(m: Module) -> Section:
+    """Volume and its polar moment about the axis, of the rotor with its vanes, less the recesses for liners."""
+    return m.bare_rotor_moments.plus(m.rotor_vanes.times(m.vane_height)) - m.liner_recess
+
+
+shrinkages = QuantityGroup("Axial play")
+
+
+@places.output("mm")
+def freezing_travel(m: Module) -> Scalar:
+    """Axial travel of the rotor as the PCL freezes: zero, blocks have clearance above and below."""
+    return 0.0 * m.melting_growth
+
+
+@shrinkages.output("mm")
+def freezing_gap(m: Module) -> Scalar:
+    """Depth that a freezing block loses, and leaves beside its vane."""
+    return m.block_depth * transitions.linear_share(m.freezing_shrinkage)
+
+
+@shrinkages.output("deg")
+def freezing_backlash(m: Module) -> Scalar:
+    """Angle between a block's touch on either side of a rotor vane, after freezing at rest without load."""
+    return 2.0 * m.freezing_gap / m.pcl_mean_radius

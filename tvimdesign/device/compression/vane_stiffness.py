@@ -87,7 +87,9 @@ def housing_vane_stiffness(m: Module) -> Scalar:
     return m.vane_count * m.pcl_mean_radius**2 / vane.compliance(m.housing_vane, m.rotor_vane, m.block_between)
 
 
-weights, strengths, rules = QuantityGroup("Size and weight"), QuantityGroup("Impedance"), QuantityGroup("Gaps")
+weights = QuantityGroup("Size and weight")
+strengths = QuantityGroup("Impedance")
+rules = QuantityGroup("Gaps")
 
 
 @weights.helper(requires=WITH_LINER, default=NOTHING)

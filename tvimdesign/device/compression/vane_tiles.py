@@ -10,6 +10,12 @@ and above. Below the tiles the slot reaches under their middle, for the leads.
 A block presses on its pad, or on a spreader and the tiles behind it, and these on the vane beside the slot. A module
 is strong where it is pressed and weak where it is sheared: it carries the joint's torque in this mode as it is meant
 to be mounted.
+
+The thermistor by the layer: its bead stands at the outer end of the first pad or spreader, beside the block.
+
+The pockets in the faces of a vane are open at its outer end. There the bead stands upright on the floor's level, as far
+behind the face as it is thick by half, and touches the end of the pad, or of the spreader. Its wires go down through a
+hole of the floor, through which it is put in.
 """
 
 from __future__ import annotations
@@ -22,9 +28,11 @@ from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 from tvimdesign.physics.layers import block
 from tvimdesign.physics.solids import structure
+from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at
 
 kinds = QuantityGroup("Materials")
-places, rules = QuantityGroup("Layout", WITH_TILES), QuantityGroup("Gaps", WITH_TILES)
+tile_places = QuantityGroup("Layout", WITH_TILES)
+tile_rules = QuantityGroup("Gaps", WITH_TILES)
 
 kinds.option(
     "heater_wiring",
@@ -33,93 +41,97 @@ kinds.option(
 )
 
 
-@places.helper(requires=())
+@tile_places.helper(requires=())
 def pocket_count(m: Module) -> Scalar:
     """Pockets for Peltier modules [1]: one in each face of the housing's vanes."""
     return 2.0 * m.vane_count
 
 
-@places.helper(requires=())
+@tile_places.helper(requires=())
 def tiles_per_pocket(m: Module) -> Scalar:
     """Rectangular Peltier modules in each pocket [1]."""
     return m.tiles_per_block
 
 
-@places.helper(default=1.0)
+@tile_places.helper(default=1.0)
 def slot_count(m: Module) -> Scalar:
     """Slots of a housing vane [1]: one behind each tile; one behind pads."""
     return m.tiles_per_block
 
 
-@places.output("mm^3")
+@tile_places.output("mm^3")
 def lead_volume(m: Module) -> Scalar:
     """Volume of leads that is drawn: none, for those of tiles in vanes go straight down their slots."""
     return 0.0 * m.lead_diameter
 
 
-@places.output("mm")
+@tile_places.output("mm")
 def tile_spacing(m: Module) -> Scalar:
     """Distance from one tile of a row to the next."""
     return m.block_width / m.tiles_per_block
 
 
-@places.output("mm")
+@tile_places.output("mm")
 def tile_window(m: Module) -> Scalar:
     """Width of a tile that its slot leaves open."""
     return m.slot_share * m.peltier_length
 
 
-@places.output("mm")
+@tile_places.output("mm")
 def tile_slot_radius(m: Module) -> Scalar:
     """Distance from the axis, along a vane's middle, of what lies behind the middle of its rows of tiles."""
     half = 0.5 * m.housing_vane_angle
     return m.pcl_mean_radius * np.cos(half) + m.pad_depth * np.sin(half)
 
 
-@places.output("mm")
+@tile_places.output("mm")
 def tile_slot_pitch(m: Module) -> Scalar:
     """Distance of a vane's slots along its middle."""
     return m.tile_spacing * np.cos(0.5 * m.housing_vane_angle)
 
 
-@places.output("mm^2")
+@tile_places.output("mm^2")
 def tile_seat_area(m: Module) -> Scalar:
     """Area with which one tile bears on its vane: all of it but the slot's."""
     return m.peltier_length * m.peltier_width - m.tile_window * m.slot_height
 
 
-@rules.output("mm", at_least(0.0, "the Peltier modules are too long for the block's width: fewer, or a wider block"))
+@tile_rules.output(
+    "mm", at_least(0.0, "the Peltier modules are too long for the block's width: fewer, or a wider block")
+)
 def tile_side_margin(m: Module) -> Scalar:
     """Gap between neighbouring tiles of a row beyond the least; of one, to both ends of its block."""
     return m.tile_spacing - m.peltier_length - m.tile_clearance
 
 
-@rules.output("mm", at_least(0.0, "the Peltier modules are taller than the block: a smaller one, or a taller block"))
+@tile_rules.output(
+    "mm", at_least(0.0, "the Peltier modules are taller than the block: a smaller one, or a taller block")
+)
 def tile_height_margin(m: Module) -> Scalar:
     """Height of the block beyond that of the tiles."""
     return m.block_height - m.peltier_width
 
 
-@rules.output("mm", at_least(0.0, "a Peltier module reaches beyond the outer end of its vane: a wider block"))
+@tile_rules.output("mm", at_least(0.0, "a Peltier module reaches beyond the outer end of its vane: a wider block"))
 def tile_end_margin(m: Module) -> Scalar:
     """Vane beyond the back corner of its outermost tiles, which bear on it up to there."""
     end = m.pcl_outer_radius - 0.5 * (m.tile_spacing - m.peltier_length)
     return m.pcl_outer_radius - np.sqrt(end**2 + m.pad_depth**2)
 
 
-@rules.output("mm", at_least(0.0, "the slot behind a Peltier module is too narrow for its leads"))
+@tile_rules.output("mm", at_least(0.0, "the slot behind a Peltier module is too narrow for its leads"))
 def lead_slot_margin(m: Module) -> Scalar:
     """Width of the slots beyond what the leads of a tile need."""
     return m.slot_width - m.lead_hole_diameter
 
 
-@rules.output("mm", at_least(0.0, "a slot breaks through the inner end of its vane: choose a smaller slot_share"))
+@tile_rules.output("mm", at_least(0.0, "a slot breaks through the inner end of its vane: choose a smaller slot_share"))
 def inner_web_margin(m: Module) -> Scalar:
     """Housing vane within its innermost slot beyond the process's least wall."""
     return m.slot_inner_radius - m.pcl_inner_radius - m.minimum_wall
 
 
-@rules.output("mm", at_least(0.0, "a slot breaks through the outer end of its vane: choose a smaller slot_share"))
+@tile_rules.output("mm", at_least(0.0, "a slot breaks through the outer end of its vane: choose a smaller slot_share"))
 def outer_web_margin(m: Module) -> Scalar:
     """Housing vane without the corners of its outermost slot beyond the process's least wall."""
     return m.pcl_outer_radius - m.slot_outer_radius - m.minimum_wall
@@ -158,3 +170,81 @@ def heater_holding_torque(m: Module) -> Scalar:
 def heater_pressure(m: Module) -> Scalar:
     """Highest pressure on rigid Peltier modules in a hold, at their upper edges: when the load has just come on."""
     return m.block_pressure * m.block_area * m.tile_edge_rise / (m.tiles_per_block * m.tile_seat_area)
+
+
+places = QuantityGroup("Layout")
+weights = QuantityGroup("Size and weight")
+rules = QuantityGroup("Gaps")
+
+
+@places.output("1")
+def thermistor_count(_: Module) -> Scalar:
+    """Thermistors by the layer: one at the end of the first pad."""
+    return 1.0
+
+
+@places.output("mm")
+def thermistor_seat_diameter(m: Module) -> Scalar:
+    """Diameter of the hole in the floor through which the thermistor is put in; zero without."""
+    return np.fmin(m.thermistor_diameter + 2.0 * m.slip_clearance, 1e3 * m.thermistor_diameter)
+
+
+@places.output("mm")
+def thermistor_seat_radius(m: Module) -> Scalar:
+    """Distance of the bead's axis from the module's: half a bead beyond the end of the pad, and behind its face."""
+    half = 0.5 * m.thermistor_diameter
+    return np.sqrt((m.pcl_outer_radius + half) ** 2 + half**2)
+
+
+@weights.helper(default=NOTHING)
+def thermistor_seat_section(m: Module) -> Section:
+    """Plan view of the thermistor's hole in the floor."""
+    return disc_at(0.5 * m.thermistor_seat_diameter, m.thermistor_seat_radius)
+
+
+@weights.output("mm^3")
+def thermistor_volume(m: Module) -> Scalar:
+    """Volume of the thermistor's bead; zero without."""
+    return 0.25 * np.pi * m.thermistor_diameter**2 * m.thermistor_length
+
+
+@rules.output("mm", at_least(0.0, "the thermistor would be taller than the block: a shorter bead"))
+def thermistor_height_gap(m: Module) -> Scalar:
+    """Height of the block beyond the bead's, where there is one."""
+    length = np.fmin(m.thermistor_length, 1e3 * m.thermistor_diameter)
+    return np.fmax(m.vane_height - m.running_clearance, 0.0) - length
+
+
+@rules.output("mm", at_least(0.0, "the thermistor does not reach the pad's end: a smaller bead"))
+def thermistor_end_gap(m: Module) -> Scalar:
+    """Thickness of the pad, or the spreader, beyond half of the bead's, which touches it there."""
+    return (m.peltier_thickness if m.heater_form == CUT else m.spreader_depth) - 0.5 * m.thermistor_diameter
+
+
+@rules.output(
+    "mm", at_least(0.0, "the thermistor stands out beyond the rotor plate: a wider rotor_rim, or a smaller bead")
+)
+def thermistor_rim_gap(m: Module) -> Scalar:
+    """Rim of the rotor plate beyond the blocks, under which the bead stands, less the bead."""
+    return m.rotor_rim - m.thermistor_diameter
+
+
+def _thermistor_azimuth(m: Module) -> Scalar:
+    """Return the azimuth of the bead's axis [rad]: half a bead behind the face of the first vane that the first pad
+    stands in."""
+    half = 0.5 * m.thermistor_diameter
+    return np.pi / m.vane_count + 0.5 * m.housing_vane_angle - np.arctan2(half, m.pcl_outer_radius + half)
+
+
+@rules.output("mm", at_least(0.0, "the floor between the thermistor's hole and what is beside it is too thin"))
+def thermistor_hole_gap(m: Module) -> Scalar:
+    """Floor between the hole and the nearest spring's tang or adjuster's pocket, beyond the least wall where it is.
+
+    Springs stand at azimuth 0 and evenly around, so the nearest is arccos(cos(n a))/n beside.
+    """
+    taken = np.fmax(m.spring_reach + m.tang_clearance, m.adjuster_radius + m.slip_clearance)
+    beside = np.arccos(np.fmin(np.cos(m.spring_count * _thermistor_azimuth(m)), 1.0 - 1e-12)) / m.spring_count
+    across = m.placement_radius * np.sin(beside)
+    away = np.sqrt((m.placement_radius * np.cos(beside) - m.thermistor_seat_radius) ** 2 + across**2)
+    room = np.fmax(away - taken, 0.0)
+    return room - np.fmin(m.hole_wall + 0.5 * m.thermistor_seat_diameter, room + 1e3 * m.thermistor_seat_diameter)

@@ -10,7 +10,8 @@ from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
 
-quantities, torques = QuantityGroup("Gaps", WITH_MOTOR), QuantityGroup("Hold", WITH_MOTOR)
+quantities = QuantityGroup("Gaps", WITH_MOTOR)
+torques = QuantityGroup("Hold", WITH_MOTOR)
 
 
 @quantities.output("mm", at_least(0.0, "the module's retainer would rub on the motor's hub: more foot_height"))

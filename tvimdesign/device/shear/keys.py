@@ -17,13 +17,11 @@ from tvimdesign.physics.motions.contacts import joint_play
 from tvimdesign.physics.solids import fasteners, structure
 from tvimdesign.physics.solids.shapes import Section, disc_at
 
-places, strengths, play, weights, rules = (
-    QuantityGroup("Layout"),
-    QuantityGroup("Impedance"),
-    QuantityGroup("Lost motion"),
-    QuantityGroup("Size and weight"),
-    QuantityGroup("Gaps"),
-)
+places = QuantityGroup("Layout")
+strengths = QuantityGroup("Impedance")
+play = QuantityGroup("Lost motion")
+weights = QuantityGroup("Size and weight")
+rules = QuantityGroup("Gaps")
 
 
 @places.helper()

@@ -22,11 +22,9 @@ _CUTTER = 2.2
 _LEAST = 0.05
 """Share of a size below which roots are not taken: their slopes have no bound at zero."""
 
-places, weights, rules = (
-    QuantityGroup("Layout", WITH_TILES),
-    QuantityGroup("Size and weight", WITH_TILES),
-    QuantityGroup("Gaps", WITH_TILES),
-)
+places = QuantityGroup("Layout", WITH_TILES)
+weights = QuantityGroup("Size and weight", WITH_TILES)
+rules = QuantityGroup("Gaps", WITH_TILES)
 
 
 @places.output("mm")

@@ -18,9 +18,8 @@ from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.progress import wide_console
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import print_grid
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
-from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
-from tvimdesign.simulation.measurement.reading.column_map import read_column_map
+from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheets, measure_files
+from tvimdesign.simulation.measurement.reading.headings import read_column_map
 from tvimdesign.simulation.measurement.record_file import NoRecordError, write_records
 
 _MOST_TABLES = 3

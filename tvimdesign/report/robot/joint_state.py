@@ -9,7 +9,7 @@ import numpy as np
 
 from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.simulation.joint_tests.case import Case, cases
-from tvimdesign.simulation.link_motion.lossy_structure import RIGID, in_series
+from tvimdesign.simulation.link_motion.sampled_motion import RIGID, in_series
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 STEP_SHARE = 0.02

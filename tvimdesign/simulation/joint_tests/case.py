@@ -12,8 +12,7 @@ from tvimdesign.physics.motions import motion
 from tvimdesign.physics.motions.one_sided import Blocks
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
 from tvimdesign.simulation.link_motion.course import Plant
-from tvimdesign.simulation.link_motion.lossy_structure import with_loss
-from tvimdesign.simulation.link_motion.sampled_motion import OneSided
+from tvimdesign.simulation.link_motion.sampled_motion import OneSided, with_loss
 from tvimdesign.simulation.trial import Column, CurveTable, Finding
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule

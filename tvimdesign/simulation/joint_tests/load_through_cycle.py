@@ -12,7 +12,7 @@ from tvimdesign.physics.layers import lasting_load
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests.case import joint_of
-from tvimdesign.simulation.link_motion.lossy_structure import RIGID, spectrum
+from tvimdesign.simulation.link_motion.sampled_motion import RIGID, spectrum
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 

@@ -9,8 +9,18 @@ import numpy as np
 from tvimdesign.physics.polymers import viscoelasticity
 from tvimdesign.physics.polymers.polymer import LINEAR_DROP, ZERO_CELSIUS, maxwell_moduli
 from tvimdesign.physics.polymers.viscoelasticity import Body
-from tvimdesign.simulation.rheometer.model_reduction import TITLES, Comparison, compare, parameters
-from tvimdesign.simulation.rheometer.specimen import Specimen, State, at_fraction, history_note, specimen, specimens
+from tvimdesign.simulation.rheometer.specimen import (
+    TITLES,
+    Comparison,
+    Specimen,
+    State,
+    at_fraction,
+    compare,
+    history_note,
+    parameters,
+    specimen,
+    specimens,
+)
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.melt_history import frozen_on_cooling
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule

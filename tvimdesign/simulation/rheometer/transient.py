@@ -9,8 +9,16 @@ import numpy as np
 
 from tvimdesign.physics.polymers import viscoelasticity
 from tvimdesign.physics.polymers.viscoelasticity import Body
-from tvimdesign.simulation.rheometer.model_reduction import TITLES, Comparison, compare, parameters
-from tvimdesign.simulation.rheometer.specimen import Specimen, State, history_note, specimens
+from tvimdesign.simulation.rheometer.specimen import (
+    TITLES,
+    Comparison,
+    Specimen,
+    State,
+    compare,
+    history_note,
+    parameters,
+    specimens,
+)
 from tvimdesign.simulation.trial import Array, Column, CurveTable, Finding, Panel, PlottedLine, Trial
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 

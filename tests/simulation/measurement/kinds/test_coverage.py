@@ -10,8 +10,7 @@ import pytest
 from fit_coverage import MADE, Found, code, counted, fit_of, kept_in, table, width_over_scatter
 from scipy.stats import chi2, norm
 
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
-from tvimdesign.simulation.measurement.measure_files import measure_of
+from tvimdesign.simulation.measurement.measure_files import kind_sheet, kind_sheets, measure_of
 
 QUICK = ["torque_angle", "pad", "frozen_torque", "amplitude_sweep", "relaxation", "flow_curve"]
 LONGER = ["release", "sine", "frequency_sweep", "temperature_ramp", "creep", "melt", "dsc", "heating_log"]

@@ -13,8 +13,7 @@ from scipy.integrate import solve_ivp
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.catalog import CATEGORIES, Catalog
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheet, kind_sheets
-from tvimdesign.simulation.measurement.measure_files import measure_of
+from tvimdesign.simulation.measurement.measure_files import kind_sheet, kind_sheets, measure_of
 from tvimdesign.simulation.measurement.reading.headings import known
 from tvimdesign.simulation.measurement.record_file import record_text
 

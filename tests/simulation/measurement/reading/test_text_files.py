@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.reading.column_map import column_map, read_column_map
 from tvimdesign.simulation.measurement.reading.data_file import DataFile, read_data_file
+from tvimdesign.simulation.measurement.reading.headings import column_map, read_column_map
 
 PLAIN = "time [s];angle [deg]\n0;10\n0.5;-2.5\n1;1e1\n"
 

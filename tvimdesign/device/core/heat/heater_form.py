@@ -7,16 +7,26 @@ the spreader resists (`spreader_resistance`).
 
 A layer may be heated by the current it conducts itself, between the fingers of two combs on the pads' face. The combs
 are etched in a flexible sheet that takes the pads' place: a record of the heaters that says `heat_source: layer`. The
-layer's material has a `resistivity`. Heat is made evenly over the layer, and a little in the sheet."""
+layer's material has a `resistivity`. Heat is made evenly over the layer, and a little in the sheet.
+
+Thermal cut-out in the heater's leads: its type, its body, and the room it takes below the floor.
+
+It opens before anything is too hot. It lies across the first arc, or across the slot of the first housing vane. Where
+the window below a heater has room for it, it lies in there on the heater's outer side, else below the floor. The rules
+ask for the room below in any case.
+"""
 
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.record import Record
+from tvimdesign.base.units import ZERO_CELSIUS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Feature, Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -26,7 +36,8 @@ CUT = "flexible"
 WITH_TILES = (Feature("heater_form", CUT),)
 
 kinds = QuantityGroup("Materials")
-places, weights = QuantityGroup("Layout", WITH_TILES), QuantityGroup("Size and weight", WITH_TILES)
+places = QuantityGroup("Layout", WITH_TILES)
+weights = QuantityGroup("Size and weight", WITH_TILES)
 flows = QuantityGroup("Switch")
 
 kinds.option(
@@ -174,7 +185,8 @@ def contradiction(record: Record) -> str:
 PADS = "pads"
 LAYER_HEATED = (Feature("heat_source", PADS),)
 
-layer_kinds, layer_flows = QuantityGroup("Materials"), QuantityGroup("Switch")
+layer_kinds = QuantityGroup("Materials")
+layer_flows = QuantityGroup("Switch")
 
 layer_kinds.option(
     "heat_source",
@@ -221,3 +233,116 @@ def hottest_pcl(m: Module) -> Scalar:
         return m.stack_profile.near
     cells = [m.stack_profile.cells[i] for i in range(len(m.stack_profile.cells))]
     return functools.reduce(np.fmax, [m.stack_profile.near, *cells])
+
+
+WITH_CUTOUT = (Feature("heater_fuse", "none"),)
+
+heat = QuantityGroup("Switch", WITH_CUTOUT)
+cutout_places = QuantityGroup("Layout", WITH_CUTOUT)
+cutout_weights = QuantityGroup("Size and weight", WITH_CUTOUT)
+cutout_rules = QuantityGroup("Gaps", WITH_CUTOUT)
+
+
+@cutout_places.output("mm")
+def cutout_diameter(m: Module) -> Scalar:
+    """Diameter of the thermal cut-out's body; zero without one."""
+    return m.heater_fuse.value("body_diameter")
+
+
+@cutout_places.output("mm")
+def cutout_length(m: Module) -> Scalar:
+    """Length of the thermal cut-out's body; zero without one."""
+    return m.heater_fuse.value("body_length")
+
+
+@cutout_places.output("mm")
+def cutout_leg_diameter(m: Module) -> Scalar:
+    """Diameter of the thermal cut-out's wires; zero without one."""
+    return m.heater_fuse.value("leg_diameter")
+
+
+@cutout_places.output("mm")
+def cutout_leg_straight(m: Module) -> Scalar:
+    """Length of those wires that must stay straight beside the body; zero without one."""
+    return m.heater_fuse.value("leg_straight")
+
+
+@cutout_weights.output("mm^3")
+def cutout_volume(m: Module) -> Scalar:
+    """Volume of the thermal cut-out's body and the straight part of its wires; zero without one."""
+    legs = 2.0 * m.cutout_leg_diameter**2 * m.cutout_leg_straight
+    return 0.25 * np.pi * (m.cutout_diameter**2 * m.cutout_length + legs)
+
+
+@cutout_weights.output("g")
+def cutout_mass(m: Module) -> Scalar:
+    """Mass of the thermal cut-out; zero without one."""
+    return m.cutout_volume * m.cutout_density
+
+
+@cutout_rules.output("mm", at_least(0.0, "the thermal cut-out stands out below the feet: more foot_height"))
+def cutout_ground_gap(m: Module) -> Scalar:
+    """Room between the ground and the thermal cut-out below the floor."""
+    return m.foot_height - m.cutout_diameter
+
+
+_MEETS = "the thermal cut-out meets the retainer or the sensor's flange: a smaller one, or heater_fuse: none"
+
+
+@cutout_rules.output("mm", at_least(0.0, _MEETS))
+def cutout_retainer_gap(m: Module) -> Scalar:
+    """Room between the thermal cut-out below the floor and what is within it."""
+    return m.cutout_radius - 0.5 * m.cutout_diameter - np.fmax(m.retainer_radius, m.flange_outer_radius)
+
+
+_LATE = "the thermal cut-out opens above what it saves: a cooler heater, another heater_fuse, or a better structure"
+
+
+@heat.output("K", advice=(at_least(0.0, _LATE),))
+def cutout_margin(m: Module) -> Scalar:
+    """Room of the best type of thermal cut-out: it opens below what heater, PCL and structure bear, and not in work."""
+    record = m.heater_fuse
+    bears = np.fmin(
+        np.fmin(m.peltier_max_temperature, m.pcl_decomposition_temperature), m.structure_service_temperature
+    )
+    in_work = np.fmax(m.peak_peltier_temperature, m.peak_cold_side_temperature) + record.value("working_margin")
+    opens = [kind["functioning_temperature"] for kind in record.table("types")]
+    rooms = [np.fmin(bears - most, most - record.value("opening_band") - in_work) for most in opens]
+    return functools.reduce(np.fmax, rooms)
+
+
+class HeaterFuse(NamedTuple):
+    """One cut-out: how it is ordered, between which temperatures [K] it opens, and what it holds for good."""
+
+    designation: str
+    opens_from: float
+    opens_at: float
+    holds: float
+    above: tuple[str, ...]
+    """Names of the ratings below its opening temperature, the least first; empty if it saves everything."""
+
+
+def heater_fuse(record: Record, hottest: float, current: float, ratings: Mapping[str, float]) -> HeaterFuse:
+    """Return the type of a record for a heater whose highest temperature [K] and current [A] are known.
+
+    A type does not open in work where the least temperature at which it may open is a margin above the heater's
+    highest. Of these the highest type that opens at or below the least of the `ratings` [K]; where all open above it,
+    the lowest. Raises InputError where no type opens so high, or bears the current.
+    """
+    margin, band = record.value("working_margin"), record.value("opening_band")
+    stays = [kind for kind in record.table("types") if kind["functioning_temperature"] - band >= hottest + margin]
+    if not stays:
+        most = max(kind["functioning_temperature"] for kind in record.table("types")) - band - margin
+        held, asked = (f"{kelvin - ZERO_CELSIUS:.4g} degC" for kelvin in (most, hottest))
+        raise InputError(f"{record.title}: no type stays closed at the heater's {asked}, the highest at {held}")
+    bears = record.value("high_rated_current" if record.has("high_rated_current") else "rated_current")
+    if current > bears:
+        raise InputError(f"{record.title}: no type bears the heater's {current:.3g} A, the strongest {bears:.3g} A")
+    least = min(ratings.values())
+    saving = [kind for kind in stays if kind["functioning_temperature"] <= least]
+    kind = (max if saving else min)(saving or stays, key=lambda row: row["functioning_temperature"])
+    high = "H" if current > record.value("rated_current") else "0"
+    opens = kind["functioning_temperature"]
+    name = record.words["designation"].format(**{"model": f"{round(kind['model']):03d}", "class": high})
+    above = tuple(sorted((what for what in ratings if ratings[what] < opens), key=lambda what: ratings[what]))
+    return HeaterFuse(name, opens - band, opens, kind["holding_temperature"], above)

@@ -17,7 +17,7 @@ from tvimdesign.physics.heat_flow import heat
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer
 from tvimdesign.simulation.joint_tests.case import one_sided
-from tvimdesign.simulation.link_motion.lossy_structure import PER_DECADE
+from tvimdesign.simulation.link_motion.sampled_motion import PER_DECADE
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.curves import temperature_names
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule

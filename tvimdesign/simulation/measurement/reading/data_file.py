@@ -16,8 +16,15 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.simulation.measurement.reading.clock_times import clock_seconds, is_clock
-from tvimdesign.simulation.measurement.reading.column_map import ColumnMap
-from tvimdesign.simulation.measurement.reading.headings import Heading, conversion, known, plain, rank, unit_of
+from tvimdesign.simulation.measurement.reading.headings import (
+    ColumnMap,
+    Heading,
+    conversion,
+    known,
+    plain,
+    rank,
+    unit_of,
+)
 from tvimdesign.simulation.measurement.reading.sheets import DECIMALS, Row, Sheet, file_bytes, read_sheets
 from tvimdesign.simulation.measurement.reading.table_blocks import RawBlock, blocks_of
 

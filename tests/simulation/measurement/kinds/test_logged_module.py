@@ -14,7 +14,7 @@ from measured_files import csv, found, measured
 from support import ROOT
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.kinds.heat.logged_module import Course, LoggedModule
+from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
 from tvimdesign.simulation.measurement.record_file import write_record
 from tvimdesign.simulation.working_cycle.current_profile import CurrentProfile
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions

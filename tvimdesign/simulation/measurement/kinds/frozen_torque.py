@@ -18,7 +18,7 @@ from tvimdesign.physics.layers import layer
 from tvimdesign.physics.polymers.polymer import ramp
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, endings, required, rows_of
+from tvimdesign.simulation.measurement.measurement import Measurement, Settings, endings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 

@@ -23,9 +23,9 @@ from tvimdesign.physics.motions import motion
 from tvimdesign.physics.polymers import polymer, viscoelasticity
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS, Modes
 from tvimdesign.simulation.measurement.fitting.problem import Parameter
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheets
-from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
-from tvimdesign.simulation.measurement.kinds.polymer.melt_spectrum import Curve, MeltTest, fit_spectrum, guessed_shift
+from tvimdesign.simulation.measurement.kinds.melt_spectrum import Curve, MeltTest, fit_spectrum, guessed_shift
+from tvimdesign.simulation.measurement.measure_files import kind_sheets
+from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.symbols import symbols

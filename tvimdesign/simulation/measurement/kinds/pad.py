@@ -14,7 +14,7 @@ import numpy as np
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, rows_of
+from tvimdesign.simulation.measurement.measurement import Measurement, Settings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 

@@ -21,7 +21,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.device import Input
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.fitting.problem import Derived
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, OtherRecord, Settings, resolve_measured
+from tvimdesign.simulation.measurement.measurement import Measurement, OtherRecord, Settings, resolve_measured
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 

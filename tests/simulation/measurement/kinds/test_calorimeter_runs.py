@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from support import ROOT
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.simulation.measurement.kinds.heat.calorimeter_runs import Run, runs_of
+from tvimdesign.simulation.measurement.kinds.dsc import Run, runs_of
 from tvimdesign.simulation.measurement.reading.data_file import read_data_file
 
 

@@ -12,7 +12,7 @@ from support import ROOT
 
 from tvimdesign.base.errors import CatalogError, InputError
 from tvimdesign.catalog import Catalog
-from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import JointOfModule
+from tvimdesign.simulation.measurement.kinds.joint_of_module import JointOfModule
 from tvimdesign.simulation.measurement.record_file import write_records
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.uncertainty.uncertain_inputs import unmeasured_inputs

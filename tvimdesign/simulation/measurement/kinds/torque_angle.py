@@ -22,7 +22,7 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     Values,
     from_zero,
 )
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, required, rows_of
+from tvimdesign.simulation.measurement.measurement import Measurement, Settings, required, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 

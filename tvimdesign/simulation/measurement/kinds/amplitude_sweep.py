@@ -18,8 +18,8 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.physics.polymers.polymer import LINEAR_DROP
 from tvimdesign.simulation.measurement.fitting.fit import fitted
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS, Measurement, Settings, endings, rows_of
-from tvimdesign.simulation.measurement.kinds.polymer.melt_tests import temperature_of, title_of
+from tvimdesign.simulation.measurement.kinds.melt_tests import temperature_of, title_of
+from tvimdesign.simulation.measurement.measurement import LEAST_ROWS, Measurement, Settings, endings, rows_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 

@@ -19,7 +19,7 @@ from tvimdesign.physics.polymers import polymer
 from tvimdesign.physics.polymers.polymer import GAS_CONSTANT, ZERO_CELSIUS
 from tvimdesign.simulation.measurement.fitting.fit import BestFit, Estimate, Fit, best_fit, fitted, with_intervals
 from tvimdesign.simulation.measurement.fitting.problem import Channel, Derived, Parameter, Problem, Values
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, RecordTable, Settings
+from tvimdesign.simulation.measurement.measurement import Measurement, RecordTable, Settings
 from tvimdesign.simulation.measurement.reading.data_file import Array
 
 _TOGETHER = 1.0

@@ -23,9 +23,9 @@ from tvimdesign.simulation.measurement.fitting.problem import (
     Values,
     from_zero,
 )
-from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import joint_of_module, with_records
-from tvimdesign.simulation.measurement.kinds.joint.release import CORNER
-from tvimdesign.simulation.measurement.kinds.measurement import Measurement, Settings, series_of
+from tvimdesign.simulation.measurement.kinds.joint_of_module import joint_of_module, with_records
+from tvimdesign.simulation.measurement.kinds.release import CORNER
+from tvimdesign.simulation.measurement.measurement import Measurement, Settings, series_of
 from tvimdesign.simulation.measurement.reading.data_file import Array, Block
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 

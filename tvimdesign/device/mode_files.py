@@ -1,0 +1,65 @@
+"""Files that define quantities: those that all modes share, and those of each mode."""
+
+from __future__ import annotations
+
+from tvimdesign.device.components import (
+    axial_preload,
+    bearing,
+    cover,
+    dowels,
+    hard_stops,
+    liner,
+    preload_adjuster,
+    process,
+    screws,
+    sensor_flange,
+    tang,
+)
+from tvimdesign.device.compression import (
+    block_heat,
+    block_impedance,
+    ring_heat,
+    vane_clearances,
+    vane_heat,
+    vane_layout,
+    vane_stiffness,
+    vane_tiles,
+)
+from tvimdesign.device.core import clearances, layout, mass_properties, materials, motor_choice
+from tvimdesign.device.core.heat import heater_form, softening, stiffening, thermal_stack
+from tvimdesign.device.core.impedance import (
+    joint_impedance,
+    large_motion,
+    lost_motion,
+    structure_stiffness,
+    warm_structure,
+)
+from tvimdesign.device.core.springs import spring_as_drawn, torsion_springs
+from tvimdesign.device.motor import motor_clearances, motor_layout, motor_mass_properties
+from tvimdesign.device.shear import (
+    arc_laps,
+    arcs,
+    floor_heat,
+    keys,
+    layer_end,
+    layer_heat,
+    layer_impedance,
+    leads,
+    melt_lip,
+    pad_layout,
+)
+
+SHARED_FILES = (
+    materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
+    warm_structure, large_motion, thermal_stack, softening, stiffening, mass_properties, clearances, axial_preload,
+    process, heater_form, screws, tang, dowels, hard_stops, liner, bearing, preload_adjuster, cover, sensor_flange,
+    motor_choice, motor_layout, motor_mass_properties, motor_clearances,
+)  # fmt: skip
+FILES_OF_MODE = {
+    "shear": (
+        pad_layout, layer_impedance, arc_laps, layer_heat, layer_end, melt_lip, floor_heat, arcs, leads, keys,
+    ),
+    "compression": (
+        vane_layout, block_impedance, vane_stiffness, block_heat, ring_heat, vane_heat, vane_clearances, vane_tiles,
+    ),
+}  # fmt: skip

@@ -1,0 +1,261 @@
+"""Arcs of the shear module.
+
+Volumes of what only the shear module has: arcs of PCL, a floor with pockets for the pads and windows below them.
+
+Rules for the arcs of the shear module, the pads under them and the windows below those.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from tvimdesign.device.components.liner import WITH_LINER
+from tvimdesign.device.core.clearances import MM, POCKET_WIDTH
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_CUTOUT
+from tvimdesign.device.table.module import Module
+from tvimdesign.device.table.quantity import Rule, Scalar, at_least
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.solids.shapes import NOTHING, Section, inner_corner, outer_corner, rectangle_at, sector, stacked
+
+weights = QuantityGroup("Size and weight")
+_SPANDREL = (5.0 / 6.0 - 0.25 * pi) / (1.0 - 0.25 * pi)
+
+
+@weights.helper()
+def pcl_section(m: Module) -> Section:
+    """Plan view of all PCL arcs together."""
+    return sector(m.arc_count * m.arc_span, m.pcl_inner_radius, m.pcl_outer_radius)
+
+
+@weights.output("mm^2", headline=True)
+def pcl_area(m: Module) -> Scalar:
+    """Contact area of all PCL arcs together."""
+    return m.pcl_section.area
+
+
+@weights.output("mm^3")
+def pcl_volume(m: Module) -> Scalar:
+    """Volume of all PCL arcs together, keys included."""
+    return m.pcl_area * m.pcl_thickness + m.key_moments.area
+
+
+def _rounded_sector(span: Scalar, inner_radius: Scalar, outer_radius: Scalar, corner_radius: Scalar) -> Section:
+    """Return the annular sector less what fillets take from its corners, which counts where its middle is in a square
+    corner.
+
+    That is (5/6 - pi/4)/(1 - pi/4) of the fillet's radius from either side (a square less a quarter of a disc).
+    """
+    beside = _SPANDREL * corner_radius
+    outer, inner = outer_corner(corner_radius, outer_radius, 0.0), inner_corner(corner_radius, inner_radius, 0.0)
+    moment = outer * ((outer_radius - beside) ** 2 + beside**2) + inner * ((inner_radius + beside) ** 2 + beside**2)
+    return sector(span, inner_radius, outer_radius) - Section(2.0 * (outer + inner), 2.0 * moment)
+
+
+@weights.helper()
+def pad_section(m: Module) -> Section:
+    """Plan view of all Peltier pads: the outline of the PCL, its corners as round as those of the pockets."""
+    return _rounded_sector(m.arc_span, m.pcl_inner_radius, m.pcl_outer_radius, m.corner_radius).times(m.arc_count)
+
+
+def _pocket_section(m: Module) -> Section:
+    """Return the plan view of all pockets for pads."""
+    return _rounded_sector(m.pocket_span, m.pocket_inner_radius, m.pocket_outer_radius, m.corner_radius).times(
+        m.arc_count
+    )
+
+
+@weights.output("mm^3")
+def peltier_volume(m: Module) -> Scalar:
+    """Volume of all Peltier modules together: cut to the pockets' outline, or rectangular tiles."""
+    if m.heater_form == CUT:
+        return m.pad_section.area * m.peltier_thickness
+    return m.heater_count * m.peltier_width * (m.peltier_length - 0.5 * m.peltier_porch) * m.peltier_thickness
+
+
+@weights.helper()
+def window_section(m: Module) -> Section:
+    """Plan view of the windows below the Peltier modules: arcs or tiles, less a ledge on every side, rounded."""
+    if m.heater_form != CUT:
+        sides = (m.peltier_width - 2.0 * m.window_ledge, m.cold_plate_length - 2.0 * m.window_ledge)
+        away = np.sqrt(m.tile_radius**2 + (0.5 * m.peltier_porch) ** 2)
+        return rectangle_at(*sides, away, m.corner_radius).times(m.heater_count)
+    inner, outer = m.pcl_inner_radius + m.window_ledge, m.pcl_outer_radius - m.window_ledge
+    return _rounded_sector(m.window_span, inner, outer, m.corner_radius).times(m.arc_count)
+
+
+@weights.helper()
+def floor_openings(m: Module) -> Section:
+    """Volume of the floor's openings and its polar moment: pockets, windows, slots for leads, thermistor's seat."""
+    opened = stacked(
+        (_pocket_section(m), m.pad_depth), (m.window_section, m.floor_web), (m.lead_hole_section, m.floor_web)
+    )
+    return opened.plus(m.thermistor_seat_moments)
+
+
+@weights.helper()
+def housing_moments(m: Module) -> Section:
+    """Volume and its polar moment about the axis, of the housing: nothing is added to what all modes have."""
+    return m.bare_housing_moments
+
+
+@weights.output("deg", requires=WITH_LINER)
+def liner_span(m: Module) -> Scalar:
+    """Angle a liner covers: at the arc's inner radius its recess is a slip clearance longer at each end; zero
+    without."""
+    return m.arc_span - 2.0 * m.slip_clearance / m.pcl_inner_radius
+
+
+@weights.helper(requires=WITH_LINER, default=NOTHING)
+def liner_moments(m: Module) -> Section:
+    """Volume of all liners and its polar moment about the axis; a liner goes into its recess with a slip clearance."""
+    inner, outer = m.pcl_inner_radius + m.slip_clearance, m.pcl_outer_radius - m.slip_clearance
+    return _rounded_sector(m.liner_span, inner, outer, m.corner_radius).times(m.arc_count * m.liner_thickness)
+
+
+@weights.helper(requires=WITH_LINER, default=NOTHING)
+def liner_recess(m: Module) -> Section:
+    """Volume of the recesses for the liners, which have the outline of the PCL, and its polar moment about the axis."""
+    return m.pad_section.times(m.liner_depth)
+
+
+@weights.helper()
+def rotor_moments(m: Module) -> Section:
+    """Volume and its polar moment about the axis, of the rotor with its lips, less pockets for keys and for liners."""
+    return m.bare_rotor_moments.plus(m.melt_lip_moments) - m.key_moments - m.liner_recess
+
+
+rules = QuantityGroup("Gaps")
+
+
+rules.after("leg_reach_gap")
+
+
+@rules.output("mm", at_least(0.0, "the PCL arcs must clear the hub"))
+def hub_arc_gap(m: Module) -> Scalar:
+    """Room between hub and PCL arcs beyond the radial clearance."""
+    return m.pcl_inner_radius - m.hub_radius - m.radial_clearance
+
+
+@rules.output("mm", at_least(3.0 * MM, "the floor needs a web between two Peltier pads", 0.0))
+def arc_gap(m: Module) -> Scalar:
+    """Web between neighbouring PCL arcs at their inner radius."""
+    return (2.0 * np.pi / m.arc_count - m.arc_span) * m.pcl_inner_radius
+
+
+@rules.output("mm", at_least(5.0 * MM, "the Peltier pad needs its ledges and a window for its cold side", 0.0))
+def arc_width(m: Module) -> Scalar:
+    """Radial width of the PCL arcs."""
+    return m.pcl_outer_radius - m.pcl_inner_radius
+
+
+@rules.output("mm", at_least(0.0, "a Peltier pad needs a window behind its ledges for its cold side", 0.0))
+def window_depth(m: Module) -> Scalar:
+    """Radial width of the windows below the Peltier modules."""
+    return (m.arc_width if m.heater_form == CUT else m.peltier_width) - 2.0 * m.window_ledge
+
+
+@rules.output("mm", at_least(0.0, "there must be a floor below a Peltier pad", 0.0))
+def floor_web(m: Module) -> Scalar:
+    """Thickness of the floor below the Peltier pads."""
+    return m.floor_thickness - m.pad_depth
+
+
+@rules.output("mm", at_least(0.0, "the floor below a Peltier pad is thinner than the process can make it"))
+def floor_web_margin(m: Module) -> Scalar:
+    """Floor below the Peltier pads beyond the process's least wall."""
+    return m.floor_web - m.minimum_wall
+
+
+@rules.helper()
+def solid_floor(m: Module) -> Scalar:
+    """Floor that may be drilled into from below [m]: what is left below the pads, wherever these are."""
+    return m.floor_web
+
+
+@rules.helper()
+def floor_opening_radius(m: Module) -> Scalar:
+    """Radius at which the openings of the floor begin [m]: the windows."""
+    return m.pcl_inner_radius + m.window_ledge
+
+
+rules.after("retainer_gap")
+
+
+@rules.output("mm", at_least(2.0 * MM, "the window below a Peltier pad must have a width", 0.0))
+def window_width(m: Module) -> Scalar:
+    """Width of the windows below the Peltier modules, along the arc: of an arc's at its inner radius."""
+    return (m.arc_span * m.pcl_inner_radius if m.heater_form == CUT else m.cold_plate_length) - 2.0 * m.window_ledge
+
+
+rules.after("mount_wall_gap")
+
+
+@rules.output("mm", at_least(0.0, "the feet must clear the Peltier pads"))
+def mount_pad_gap(m: Module) -> Scalar:
+    """Room between the mounting feet and the Peltier pads beyond the radial clearance."""
+    return m.placement_radius - m.mount_boss_radius - m.pcl_outer_radius - m.radial_clearance
+
+
+@rules.output("mm", requires=WITH_CUTOUT)
+def cutout_radius(m: Module) -> Scalar:
+    """Distance of the thermal cut-out's middle from the axis: below the middle of the window; zero without."""
+    return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius) if m.heater_form == CUT else m.tile_radius
+
+
+@rules.output("mm", requires=WITH_LINER)
+def liner_web(m: Module) -> Scalar:
+    """Rotor plate above a liner; zero without."""
+    return m.backing_depth
+
+
+_KEYED = "keys of the PCL would stand in the liner: key_count 0, or liner_material: none"
+
+
+@rules.output("1", Rule(sense="<=", value=0.5, reason=_KEYED), requires=WITH_LINER)
+def keys_in_liner(m: Module) -> Scalar:
+    """Keys of an arc that would have to go through its liner; zero without."""
+    return m.key_count
+
+
+_CORNER = "the cutter cannot reach into its corners so deep: choose a larger corner_radius"
+
+
+@rules.output("mm", at_least(0.0, f"a pad's pocket is too deep, {_CORNER}"))
+def pad_pocket_margin(m: Module) -> Scalar:
+    """Depth the corners of the pads' pockets may have beyond the one they have."""
+    return m.corner_depth_ratio * m.corner_radius - m.pad_depth
+
+
+@rules.output("mm", at_least(0.0, f"the floor below a pad is too thick, {_CORNER}"))
+def window_corner_margin(m: Module) -> Scalar:
+    """Depth the corners of the windows may have beyond the one they have."""
+    return m.corner_depth_ratio * m.corner_radius - m.floor_web
+
+
+@rules.output("mm", at_least(0.0, f"a liner's recess is too deep, {_CORNER}"), requires=WITH_LINER)
+def liner_recess_margin(m: Module) -> Scalar:
+    """Depth the corners of the liners' recesses may have beyond the one they have; zero without."""
+    return m.corner_depth_ratio * m.corner_radius - m.liner_depth
+
+
+_NARROW = "a window must be wider than the cutter of its corners: widen it, or choose a smaller corner_radius"
+
+
+@rules.output("mm", at_least(0.0, _NARROW))
+def window_width_margin(m: Module) -> Scalar:
+    """Width of the windows at their inner radius beyond what their corners need."""
+    return m.window_width - POCKET_WIDTH * m.corner_radius
+
+
+@rules.output("mm", at_least(0.0, _NARROW))
+def window_depth_margin(m: Module) -> Scalar:
+    """Radial width of the windows beyond what their corners need."""
+    return m.window_depth - POCKET_WIDTH * m.corner_radius
+
+
+@rules.output("mm", at_least(0.0, "the windows are too narrow for the cutter to go through the floor"))
+def window_pocket_margin(m: Module) -> Scalar:
+    """Depth the windows may have for their radial width beyond the one they have."""
+    return m.pocket_depth_ratio * m.window_depth - m.floor_web

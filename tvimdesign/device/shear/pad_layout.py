@@ -1,0 +1,242 @@
+"""Pads of the shear module in the floor: rigid modules as bought, pockets, and the thermistor beside them.
+
+Rigid Peltier modules under the arcs, as they are bought: rectangular tiles in a row below a spreader.
+
+A flexible module is cut to the outline of the PCL. A rigid one, or a sheet heater that is not cut, is a rectangle:
+`tiles_per_arc` of them lie side by side under each arc, their length along the arc, on a radius at which their inner
+edge and their outer corners are as far from the pocket's walls. A spreader of the PCL's outline lies on them, flush
+with the floor, and takes their heat to what they do not cover. The pocket has the outline of the arc as for a sheet;
+a window below each tile leaves its colder plate a ledge on all four sides. At one end of an arc a hole goes through
+the floor for a thermistor under the spreader; slots for leads are in `leads.py`.
+
+Pockets of pads and spreaders in the floor, and of liners in the rotor plate, and the level of that plate.
+
+A pocket has the outline of an arc, wider by `slip_clearance` on every side, so that what has that outline goes in.
+
+The rotor plate stands on the PCL layer, which lies on the floor.
+
+The thermistor by the layer: where its bead stands, and the seat it takes out of the floor.
+
+Below a pad of an arc's outline there is no room, so a hole goes through the floor at the end of the first arc, its
+middle on the end of the pad's pocket. Half of it lies beside the pocket: there the bead stands, touching the pad's end,
+its top flush with the floor, below the end of the layer. Its wires go down through the hole. Tiles leave room of their
+own: the bead stands below the spreader of each arc, over the hole that is there for its wires.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tvimdesign.device.core.clearances import MM
+from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
+from tvimdesign.device.table.module import Module
+from tvimdesign.device.table.quantity import Scalar, at_least
+from tvimdesign.device.table.quantity_group import QuantityGroup
+from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at, stacked
+
+tile_places = QuantityGroup("Layout", WITH_TILES)
+tile_weights = QuantityGroup("Size and weight", WITH_TILES)
+tile_rules = QuantityGroup("Gaps", WITH_TILES)
+kinds = QuantityGroup("Materials")
+
+kinds.option(
+    "heater_wiring",
+    ("series", "arcs_parallel", "all_parallel"),
+    "How the Peltier modules are wired: all in series, the arcs in parallel each in series, or all in parallel",
+)
+
+
+@tile_places.helper(requires=())
+def pocket_count(m: Module) -> Scalar:
+    """Pockets for Peltier modules [1]: one under each arc."""
+    return m.arc_count
+
+
+@tile_places.helper(requires=())
+def tiles_per_pocket(m: Module) -> Scalar:
+    """Rectangular Peltier modules in each pocket [1]."""
+    return m.tiles_per_arc
+
+
+@tile_places.helper()
+def tile_reach(m: Module) -> Scalar:
+    """Distance from the axis at which the outer corners of a tile would touch the pocket's outer wall [m]."""
+    least = 0.1 * m.pcl_outer_radius
+    return np.sqrt(np.fmax(m.pcl_outer_radius**2 - 0.25 * m.peltier_length**2, least**2))
+
+
+@tile_places.output("mm")
+def tile_radius(m: Module) -> Scalar:
+    """Distance of the tiles' middles from the axis: inner edge and outer corners have the same room."""
+    return 0.5 * (m.pcl_inner_radius + m.tile_reach)
+
+
+@tile_places.output("deg")
+def lead_angle(m: Module) -> Scalar:
+    """Angle at each end of an arc that is left to a thermistor's hole."""
+    return (m.lead_hole_diameter + 2.0 * m.tile_clearance) / m.pcl_inner_radius
+
+
+@tile_places.output("deg")
+def tile_pitch(m: Module) -> Scalar:
+    """Angle from one tile of an arc to the next."""
+    return (m.arc_span - 2.0 * m.lead_angle) / m.tiles_per_arc
+
+
+@tile_weights.helper(default=NOTHING)
+def tile_section(m: Module) -> Section:
+    """Plan view of all tiles, of their longer plate."""
+    return rectangle_at(m.peltier_width, m.peltier_length, m.tile_radius).times(m.heater_count)
+
+
+@tile_places.output("mm")
+def cold_plate_length(m: Module) -> Scalar:
+    """Length of a tile's colder plate, which lies on the ledges of its window: a porch shorter than the other one."""
+    return m.peltier_length - m.peltier_porch
+
+
+@tile_weights.output("mm^3")
+def spreader_volume(m: Module) -> Scalar:
+    """Volume of all spreaders together; zero without."""
+    return m.pad_section.area * m.spreader_depth
+
+
+@tile_rules.output(
+    "mm", at_least(0.0, "a Peltier module is too wide for its arc: choose a smaller one, or a wider arc")
+)
+def tile_radial_margin(m: Module) -> Scalar:
+    """Gap of a tile's inner edge and outer corners to the walls of its pocket, beyond the least."""
+    return 0.5 * (m.tile_reach - m.pcl_inner_radius - m.peltier_width) - m.tile_clearance
+
+
+@tile_rules.output("mm", at_least(0.0, "the Peltier modules of an arc overlap: choose fewer, or a longer arc"))
+def tile_side_margin(m: Module) -> Scalar:
+    """Gap between the inner corners of neighbouring tiles beyond the least; at an arc's end, between tile and hole."""
+    inner = m.tile_radius - 0.5 * m.peltier_width
+    return 2.0 * inner * np.sin(0.5 * m.tile_pitch) - m.peltier_length * np.cos(0.5 * m.tile_pitch) - m.tile_clearance
+
+
+places = QuantityGroup("Layout")
+rules = QuantityGroup("Gaps")
+holds = QuantityGroup("Impedance")
+
+
+@places.output("mm")
+def pocket_inner_radius(m: Module) -> Scalar:
+    """Inner radius of the pads' pockets."""
+    return m.pcl_inner_radius - m.slip_clearance
+
+
+@places.output("mm")
+def pocket_outer_radius(m: Module) -> Scalar:
+    """Outer radius of the pads' pockets."""
+    return m.pcl_outer_radius + m.slip_clearance
+
+
+@places.output("deg")
+def pocket_span(m: Module) -> Scalar:
+    """Angle a pad's pocket covers: at the arc's inner radius it is a slip clearance longer at each end."""
+    return m.arc_span + 2.0 * m.slip_clearance / m.pcl_inner_radius
+
+
+@rules.output("mm", at_least(0.0, "the floor between two pads' pockets is thinner than can be made: shorter arcs"))
+def pocket_web_margin(m: Module) -> Scalar:
+    """Floor between neighbouring pockets at their inner radius, beyond the process's least wall."""
+    return (2.0 * np.pi / m.arc_count - m.pocket_span) * m.pocket_inner_radius - m.minimum_wall
+
+
+@rules.output("mm", at_least(0.2 * MM, "a pad that lies against one wall of its pocket falls off the opposite ledge"))
+def pad_ledge(m: Module) -> Scalar:
+    """Width of what a pad, or a tile, lies on beside its window when it is pushed away from there."""
+    return m.window_ledge - (m.slip_clearance if m.heater_form == CUT else m.tile_clearance)
+
+
+def _ledge_area(m: Module) -> Scalar:
+    """Return what all pads, or tiles, lie on beside their windows [m^2]."""
+    lying = m.pad_section.area if m.heater_form == CUT else m.heater_count * m.cold_plate_length * m.peltier_width
+    return lying - m.window_section.area
+
+
+@holds.output("MPa")
+def ledge_tension(m: Module) -> Scalar:
+    """Tension that holds the pads on their ledges while the layer freezes: the adhesive there has to bear it.
+
+    The layer pulls with `freezing_traction`, its highest, over all of it, and with no more than its bond bears.
+    """
+    return np.fmin(m.freezing_traction, m.pcl_bond_strength) * m.pcl_area / _ledge_area(m)
+
+
+levels = QuantityGroup("Layout")
+
+
+@levels.output("mm", hidden=True)
+def rotor_bottom_level(m: Module) -> Scalar:
+    """Lower face of the rotor plate, which lies on the layer."""
+    return m.pcl_thickness
+
+
+@levels.helper()
+def pcl_depth(m: Module) -> Scalar:
+    """Way of heat and load through the PCL [m]."""
+    return m.pcl_thickness
+
+
+ROOM = 2.3
+"""Diameter of the seat over that of the bead: twice the bead, which stands in half of it, and what it is glued in."""
+
+weights = QuantityGroup("Size and weight")
+
+
+@places.output("1")
+def thermistor_count(m: Module) -> Scalar:
+    """Thermistors by the layer: one at the end of the first arc, or below the spreader of each."""
+    return 1.0 if m.heater_form == CUT else m.arc_count
+
+
+@places.output("mm")
+def thermistor_seat_diameter(m: Module) -> Scalar:
+    """Diameter of the hole for the thermistor at the end of an arc; zero without, and where tiles leave it room."""
+    return ROOM * m.thermistor_diameter if m.heater_form == CUT else 0.0
+
+
+@places.output("mm")
+def thermistor_seat_radius(m: Module) -> Scalar:
+    """Distance of that hole from the axis: the middle of the arc's width."""
+    return 0.5 * (m.pcl_inner_radius + m.pcl_outer_radius)
+
+
+@weights.helper(default=NOTHING)
+def thermistor_seat_moments(m: Module) -> Section:
+    """Volume of the thermistor's seat in the floor, half of it beside the pocket, and its polar moment.
+
+    The end of a pocket points to the axis, so either half of the hole has half of its polar moment.
+    """
+    whole = disc_at(0.5 * m.thermistor_seat_diameter, m.thermistor_seat_radius)
+    return stacked((whole.times(0.5), m.pad_depth), (whole, m.floor_web))
+
+
+@weights.output("mm^3")
+def thermistor_volume(m: Module) -> Scalar:
+    """Volume of all thermistor beads together; zero without."""
+    return m.thermistor_count * 0.25 * np.pi * m.thermistor_diameter**2 * m.thermistor_length
+
+
+@rules.output(
+    "mm",
+    at_least(0.0, "the thermistor's seat leaves too thin a web to the window: a smaller bead, or a wider window_ledge"),
+)
+def thermistor_window_gap(m: Module) -> Scalar:
+    """Web between the thermistor's seat and the window below the pad, beyond the least wall where there is a seat."""
+    ledge = m.thermistor_seat_radius * np.sin((m.window_ledge + m.slip_clearance) / m.pcl_inner_radius)
+    wall = np.fmin(m.hole_wall, m.thermistor_seat_diameter)
+    return np.fmax(ledge, wall) - wall - 0.5 * m.thermistor_seat_diameter
+
+
+@rules.output(
+    "mm", at_least(0.0, "the thermistor's seat leaves too thin a web to the next arc: a smaller bead, or shorter arcs")
+)
+def thermistor_arc_gap(m: Module) -> Scalar:
+    """Web between the thermistor's seat and the next arc's pocket, beyond the least wall where there is a seat."""
+    to_next = m.thermistor_seat_radius * np.sin(np.fmin(2.0 * np.pi / m.arc_count - m.pocket_span, 0.5 * np.pi))
+    wall = np.fmin(m.hole_wall, m.thermistor_seat_diameter)
+    return np.fmax(to_next, wall) - wall - 0.5 * m.thermistor_seat_diameter

@@ -1,1 +1,0 @@
-"""Measurements of joints and springs: torque over angle, swings, sines, and where a frozen joint gives."""
