@@ -84,7 +84,7 @@ def _numbers(study: str) -> dict[str, str]:
     [
         pytest.param("elbow_printed", "| elbow to order", 2, marks=pytest.mark.slow),
         ("paper_as_published", "| | paper |", 2),
-        ("paper_shear", "| | paper |", 3),
+        pytest.param("paper_shear", "| | paper |", 3, marks=pytest.mark.gate),
     ],
 )
 def test_the_tables_in_the_readme_are_the_results(study: str, head: str, column: int) -> None:
@@ -106,7 +106,12 @@ def test_every_start_of_the_readme_s_study_converges() -> None:
 
 
 @pytest.mark.parametrize(
-    "left_out", [{"simulate", "fit", "paper-check"}, pytest.param(set(), marks=pytest.mark.slow)], ids=["quick", "all"]
+    "left_out",
+    [
+        pytest.param({"simulate", "fit", "paper-check"}, marks=pytest.mark.gate),
+        pytest.param(set(), marks=pytest.mark.slow),
+    ],
+    ids=["quick", "all"],
 )
 def test_the_commands_in_the_readme_work(tvimdesign: Command, tmp_path: Path, left_out: set[str]) -> None:
     lines = [line.split("#")[0] for line in _blocks("sh")[2].splitlines()]

@@ -25,6 +25,7 @@ module:
   response_criterion: softening
   current: 1.5 A
   stroke: 0.104 rad
+  pin_diameter: 5 mm
 vary:
   wire_diameter: [2 mm, 3 mm]
   pcl_outer_radius: [32 mm, 42 mm]

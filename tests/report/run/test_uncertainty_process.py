@@ -25,7 +25,7 @@ require: {spring_stiffness: [">= 5.3 N.m/rad", "<= 6 N.m/rad"]}
 @pytest.mark.parametrize(
     ("code", "reason"),
     [
-        ("while True: pass", "it was stopped after 0.2 s of processor time"),
+        ("input(), input()\nwhile True: pass", "it was stopped after 0.2 s of processor time"),
         ("import os; os._exit(7)", "its process ended with code 7"),
         ('print(\'{"error": "no start"}\')', "no start"),
     ],

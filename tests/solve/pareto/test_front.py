@@ -248,7 +248,7 @@ def test_a_front_whose_ends_fail_has_what_was_found_and_says_so(
 def test_outputs_that_do_not_conflict_are_one_point_and_said_to_be() -> None:
     # A smaller rotor is both lighter and smaller, and there is nothing else to choose.
     text = COARSE.replace("  wire_diameter: [2 mm, 3 mm]\n", "").replace("  pcl_thickness: [0.6 mm, 2 mm]\n", "")
-    text = text.replace("module:\n", "module:\n  wire_diameter: 2.9 mm\n  pin_diameter: 5 mm\n")
+    text = text.replace("module:\n", "module:\n  wire_diameter: 2.9 mm\n")
     front = trace_front(Solved(text).trade(), (MASS, SIZE), 5)
     assert len(front.points) == 1
     assert "do not conflict" in front.notes[0]
