@@ -24,6 +24,7 @@ from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
+from tvimdesign.cad.export.script import module_script
 from tvimdesign.cad.export.step_file import Product, product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
@@ -82,6 +83,7 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True),
         Work(name="spring_sheet", do=_spring_sheet, named=True),
+        Work(name="script", do=_script, named=True),
         Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True),
     ]
 
@@ -208,6 +210,12 @@ def _spring_sheet(job: Job) -> list[SolidCheck]:
     lines = spring_lines(job.design, job.dims, job.titles)
     _write(job.folder, file_names.SPRING_TABLE, spring_csv(lines))
     _write(job.folder, file_names.SPRING_SHEET, spring_sheet(job.design, job.dims, lines).pdf())
+    return []
+
+
+def _script(job: Job) -> list[SolidCheck]:
+    """Make the script that draws the parts with CadQuery alone."""
+    _write(job.folder, file_names.MODULE_SCRIPT, module_script(job.design, job.dims))
     return []
 
 
