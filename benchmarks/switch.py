@@ -34,7 +34,7 @@ from tvimdesign.study import given, read_study
 
 Array = NDArray[np.float64]
 EVENTS = ("near_face_time", "mean_time", "far_face_time", "softening_time")
-STUDY = Path(__file__).resolve().parents[1] / "studies/paper_as_published.yaml"
+STUDY = Path(__file__).resolve().parents[1] / "studies/paper_reconstructed.yaml"
 LADDER = [10.0 ** (-0.5 * k) for k in range(4, 25)]  # relative tolerances from 1e-2 to 1e-12
 
 

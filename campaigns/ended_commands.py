@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-_STUDY = str(ROOT / "studies/paper_as_published.yaml")
+_STUDY = str(ROOT / "studies/paper_reconstructed.yaml")
 SMALL = ROOT / "campaigns/small.yaml"
 _FRONT = ["--set", "front={of: [response_time, peak_power], points: 4}", "--no-cad", "--no-plots"]
 _LISTED = ["--set", "vary.pcl_thickness={from: 0.6 mm, to: 2 mm, step: 0.04 mm}", "--set", "solver.alternatives=2"]

@@ -22,7 +22,7 @@ from pathlib import Path
 from kills import whole
 
 ROOT = Path(__file__).resolve().parents[1]
-STUDY = ROOT / "studies/paper_as_published.yaml"
+STUDY = ROOT / "studies/paper_reconstructed.yaml"
 MEGABYTE = 1 << 20
 Limit = tuple[int, int]
 """A limit of the kernel's and its value."""

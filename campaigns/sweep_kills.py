@@ -24,7 +24,7 @@ from tvimdesign.base.processes import end_process_tree
 
 ROOT = Path(__file__).resolve().parents[1]
 SWEEP = [
-    "sweep", str(ROOT / "studies/paper_as_published.yaml"), "--no-plots", "--set",
+    "sweep", str(ROOT / "studies/paper_reconstructed.yaml"), "--no-plots", "--set",
     "sweep={over: {pcl_thickness: {from: 0.6 mm, to: 2 mm, count: 12}, wire_diameter: [2 mm, 2.4 mm]}}",
 ]  # fmt: skip
 TABLES = ("cells.csv", "cells.sqlite")

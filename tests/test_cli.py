@@ -294,7 +294,7 @@ def test_a_module_that_never_stiffens_is_said_so_and_leaves_a_whole_folder(tvimd
 
 @pytest.mark.gate
 def test_results_are_not_replaced_without_being_asked(tvimdesign: Command, tmp_path: Path) -> None:
-    study, out = "studies/paper_as_published.yaml", tmp_path / "out"
+    study, out = "studies/paper_reconstructed.yaml", tmp_path / "out"
     first = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out)
     assert first.returncode == 0, first.stderr
     again = tvimdesign("run", study, "--no-cad", "--no-plots", "--out", out)
@@ -328,7 +328,7 @@ def test_an_interrupt_ends_with_its_code_and_a_reusable_folder(
     assert "interrupted" in said
     assert "Traceback" not in said
     assert json.loads((out / "manifest.json").read_text())["status"] == "interrupted"
-    again = tvimdesign("run", "studies/paper_as_published.yaml", "--no-cad", "--no-plots", "--out", out, "--overwrite")
+    again = tvimdesign("run", "studies/paper_reconstructed.yaml", "--no-cad", "--no-plots", "--out", out, "--overwrite")
     assert again.returncode == 0, again.stderr
 
 
@@ -337,7 +337,7 @@ def test_cad_refuses_what_is_no_design(tvimdesign: Command, process: Command, tm
     (tmp_path / "zero.json").symlink_to("/dev/zero")
     (tmp_path / "folder.json").mkdir()
     (tmp_path / "text.json").write_text("not JSON")
-    released = design_json(shipped_design("paper_as_published")).decode()
+    released = design_json(shipped_design("paper_reconstructed")).decode()
     (tmp_path / "mode.json").write_text(released.replace('"mode": "shear"', '"mode": "bending"'))
     (tmp_path / "huge.json").write_text(released.replace('"wire_diameter": 0.00', '"wire_diameter": 1.00', 1))
     for name in ("pipe", "zero", "folder", "text", "mode", "huge"):

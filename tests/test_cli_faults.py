@@ -53,7 +53,7 @@ def test_output_that_cannot_be_written_is_one_line(words: list[str], unbuffered:
 def test_a_file_that_cannot_be_written_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = run_process(
-        [sys.executable, "-m", "tvimdesign", "run", "studies/paper_as_published.yaml", "--no-cad", "--no-plots",
+        [sys.executable, "-m", "tvimdesign", "run", "studies/paper_reconstructed.yaml", "--no-cad", "--no-plots",
          "--out", str(out)],
         text=True, cwd=ROOT, env=environment(),
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),

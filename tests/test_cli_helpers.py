@@ -44,8 +44,8 @@ def test_commands_that_read_a_study_take_settings_and_name_their_place(
 
 @pytest.mark.gate
 def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Command, tmp_path: Path) -> None:
-    done = tvimdesign("run", "studies/paper_as_published.yaml", "--set", "wire_diameter=2 mm", "--no-cad", "--no-plots",
-                      "--json", "--out", tmp_path / "out")  # fmt: skip
+    study, out = "studies/paper_reconstructed.yaml", tmp_path / "out"
+    done = tvimdesign("run", study, "--set", "wire_diameter=2 mm", "--no-cad", "--no-plots", "--json", "--out", out)
     assert done.returncode == 0, done.stderr
     assert (
         json.loads(done.stdout)["values"]["wire_diameter"] | {"value": 2.0, "unit": "mm"}
@@ -58,7 +58,7 @@ def test_a_setting_changes_the_run_and_the_study_that_is_kept(tvimdesign: Comman
 
 @pytest.mark.gate
 def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign: Command, tmp_path: Path) -> None:
-    source = ROOT / "studies/paper_as_published.yaml"
+    source = ROOT / "studies/paper_reconstructed.yaml"
     assert tvimdesign("run", source, "--no-cad", "--no-plots", "--out", tmp_path / "out").returncode == 0
     assert (tmp_path / "out/study.yaml").read_bytes() == source.read_bytes()
 
@@ -66,7 +66,7 @@ def test_a_study_that_is_not_changed_is_kept_as_it_was_written(tvimdesign: Comma
 @pytest.mark.slow
 def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -> None:
     def tested(name: str, *settings: str) -> list[float]:
-        done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "step", *settings, "--json",
+        done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "step", *settings, "--json",
                           "--out", tmp_path / name)  # fmt: skip
         assert done.returncode == 0, done.stderr
         return [found["value"] for found in json.loads(done.stdout)["findings"] if "value" in found]
@@ -76,7 +76,7 @@ def test_a_setting_changes_what_is_tested(tvimdesign: Command, tmp_path: Path) -
 
 
 def test_a_design_takes_no_settings(tvimdesign: Command, tmp_path: Path) -> None:
-    design = write_design(shipped_design("paper_as_published"), tmp_path / "design.json")
+    design = write_design(shipped_design("paper_reconstructed"), tmp_path / "design.json")
     done = tvimdesign("simulate", design, "--test", "creep", "--set", "current=1 A", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert f"--set current=1 A: {design} is a design, which is finished" in done.stderr

@@ -83,7 +83,7 @@ def _numbers(study: str) -> dict[str, str]:
     ("study", "head", "column"),
     [
         pytest.param("elbow_printed", "| elbow to order", 2, marks=pytest.mark.slow),
-        ("paper_as_published", "| | paper |", 2),
+        ("paper_reconstructed", "| | paper |", 2),
         pytest.param("paper_shear", "| | paper |", 3, marks=pytest.mark.gate),
     ],
 )

@@ -16,7 +16,7 @@ from tvimdesign.simulation.measurement.measure_files import kind_sheet
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
-STUDY = Path(__file__).parents[2] / "studies" / "paper_as_published.yaml"
+STUDY = Path(__file__).parents[2] / "studies" / "paper_reconstructed.yaml"
 LOGGED = {"rotor_contact": 2000.0, "rotor_coefficient": 8.0, "cold_side_coefficient": 12.0}
 AIR = {"ambient_temperature": 295.0}
 

@@ -21,7 +21,7 @@ CORPUS = CODE / "campaigns/corpus/fits"
 MEASUREMENTS = FOLDER / "measurements.json"
 """Content by name, decoded as Latin-1, of files that the tests write, and of a log, of which there is no sample."""
 _LOGGED = {
-    "study": str(CODE / "studies/paper_as_published.yaml"),
+    "study": str(CODE / "studies/paper_reconstructed.yaml"),
     "fitted": "rotor_contact rotor_coefficient cold_side_coefficient",
 }
 _WORDING = {"notes", "words", "misfit", "read", "files", "meaning", "format", "tvimdesign", "units"}

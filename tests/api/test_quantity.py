@@ -71,7 +71,7 @@ def test_the_import_loads_no_library() -> None:
 
 @pytest.mark.gate
 def test_a_run_from_python_waits_for_pandas_until_a_table_is_asked_for() -> None:
-    found = loaded_by("import tvimdesign as t; r = t.example('paper_as_published').evaluate(progress=False)")
+    found = loaded_by("import tvimdesign as t; r = t.example('paper_reconstructed').evaluate(progress=False)")
     assert not {"pandas", "matplotlib"} & set(found)  # scipy is loaded by numba, which runs the engine
 
 

@@ -126,7 +126,7 @@ def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) ->
 
 @pytest.mark.gate
 def test_a_changed_study_is_saved_as_it_is_now(tmp_path: Path) -> None:
-    result = tvim.example("paper_as_published").set(pcl_thickness="1.3 mm").evaluate(progress=False)
+    result = tvim.example("paper_reconstructed").set(pcl_thickness="1.3 mm").evaluate(progress=False)
     folder = result.save(tmp_path / "x", plots=False)
     assert tvim.load(folder / "study.yaml").resolved.module["pcl_thickness"] == pytest.approx(1.3e-3)
     assert not list(tmp_path.glob("*.json"))
@@ -186,5 +186,5 @@ def test_parts_are_made(result: tvim.Result, tmp_path: Path) -> None:
 
 
 def test_the_paper_s_module_is_within_reach_of_two_lines() -> None:
-    result = tvim.load(ROOT / "studies/paper_as_published.yaml").evaluate(progress=False)
+    result = tvim.load(ROOT / "studies/paper_reconstructed.yaml").evaluate(progress=False)
     assert result["spring_stiffness"].to("N*m/rad").value == pytest.approx(5.6, rel=0.02)  # the paper's Table I

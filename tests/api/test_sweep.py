@@ -26,7 +26,7 @@ def optimised(study: tvim.Study) -> tvim.Sweep[tvim.Study]:
 
 @pytest.fixture(scope="module")
 def grid() -> tvim.Sweep[tvim.Study]:
-    return tvim.example("paper_as_published").sweep(EVALUATED, progress=False)
+    return tvim.example("paper_reconstructed").sweep(EVALUATED, progress=False)
 
 
 @pytest.mark.slow
@@ -58,7 +58,7 @@ def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Swe
     assert table[["coil_count", "wire_diameter"]].to_numpy().tolist() == [
         [pytest.approx(n), pytest.approx(d)] for n in (3.0, 3.5) for d in (2.0, 2.4)
     ]
-    alone = tvim.example("paper_as_published").set(coil_count=3.5, wire_diameter="2.4 mm").evaluate(progress=False)
+    alone = tvim.example("paper_reconstructed").set(coil_count=3.5, wire_diameter="2.4 mm").evaluate(progress=False)
     assert table.spring_stiffness[3] == pytest.approx(alone["spring_stiffness"].value, rel=1e-12)
     assert grid.warm_solves == 0
     table = grid.table("spring_stiffness")
@@ -70,7 +70,7 @@ def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Swe
 
 
 def test_a_cell_without_a_design_says_why_and_the_others_are_kept() -> None:
-    study = tvim.example("paper_as_published")
+    study = tvim.example("paper_reconstructed")
     sweep = study.sweep(pcl_inner_radius=["20 mm", "70 mm"], progress=False)
     table = sweep.table("module_mass")
     assert table.status[0] == "evaluated"
@@ -119,7 +119,7 @@ def test_a_figure_has_a_line_for_each_value_of_the_second_axis(grid: tvim.Sweep[
 
 
 def test_the_study_s_section_is_swept_and_samples_lie_between_its_ends() -> None:
-    study = tvim.example("paper_as_published")
+    study = tvim.example("paper_reconstructed")
     own = study.set({"sweep.over": {"wire_diameter": {"from": "2 mm", "to": "2.4 mm"}}})
     sweep = own.sweep(method="latin_hypercube", count=4, seed=3, progress=False)
     wires = sorted(sweep.table("module_mass").wire_diameter)
@@ -129,7 +129,7 @@ def test_the_study_s_section_is_swept_and_samples_lie_between_its_ends() -> None
 
 @pytest.mark.gate
 def test_workers_and_a_folder_give_the_table_of_this_process(grid: tvim.Sweep[tvim.Study], tmp_path: Path) -> None:
-    study = tvim.example("paper_as_published")
+    study = tvim.example("paper_reconstructed")
     outputs = ["spring_stiffness"]
     kept = study.sweep(EVALUATED, outputs=outputs, out=tmp_path / "sweep", workers=2, progress=False)
     names = ("module_mass", "spring_stiffness")
@@ -161,11 +161,11 @@ def notebook(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 def test_a_notebook_s_line_is_empty_in_the_end_and_where_not_wanted(notebook: list[str]) -> None:
     assert in_notebook()
-    tvim.example("paper_as_published").evaluate()
+    tvim.example("paper_reconstructed").evaluate()
     assert "... simulating one working cycle" in notebook
     assert notebook[-1] == ""
     notebook.clear()
-    tvim.example("paper_as_published").evaluate(progress=False)
+    tvim.example("paper_reconstructed").evaluate(progress=False)
     assert notebook == []
 
 
@@ -181,7 +181,7 @@ def test_the_line_is_emptied_after_an_error_too(notebook: list[str]) -> None:
 
 
 def test_a_pipe_and_a_thread_see_nothing(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    study = tvim.example("paper_as_published")
+    study = tvim.example("paper_reconstructed")
     with shown_progress(True) as say:
         say("working")
     assert capfd.readouterr() == ("", "")

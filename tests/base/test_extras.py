@@ -24,7 +24,7 @@ def without_cad(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.slow
 @pytest.mark.usefixtures("without_cad")
 def test_a_run_without_cad_says_so_and_does_the_rest(tvimdesign: Command, tmp_path: Path) -> None:
-    study = ROOT / "studies/paper_as_published.yaml"
+    study = ROOT / "studies/paper_reconstructed.yaml"
     done = tvimdesign("run", study, "--no-plots", "--out", tmp_path / "run")
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("No parts: cadquery is not installed: pip install 'tvimdesign[cad]'") == 1

@@ -8,7 +8,7 @@ from tvimdesign.report.robot.joint_model import JointModel, RigidBody, joint_mod
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 
-STUDY = {"shear": "paper_as_published", "compression": "paper_compression"}
+STUDY = {"shear": "paper_reconstructed", "compression": "paper_compression"}
 
 
 @cache

@@ -56,7 +56,7 @@ def test_findings_are_numbers_in_their_unit_and_intervals_have_no_value() -> Non
 
 def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Command, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "frequency", "--out", out)
+    done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequency", "--out", out)
     assert done.returncode == 0, done.stderr
     files = {path.name for path in out.iterdir()}
     sheets = {f"frequency_{point}.csv" for point in ("30_degC", "60_degC", "100_degC")} | {"simple_bodies.csv"}
@@ -79,13 +79,13 @@ def test_a_test_leaves_a_whole_folder_and_says_what_it_read_off(tvimdesign: Comm
     assert picture.shape[0] > 500
     assert np.std(picture[..., :3]) > 0.05
 
-    again = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "frequency", "--out", out)
+    again = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequency", "--out", out)
     assert again.returncode == 2
     assert "--overwrite" in again.stderr
 
 
 def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
-    done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "amplitude", "--json", "--out",
+    done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "amplitude", "--json", "--out",
                       tmp_path / "out")  # fmt: skip
     assert done.returncode == 0, done.stderr
     reported = json.loads(done.stdout)
@@ -95,7 +95,7 @@ def test_scripts_get_json(tvimdesign: Command, tmp_path: Path) -> None:
 
 
 def test_an_unknown_test_leaves_no_folder(tvimdesign: Command, tmp_path: Path) -> None:
-    done = tvimdesign("simulate", "studies/paper_as_published.yaml", "--test", "frequence", "--out", tmp_path / "out")
+    done = tvimdesign("simulate", "studies/paper_reconstructed.yaml", "--test", "frequence", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "did you mean frequency?" in done.stderr
     assert not (tmp_path / "out").exists()

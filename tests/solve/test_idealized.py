@@ -19,7 +19,7 @@ TABLE = table_for("shear")
 
 @pytest.fixture(scope="module")
 def published() -> StudyResult:
-    return shipped_answer("paper_as_published")
+    return shipped_answer("paper_reconstructed")
 
 
 @pytest.mark.gate

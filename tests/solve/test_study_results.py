@@ -80,7 +80,7 @@ def test_an_account_lists_every_start_whatever_time_it_took() -> None:
 
 @pytest.mark.gate
 def test_a_design_is_handed_on_before_the_rest_is_computed(monkeypatch: pytest.MonkeyPatch) -> None:
-    study = Study.model_validate(shipped_answer("paper_as_published").design.study)
+    study = Study.model_validate(shipped_answer("paper_reconstructed").design.study)
     order: list[Any] = []
     histories = result._histories
     monkeypatch.setattr(result, "_histories", lambda *of: order.append("histories") or histories(*of))

@@ -20,7 +20,7 @@ STUDIES = Path(__file__).parents[3] / "studies"
 
 
 @pytest.fixture(
-    scope="module", params=["paper_as_published", pytest.param("calibrated_compression", marks=pytest.mark.slow)]
+    scope="module", params=["paper_reconstructed", pytest.param("calibrated_compression", marks=pytest.mark.slow)]
 )
 def resolved(request: pytest.FixtureRequest) -> ResolvedModule:
     study = read_study(STUDIES / f"{request.param}.yaml")

@@ -85,7 +85,7 @@ def test_a_drawing_process_that_fails_says_why(
 
 def test_a_result_that_is_saved_without_plots_warns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     _draws_by(BURNS, tmp_path, monkeypatch)
-    result = tvim.example("paper_as_published").evaluate(progress=False)
+    result = tvim.example("paper_reconstructed").evaluate(progress=False)
     with pytest.warns(UserWarning, match=r"0\.2 s of processor time.*save again with overwrite=True"):
         result.save(tmp_path / "out")
     assert {"report.html", "design.json", "results.json"} <= {path.name for path in (tmp_path / "out").iterdir()}

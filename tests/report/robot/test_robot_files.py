@@ -30,7 +30,7 @@ PAGE = ROOT / "docs/how-to/robot.md"
 def folder(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     """The joint of the paper's module, and what was told of it."""
     place = tmp_path_factory.mktemp("robot")
-    design = write_design(shipped_answer("paper_as_published").design, place / "design.json")
+    design = write_design(shipped_answer("paper_reconstructed").design, place / "design.json")
     done = tvimdesign("robot", design, "--timestep", "0.1 ms", "--out", place / "robot", "--json")
     assert done.returncode == 0, done.stderr
     return place / "robot", json.loads(done.stdout)
@@ -40,7 +40,7 @@ def folder(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tup
 def test_the_folder_of_a_design_is_loaded_by_its_clients(folder: tuple[Path, dict[str, Any]]) -> None:
     place, told = folder
     assert told["time_step"] == pytest.approx(1e-4)
-    expected = shipped_answer("paper_as_published").design.value("load_inertia")
+    expected = shipped_answer("paper_reconstructed").design.value("load_inertia")
     assert told["load_inertia"] == pytest.approx(expected, rel=1e-4)
     for state in told["states"].values():
         scene, tree = (place / name for name in state["files"])

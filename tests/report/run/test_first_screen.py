@@ -93,7 +93,7 @@ def case(asked: str) -> AnsweredStudy:
     study = study.model_copy(update={"name": f"A {name} study"}) if name in texts else study
     if name in ("wrist_joint", "paper_compression"):
         study = drawn(study)
-    found = shipped_answer(name) if name in ("paper_shear", "paper_as_published") else answer(study)
+    found = shipped_answer(name) if name in ("paper_shear", "paper_reconstructed") else answer(study)
     data = Uncertainty(study).data(found.design, 256) if name == asked else {}
     reported: Any = {"doubts": record_checks(study)}
     front: Any = SimpleNamespace(front=None)
@@ -104,7 +104,7 @@ def case(asked: str) -> AnsweredStudy:
 CASES = [
     "paper_shear",
     *(pytest.param(name, marks=pytest.mark.slow)
-      for name in ("paper_as_published", "paper_compression", "wrist_joint", "choices", "many")),
+      for name in ("paper_reconstructed", "paper_compression", "wrist_joint", "choices", "many")),
 ]  # fmt: skip
 each = pytest.mark.parametrize("name", [*CASES, "choices alone", "many alone"])
 """With ranges, and two without them, which take longer than the answer."""
@@ -268,7 +268,7 @@ def test_a_run_prints_the_screen_and_keeps_every_table_in_its_folder(whole_run: 
 
 @pytest.mark.gate
 def test_every_table_is_printed_where_that_is_asked(tvimdesign: Command, tmp_path: Path) -> None:
-    study = ROOT / "studies/paper_as_published.yaml"
+    study = ROOT / "studies/paper_reconstructed.yaml"
     full = tvimdesign("run", study, "--no-cad", "--no-plots", "--full", "--out", tmp_path / "out").stdout
     assert all(table in full for table in TABLES[:2])  # the third is of the yield's run
     assert len(full.splitlines()) > LINES
@@ -277,7 +277,7 @@ def test_every_table_is_printed_where_that_is_asked(tvimdesign: Command, tmp_pat
 @pytest.mark.slow
 def test_the_same_study_leaves_the_same_tables_whatever_is_printed(tvimdesign: Command, tmp_path: Path) -> None:
     """What a run took is in its manifest alone."""
-    study = ROOT / "studies/paper_as_published.yaml"
+    study = ROOT / "studies/paper_reconstructed.yaml"
     done = {}
     for name, more in (("short", []), ("full", ["--full"])):
         done[name] = tvimdesign("run", study, "--no-cad", "--no-plots", *more, "--out", tmp_path / name, spread="on")

@@ -61,7 +61,7 @@ def test_what_is_to_be_written_is_read_without_a_complaint(tmp_path: Path, mode:
 @cache
 def _published(extra: str = "") -> StudyResult:
     """The published module, without what its study accepts."""
-    text = re.sub(r"^accept:.*?\n\n", "", (ROOT / "studies/paper_as_published.yaml").read_text(), flags=re.M | re.S)
+    text = re.sub(r"^accept:.*?\n\n", "", (ROOT / "studies/paper_reconstructed.yaml").read_text(), flags=re.M | re.S)
     study = read_study_text(text.replace("module:\n", f"module:\n{extra}", 1), "a test")
     return answer(study)
 

@@ -16,11 +16,11 @@ from tvimdesign.report.verify import comparison, verify_design, verify_report
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
-MODULE = resolve_study(read_study(ROOT / "studies/paper_as_published.yaml"))
-JOINT = yaml.safe_load((ROOT / "validation/fe_structure/shipped.yaml").read_text())["paper_as_published"]["found"]
-LINK = yaml.safe_load((ROOT / "validation/fe_link/results.yaml").read_text())["paper_as_published_dowelled"]["link"]
+MODULE = resolve_study(read_study(ROOT / "studies/paper_reconstructed.yaml"))
+JOINT = yaml.safe_load((ROOT / "validation/fe_structure/shipped.yaml").read_text())["paper_reconstructed"]["found"]
+LINK = yaml.safe_load((ROOT / "validation/fe_link/results.yaml").read_text())["paper_reconstructed_dowelled"]["link"]
 with (ROOT / "validation/fe_structure/results.csv").open(newline="") as _file:
-    KEPT = {row["quantity"]: row for row in csv.DictReader(_file) if row["study"] == "paper_as_published"}
+    KEPT = {row["quantity"]: row for row in csv.DictReader(_file) if row["study"] == "paper_reconstructed"}
 
 TIMES = {"softening_time": math.inf, "mean_time": 55.0, "far_face_time": 80.0}
 

@@ -8,7 +8,7 @@ from tvimdesign.report.verify.warm_joint import WarmJoint, softening_time
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 
-NAMES = ("paper_as_published", "paper_compression")
+NAMES = ("paper_reconstructed", "paper_compression")
 
 
 def joint_of(name: str) -> WarmJoint:

@@ -17,7 +17,7 @@ from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study, read_study_text
 
-STUDY = Path(__file__).parents[3] / "studies" / "paper_as_published.yaml"
+STUDY = Path(__file__).parents[3] / "studies" / "paper_reconstructed.yaml"
 POINTS = ("cold", "melting", "hot")
 
 

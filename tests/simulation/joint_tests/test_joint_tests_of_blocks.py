@@ -186,7 +186,7 @@ def test_answer_of_a_study_holds_what_the_swing_shows(resolved: ResolvedModule) 
 
 
 def test_bonded_layer_loses_no_contact_and_has_no_backlash() -> None:
-    study = read_study(ROOT / "studies" / "paper_as_published.yaml")
+    study = read_study(ROOT / "studies" / "paper_reconstructed.yaml")
     shear = resolve_study(study)
     assert all(ends == (0.0, 0.0, 0.0) for ends in contact_seen(shear).values())
     release = release_test.release(shear)

@@ -24,7 +24,7 @@ def module(name: str) -> ResolvedModule:
 
 @pytest.fixture(scope="module")
 def shear() -> ResolvedModule:
-    return module("paper_as_published")
+    return module("paper_reconstructed")
 
 
 def value(trial: Trial, name: str) -> float:

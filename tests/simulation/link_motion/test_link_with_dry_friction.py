@@ -131,7 +131,7 @@ def test_a_frozen_joint_creeps_without_inertia_on_the_edge_of_the_friction() -> 
 
 @pytest.mark.slow
 def test_the_release_of_the_published_module_shows_its_hysteresis() -> None:
-    study = read_study(Path(__file__).parents[3] / "studies" / "paper_as_published.yaml")
+    study = read_study(Path(__file__).parents[3] / "studies" / "paper_reconstructed.yaml")
     resolved = resolve_study(study)
     trial = release_test.release(resolved, kelvin_voigt=False)
     friction = resolved.quantity("pin_friction_torque")

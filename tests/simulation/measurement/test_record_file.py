@@ -31,7 +31,7 @@ def pad_file(place: Path) -> Path:
 
 
 def joint(place: Path, **module: str) -> tvim.Study:
-    return tvim.example("paper_as_published").set({"catalog": str(place / "my_records"), **module})
+    return tvim.example("paper_reconstructed").set({"catalog": str(place / "my_records"), **module})
 
 
 def ranges(study: tvim.Study) -> dict[str, UnmeasuredInput]:

@@ -26,7 +26,7 @@ OPTIMUM_OF_THAT_DAY = {
 
 @pytest.mark.parametrize(
     ("study", "sizes"),
-    [("paper_shear", OPTIMUM_OF_THAT_DAY), ("paper_as_published", {})],
+    [("paper_shear", OPTIMUM_OF_THAT_DAY), ("paper_reconstructed", {})],
     ids=["optimum", "published"],
 )
 def test_the_plane_stays_at_the_target_by_the_product_s_current(study: str, sizes: dict[str, Any]) -> None:

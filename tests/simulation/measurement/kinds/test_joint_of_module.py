@@ -18,7 +18,7 @@ from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, 
 from tvimdesign.solve.uncertainty.uncertain_inputs import unmeasured_inputs
 from tvimdesign.study import read_study
 
-STUDY = ROOT / "studies" / "paper_as_published.yaml"
+STUDY = ROOT / "studies" / "paper_reconstructed.yaml"
 INERTIA = 4.3e-4
 SIZE = 0.05
 

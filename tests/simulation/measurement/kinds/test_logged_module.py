@@ -21,7 +21,7 @@ from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 
-STUDY = ROOT / "studies" / "paper_as_published.yaml"
+STUDY = ROOT / "studies" / "paper_reconstructed.yaml"
 MADE = {"rotor_contact": 2500.0, "rotor_coefficient": 9.0}
 HEATED, COOLED, EVERY = 240.0, 480.0, 5.0
 
