@@ -266,10 +266,9 @@ def recorder_as_kernel(recorder: Any) -> Kernel:
 def _numbers(mode: str, read: Mapping[str, float]) -> list[str]:
     """Return a line for each number, with its description where the table has one."""
     table = table_for(mode)
-    about = {row.name: row.description for row in (*table.inputs, *table.outputs)}
-    return [
-        f"{name} = {_literal(value)}" + (f"  # {about[name]}" if name in about else "") for name, value in read.items()
-    ]
+    about = {row.name: f"  # {row.description}" for row in table.inputs}
+    about |= {row.name: f"  # {row.description}" for row in table.outputs}
+    return [f"{name} = {_literal(value)}{about.get(name, '')}" for name, value in read.items()]
 
 
 def _function(kind: str, lines: Sequence[str], result: str) -> str:
