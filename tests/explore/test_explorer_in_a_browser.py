@@ -219,7 +219,7 @@ def test_an_infeasible_study_shows_the_nearest_design(explorer: Explorer) -> Non
     field.press("Enter")
     explorer.answered(number, "exact")
     assert "no feasible design found" in page.locator("#status").inner_text()
-    explorer.knob("peak_power <=").locator(".stands").filter(has_text="broken").wait_for()
+    explorer.knob("peak_power <=").locator(".stands").filter(has_text="violated").wait_for()
     assert page.locator("#limits tr.broken").count() >= 1
 
 

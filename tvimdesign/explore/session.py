@@ -21,6 +21,7 @@ from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.source import Source, open_source
 from tvimdesign.explore.states.state import Pinned, State, changed, controls_shown, saved_text, tree_of
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
+from tvimdesign.report.output.axis_labels import label
 from tvimdesign.study import Study, read_tree
 
 QUIET = 0.35
@@ -262,5 +263,11 @@ class Session:
 
 def _quantity(study: Study, name: str) -> dict[str, Any]:
     row = study.table.output(name.partition("@")[0])
-    return {"name": name, "unit": pretty(study.table.unit(name)), "means": row.description, "group": row.group,
-            "headline": row.headline}  # fmt: skip
+    return {
+        "name": name,
+        "label": label(name),
+        "unit": pretty(study.table.unit(name)),
+        "means": row.description,
+        "group": row.group,
+        "headline": row.headline,
+    }

@@ -8,6 +8,7 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
+from tvimdesign.report.output.axis_labels import in_labels, label
 from tvimdesign.report.output.tables import NOTHING, margin_text, number
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept
@@ -77,16 +78,26 @@ def _limit(limit: Constraint, value: float, table: Table, stands: str) -> Shown:
     unit = table.unit(limit.output)
     got = value if abs(margin) > _ROUNDING else limit.limit
     return {
-        "name": limit.name, "of": limit.part_of or limit.output, "sense": limit.sense, "text": check.text,
-        "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(), "margin": margin_text(check, table),
-        "stands": stands, "origin": limit.origin,
-    }  # fmt: skip
+        "name": limit.name,
+        "label": label(limit.part_of or limit.output),
+        "of": limit.part_of or limit.output,
+        "sense": limit.sense,
+        "text": in_labels(check.text),
+        "got": f"{number(from_si(got, unit))} {pretty(unit)}".rstrip(),
+        "margin": margin_text(check, table),
+        "stands": stands,
+        "origin": limit.origin,
+    }
 
 
 def ratings_shown(study: Study, values: Mapping[str, float]) -> list[Shown]:
     """Ratings that the module is beyond."""
     return [
-        {"text": in_words(limit, study.table), "accepted": limit.output in study.accept}
+        {
+            "text": in_labels(in_words(limit, study.table)),
+            "label": label(limit.output),
+            "accepted": limit.output in study.accept,
+        }
         for limit in exceeded(values, study.table)
     ]
 

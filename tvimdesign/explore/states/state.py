@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from tvimdesign.base.errors import InputError, UnitError
 from tvimdesign.base.units import from_si, parse_quantity, pretty
 from tvimdesign.device import Choice, Input
 from tvimdesign.explore.states.messages import Change, SetLimits, SetRange, SetValue, Way
+from tvimdesign.report.output.axis_labels import label
 from tvimdesign.study import Options, Range, Study, given, read_tree
 from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import Mistakes
@@ -26,6 +28,8 @@ from tvimdesign.study.tree import StudyTree, node_of, tree_yaml, with_value
 
 SOURCE = "explore"
 """What messages call the place a change was made in."""
+DIGITS = 12
+"""Digits of a text to edit, in which an angle in degrees is the same angle again."""
 _OF_SEARCHES = ("robust", "profile")
 
 
@@ -170,7 +174,7 @@ def controls_shown(free: Study, fixed: Study, state: State) -> Shown:
     return {
         "variables": [_variable(name, free, state) for name in free.vary],
         "requirements": _requirements(free),
-        "weights": [{"name": name, "value": weight, "means": _means(free, name)}
+        "weights": [{"name": name, "label": label(name), "value": weight, "means": _means(free, name)}
                     for name, weight in free.minimize.items()],
         "choices": [_choice(row, fixed, values[row.name]) for row in free.table.choices if row.name not in free.vary],
         "inputs": _inputs(free, fixed, values),
@@ -179,13 +183,21 @@ def controls_shown(free: Study, fixed: Study, state: State) -> Shown:
 
 def _variable(name: str, free: Study, state: State) -> Shown:
     row, vary = free.table.quantity(name), free.vary[name]
-    shown: Shown = {"name": name, "means": row.description, "text": state.at[name]}
+    shown: Shown = {"name": name, "label": label(name), "means": row.description, "text": state.at[name]}
     if isinstance(vary, Options):
         return {**shown, "options": [text_of(free, name, value) for value in vary.values]}
     unit = free.table.unit(name)
     low, high = (from_si(end, unit) for end in (vary.lower, vary.upper))
+    with suppress(UnitError):  # a text that cannot be read is refused elsewhere, and shown as it is
+        shown |= _number(parse_quantity(state.at[name], unit), unit)
     return {**shown, "unit": pretty(unit), "low": low, "high": high, "low_text": exactly(vary.lower, unit),
             "high_text": exactly(vary.upper, unit)}  # fmt: skip
+
+
+def _number(value: float, unit: str) -> Shown:
+    """Return a value in its quantity's own unit, whichever unit it was written in: a number, and a text to edit."""
+    number = from_si(value, unit)
+    return {"value": number, "text": f"{number:.{DIGITS}g} {unit}".removesuffix(" 1")}
 
 
 def _requirements(free: Study) -> list[Shown]:
@@ -195,17 +207,32 @@ def _requirements(free: Study) -> list[Shown]:
     for limit in free.require:
         unit = free.table.unit(limit.output)
         place = seen[limit.output] = seen.get(limit.output, -1) + 1
-        controls.append({
-            "name": limit.output, "place": place, "sense": limit.sense, "value": from_si(limit.limit, unit),
-            "unit": pretty(unit), "text": exactly(limit.limit, unit), "means": _means(free, limit.output),
-        })  # fmt: skip
+        controls.append(
+            {
+                "name": limit.output,
+                "label": label(limit.output),
+                "place": place,
+                "sense": limit.sense,
+                "value": from_si(limit.limit, unit),
+                "unit": pretty(unit),
+                "text": exactly(limit.limit, unit),
+                "means": _means(free, limit.output),
+            }
+        )
     return controls
 
 
 def _choice(row: Choice, fixed: Study, value: Any) -> Shown:
     options = list(dict.fromkeys([*words_of(row), *(fixed.catalog.names(row.category) if row.category else [])]))
-    return {"name": row.name, "means": row.description, "text": str(getattr(value, "name", value)), "options": options,
-            "said": row.name in fixed.module}  # fmt: skip
+    return {
+        "name": row.name,
+        "label": label(row.name),
+        "means": row.description,
+        "group": row.group,
+        "text": str(getattr(value, "name", value)),
+        "options": options,
+        "said": row.name in fixed.module,
+    }
 
 
 def _inputs(free: Study, fixed: Study, values: Mapping[str, Any]) -> list[Shown]:
@@ -227,8 +254,8 @@ def _input(row: Input, name: str, value: float, fixed: Study) -> Shown:
         low, high = max(row.lower, value - 30.0), min(row.upper, value + 30.0)
     slides = math.isfinite(low) and math.isfinite(high) and low < high and not row.integer
     ends = {"low": from_si(low, unit), "high": from_si(high, unit)} if slides else {}
-    return {"name": name, "means": row.description, "group": row.group, "unit": pretty(unit), **ends,
-            "text": exactly(value, unit), "said": row.name in fixed.module or "@" in name}  # fmt: skip
+    return {"name": name, "label": label(name), "means": row.description, "group": row.group, "unit": pretty(unit),
+            **ends, **_number(value, unit), "said": row.name in fixed.module or "@" in name}  # fmt: skip
 
 
 def _means(study: Study, name: str) -> str:

@@ -2,7 +2,7 @@
 import { make } from "page/dom.js";
 import { choiceKnob, numberKnob, withUnit } from "explore/knob.js";
 
-const WORDS = { binds: "binds", broken: "broken", kept: "" };
+const WORDS = { binds: "binds", broken: "violated", kept: "" };
 
 /** Build the panel; `send` takes messages. */
 export function controlPanel(place, send) {
@@ -20,8 +20,8 @@ export function controlPanel(place, send) {
 
   function variable(one) {
     const asked = (text, final) => send({ kind: "set", name: one.name, text, final });
-    if (one.options) return keep(one.name, choiceKnob({ ...one, label: one.name }, asked));
-    const knob = numberKnob({ ...one, label: one.name }, asked);
+    if (one.options) return keep(one.name, choiceKnob(one, asked));
+    const knob = numberKnob(one, asked);
     if (state.way === "optimize") {
       const ends = ["low", "high"].map((end) => make("input", { type: "text", value: one[`${end}_text`], "aria-label": `${one.name}, ${end === "low" ? "least" : "largest"}` }));
       const ask = () => send({ kind: "range", name: one.name, low: ends[0].value, high: ends[1].value, final: true });
@@ -40,38 +40,47 @@ export function controlPanel(place, send) {
       send({ kind: "require", name: one.name, texts, final });
     };
     const size = Math.abs(one.value) || 1;
-    const knob = numberKnob({ ...one, label: `${one.name} ${one.sense}`, low: one.value - 0.5 * size, high: one.value + 0.5 * size, before: `${one.sense} ` }, asked);
+    const knob = numberKnob({ ...one, name: `${one.name} ${one.sense}`, low: one.value - 0.5 * size, high: one.value + 0.5 * size, before: `${one.sense} ` }, asked);
     return keep(`${one.name} ${one.sense}`, knob);
   }
 
-  function inputs() {
-    const rows = state.controls.inputs.map((one) => {
-      const row = keep(one.name, numberKnob({ ...one, label: one.name }, (text, final) => send({ kind: "set", name: one.name, text, final })));
-      row.dataset.words = `${one.name} ${one.means} ${one.group}`.toLowerCase();
-      return row;
-    });
-    const search = make("input", { type: "search", "aria-label": "Only inputs with" });
+  /** Choices and inputs in their groups, and a search that opens the groups with a match. */
+  function grouped(choices, inputs) {
+    const rows = new Map();
+    const add = ({ group, name, label, means }, row) => {
+      row.dataset.words = `${name} ${label} ${means} ${group}`.toLowerCase();
+      rows.set(group, [...(rows.get(group) ?? []), row]);
+    };
+    for (const one of choices) add(one, keep(one.name, choiceKnob(one, (text) => send({ kind: "set", name: one.name, text, final: true }))));
+    for (const one of inputs) add(one, keep(one.name, numberKnob(one, (text, final) => send({ kind: "set", name: one.name, text, final }))));
+    const groups = [...rows].sort(([a], [b]) => a.localeCompare(b)).map(([group, of]) => fieldset(group, of, false));
+    const search = make("input", { type: "search", placeholder: "name or meaning", "aria-label": "Search inputs and choices" });
     search.addEventListener("input", () => {
       const word = search.value.trim().toLowerCase();
-      for (const row of rows) row.hidden = !row.dataset.words.includes(word);
+      for (const group of groups) {
+        let shown = 0;
+        for (const row of group.querySelectorAll("[data-words]")) {
+          row.hidden = !row.dataset.words.includes(word);
+          if (!row.hidden) shown += 1;
+        }
+        group.hidden = !shown;
+        group.open = Boolean(word);
+      }
     });
-    const all = fieldset("Inputs", rows, false);
-    all.querySelector("fieldset").prepend(search);
-    return all;
+    return make("fieldset", { className: "inputs" }, make("legend", {}, `Inputs and choices (${choices.length + inputs.length})`), search, ...groups);
   }
 
   function build() {
     knobs.clear();
     const { variables, requirements, weights, choices } = state.controls;
     const weight = (one) => keep(`weight ${one.name}`, numberKnob(
-      { label: one.name, means: one.means, unit: "", text: String(one.value), value: one.value, low: 0, high: Math.max(5, 2 * one.value) },
+      { label: one.label, name: one.name, means: one.means, unit: "", text: String(one.value), value: one.value, low: 0, high: Math.max(5, 2 * one.value) },
       (text, final) => send({ kind: "weight", name: one.name, text, final })));
-    const choice = (one) => keep(one.name, choiceKnob({ ...one, label: one.name }, (text) => send({ kind: "set", name: one.name, text, final: true })));
     place.replaceChildren(
       ...(variables.length ? [fieldset(state.way === "optimize" ? "Variables, as the optimum has them" : "Variables", variables.map(variable))] : []),
       ...(requirements.length ? [fieldset("Requirements", requirements.map(requirement))] : []),
       ...(weights.length ? [fieldset("Weights of what is minimised", weights.map(weight))] : []),
-      fieldset("Choices", choices.map(choice), false), inputs());
+      grouped(choices, state.controls.inputs));
   }
 
   return {
@@ -82,9 +91,9 @@ export function controlPanel(place, send) {
       const now = JSON.stringify([told.way, controls.variables.map(({ name, low_text, high_text, options }) => [name, low_text, high_text, options]),
         controls.requirements.map(({ name, sense }) => [name, sense]), controls.weights.map(({ name }) => name), controls.inputs.map(({ name }) => name)]);
       if (now !== shape) { shape = now; build(); }
-      for (const one of controls.variables) if (told.way === "evaluate") knobs.get(one.name)?.show(one.text, parseFloat(one.text));
+      for (const one of controls.variables) if (told.way === "evaluate") knobs.get(one.name)?.show(one.text, one.value);
       for (const one of controls.requirements) knobs.get(`${one.name} ${one.sense}`)?.show(one.text, one.value);
-      for (const one of [...controls.choices, ...controls.inputs]) knobs.get(one.name)?.show(one.text, parseFloat(one.text));
+      for (const one of [...controls.choices, ...controls.inputs]) knobs.get(one.name)?.show(one.text, one.value);
       for (const one of controls.weights) knobs.get(`weight ${one.name}`)?.show(String(one.value), one.value);
     },
     /** Light up what binds and what is broken; in the way of optimising, move the variables to the optimum. */

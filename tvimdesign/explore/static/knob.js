@@ -9,9 +9,9 @@ let count = 0;
  * A control of a number. `asked(text, final)` is called as it moves; the field takes what a study takes.
  * `low` and `high` are the slider's ends in `unit`; without them there is no slider.
  */
-export function numberKnob({ label, means, unit, text, value, low, high, before = "" }, asked) {
+export function numberKnob({ label, name: key, means, unit, text, value, low, high, before = "" }, asked) {
   const field = make("input", { type: "text", value: fitting(text), spellcheck: false, autocomplete: "off", id: `knob-${count += 1}` });
-  const name = make("label", { for: field.id, title: means }, label);
+  const name = named(field.id, label, key, means);
   const refusal = make("p", { className: "refusal", role: "alert" });
   const stands = make("span", { className: "stands" });
   const row = make("div", { className: "knob" }, name, field);
@@ -22,7 +22,7 @@ export function numberKnob({ label, means, unit, text, value, low, high, before 
   field.addEventListener("change", typed);
   field.addEventListener("keydown", (event) => { if (event.key === "Enter") typed(); });
   if (low !== undefined && high > low) {
-    const slider = make("input", { type: "range", min: low, max: high, step: (high - low) / STEPS, value: value ?? parseFloat(text), "aria-label": `${label}, slider` });
+    const slider = make("input", { type: "range", min: low, max: high, step: (high - low) / STEPS, value, "aria-label": `${label}, slider` });
     const written = () => `${Number(Number(slider.value).toPrecision(5))} ${unit}`.trim();
     slider.addEventListener("input", () => {
       one.held = true;
@@ -53,15 +53,21 @@ export function numberKnob({ label, means, unit, text, value, low, high, before 
   return one;
 }
 
+/** A label in words, with the name that a study has for it. */
+function named(id, label, name, means) {
+  const words = label === name ? [] : [`${label} `];
+  return make("label", { for: id, title: means }, ...words, make("code", {}, name));
+}
+
 /** A text with its number in as many digits as a field shows; what stands is exact, and goes nowhere unless it is changed. */
 const fitting = (text) => text.replace(/^-?\d+\.\d{5,}/, (number) => String(Number(Number(number).toPrecision(6))));
 
 /** A control of a word out of some. */
-export function choiceKnob({ label, means, text, options }, asked) {
+export function choiceKnob({ label, name, means, text, options }, asked) {
   const select = make("select", { id: `knob-${count += 1}` }, ...options.map((value) => make("option", { value }, value)));
   select.value = text;
   const refusal = make("p", { className: "refusal", role: "alert" });
-  const row = make("div", { className: "knob" }, make("label", { for: select.id, title: means }, label), select, refusal);
+  const row = make("div", { className: "knob" }, named(select.id, label, name, means), select, refusal);
   select.addEventListener("change", () => { refusal.textContent = ""; asked(select.value, true); });
   return { row, field: select, refusal, show: (words) => { select.value = words; }, light() {} };
 }

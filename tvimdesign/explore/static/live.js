@@ -12,13 +12,19 @@ export function liveTable(place, caption, heads) {
     ...cells.map((cell, i) => make(i ? "td" : "th", i ? {} : { scope: "row" }, cell)))));
 }
 
-/** Limits, broken ones and those that bind first. */
+const WORDS = { broken: "violated", binds: "binds", kept: "met" };
+
+/** The study's requirements, then the machine's rules that bind or are violated; what is violated stands first. */
 export function limitsTable(place) {
-  const fill = liveTable(place, "Requirements, and rules that bind or are broken", ["", "limit", "got", "margin", "from"]);
-  return (shown) => fill([
-    ...shown.warnings.filter(({ accepted }) => !accepted).map(({ text }) => [["above rating", text, "", "", "rating"], "broken"]),
-    ...shown.limits.map(({ stands, text, got, margin, origin }) => [[stands, text, got, margin, origin === "require" ? "the study" : origin], stands === "kept" ? "" : stands]),
-  ]);
+  const fill = liveTable(place, "Requirements, then rules that bind or are violated", ["limit", "got", "margin", ""]);
+  return (shown) => {
+    const row = ({ stands, text, got, margin }) => [[text, got, margin, WORDS[stands]], stands === "kept" ? "" : stands];
+    const own = shown.limits.filter(({ origin }) => origin === "require");
+    fill([
+      ...shown.warnings.filter(({ accepted }) => !accepted).map(({ text }) => [[text, "", "", "above its rating"], "broken"]),
+      ...own.map(row), ...shown.limits.filter((one) => !own.includes(one)).map(row),
+    ]);
+  };
 }
 
 /** Outputs: those that are asked about and the headlines first, all others behind a line. */
@@ -29,7 +35,7 @@ export function outputsTable(place) {
   const heads = ["quantity", "value", "meaning"];
   const fills = [liveTable(first, "Asked about, and headlines", heads), liveTable(rest, "All outputs", heads)];
   return (quantities, asked, values) => {
-    const rows = quantities.map(({ name, unit, means, headline }, i) => ({ row: [[name, withUnit(values[i], unit), means], ""], near: headline || asked.includes(name), of: asked.indexOf(name) }));
+    const rows = quantities.map(({ name, label, unit, means, headline }, i) => ({ row: [[label, withUnit(values[i], unit), `${means} (${name})`], ""], near: headline || asked.includes(name), of: asked.indexOf(name) }));
     const near = rows.filter((one) => one.near).sort((a, b) => (a.of < 0 ? 1e3 : a.of) - (b.of < 0 ? 1e3 : b.of));
     fills[0](near.map(({ row }) => row));
     if (rest.closest("details").open) fills[1](rows.map(({ row }) => row));

@@ -85,11 +85,21 @@ const HEARD = {
   },
 };
 
+const NAMED = 4; // violated limits that the status names
+
+/** Names, of many the first ones and how many more there are. */
+function listed(names) {
+  return names.length > NAMED ? `${names.slice(0, NAMED).join(", ")} and ${names.length - NAMED} more` : names.join(", ");
+}
+
 function show(shown) {
-  const broken = shown.limits?.filter(({ stands }) => stands === "broken").length ?? 0;
-  const words = shown.status || (broken ? `${broken} ${broken === 1 ? "limit is" : "limits are"} broken` : "All limits kept");
-  if (status.textContent !== words) status.textContent = words;
-  status.className = `status ${shown.found === false || broken ? "bad" : shown.status ? "warn" : "good"}`;
+  const broken = [...new Set((shown.limits ?? []).filter(({ stands }) => stands === "broken").map(({ label }) => label))];
+  const words = shown.status || (broken.length ? `Violated: ${listed(broken)}` : "All limits are met");
+  const [first, ...reasons] = words.split("\n");
+  if (status.textContent !== first) status.textContent = first;
+  at("reasons").hidden = !reasons.length;
+  at("reasons").querySelector("p").textContent = reasons.join("\n");
+  status.className = `status ${shown.found === false || broken.length ? "bad" : shown.status ? "warn" : "good"}`;
   if (!shown.values) return;
   controls.answer(shown);
   limits(shown);

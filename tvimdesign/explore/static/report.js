@@ -11,10 +11,11 @@ export function reportPanel(place) {
       forgetListeners();
       replaceData(data, binaries);
       const open = new Set([...place.querySelectorAll("details[open] > summary")].map(({ textContent }) => textContent));
-      const made = [{ name: "first", title: `Report: ${status}`, html: first }, ...sections].map(({ name, title, html }) => {
-        const section = make("section", { id: name }, make("h2", {}, title));
-        section.insertAdjacentHTML("beforeend", html);
-        return section;
+      const made = [{ name: "first", title: `Report: ${status}`, html: first, folded: false }, ...sections].map(({ name, title, html, folded }) => {
+        const heading = make("h2", {}, title);
+        const content = folded ? make("details", { className: "section" }, make("summary", {}, heading)) : make("div", {}, heading);
+        content.insertAdjacentHTML("beforeend", html);
+        return make("section", { id: name }, content);
       });
       for (const link of made.flatMap((one) => [...one.querySelectorAll("a[href]")])) {
         if (!/^(#|[a-z]+:)/.test(link.getAttribute("href"))) link.setAttribute("href", `${folder}/${link.getAttribute("href")}`);
