@@ -148,7 +148,7 @@ solver: {starts: 1, time_limit: 5 min}
 
 @pytest.mark.parametrize(
     ("word", "then"),
-    [("recording the equations", FOLLOWING), ("adding tolerance margins", 1e6)],
+    [("preparing the equations", FOLLOWING), ("adding tolerance margins", 1e6)],
     ids=["begun", "moved"],
 )
 def test_a_search_that_ends_before_its_margins_claims_nothing_of_the_yield(word: str, then: float) -> None:
@@ -189,7 +189,7 @@ def test_a_design_without_its_margins_by_deviations_is_no_optimum() -> None:
 
 
 def test_alternatives_that_are_left_out_are_named() -> None:
-    clock = Clock("simulating the alternatives", 1e6)
+    clock = Clock("simulating the next-best choice", 1e6)
     solution = clock.optimize(read_study_text(LISTED))
     assert solution.status == OPTIMAL
     assert solution.choosing is not None

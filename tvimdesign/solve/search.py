@@ -234,7 +234,7 @@ def _yield_reached(optimizer: Optimizer, run: Run, nominal: Run, share: float) -
     """Draw modules of the best run at random and return their yield. Raises TimeOverError."""
     from tvimdesign.solve.uncertainty.yields import account_of_yield  # it loads the compiler
 
-    optimizer.progress("drawing modules for the yield of the design")
+    optimizer.progress("computing the yield: simulating modules with random deviations")
     return account_of_yield(optimizer, run, nominal, share)
 
 
@@ -379,7 +379,7 @@ def _with_alternatives(
     standards = [_standard(*pair) for pair in best[:1]]
     for pair in best[1:]:
         optimizer = pair[0].optimizer
-        optimizer.progress("simulating the alternatives")
+        optimizer.progress("simulating the next-best choice from the lists")
         if other := optimizer.deadline.late.attempt(ALTERNATIVES, partial(_standard, *pair)):
             standards.append(other)
     between, late = None, trees[0].optimizer.deadline.late

@@ -104,7 +104,7 @@ def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     workshop = WorkerPool(subject, Cache(tmp_path / "kept"), begun.append, hands=1)
     done = workshop.do([PLATE, late, Work(name="layer", do=thickness)])
-    assert begun == ["plate", "layer", "stack"]
+    assert begun == ["1 of 3, plate", "2 of 3, layer", "3 of 3, stack"]
     assert list(done.results) == ["plate", "stack", "layer"]
 
 
@@ -376,7 +376,7 @@ def test_files_are_handed_out_while_the_next_piece_of_work_is_done(tmp_path: Pat
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     workshop = WorkerPool(subject, Cache(tmp_path / "kept"), told.append, hands=1, made=made)
     workshop.do([PLATE, Work(name="layer", do=thickness)])
-    assert told == ["plate", "layer", "made plate", "made layer"]
+    assert told == ["1 of 2, plate", "2 of 2, layer", "made plate", "made layer"]
     told.clear()
     workshop.do([PLATE, Work(name="layer", do=thickness)])
     assert told == ["made plate", "made layer"]

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import io
+import itertools
 import os
 import re
 import signal
+import time
 from contextlib import suppress
 
 import pytest
@@ -62,11 +64,34 @@ def test_plain_lines_come_every_few_seconds(
         for i in range(10):
             say(f"start {i + 1} of 40")
         lines = list[str]()
-        assert wait_until(lambda: len(read_on(capsys, lines)) == 2)  # nothing is said: a thread tells the last
+        assert wait_until(lambda: len(read_on(capsys, lines)) == 3)  # a thread prints the last, then that it goes on
         say("")
-    assert len(read_on(capsys, lines)) == 2
-    assert lines[0] == "... start 1 of 40"
-    assert re.fullmatch(r"\.\.\. start 10 of 40 · \d+ s(, about .* left)?", lines[1])
+    assert len(read_on(capsys, lines)) == 3
+    assert lines[0].startswith("... start 1 of 40 · ░")
+    assert re.fullmatch(r"\.\.\. start 10 of 40 · █{4}░{16} 22% · \d+ s(, about .* left)?", lines[1])
+    assert re.fullmatch(r"\.\.\. █{4}░{16} 22% · \d+ s(, about .* left)?", lines[2])
+
+
+def test_no_message_is_printed_twice(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(progress, "PLAIN_EVERY", 0.0)
+    with progress.progress_output() as say:
+        for _ in range(3):
+            say("adding margins")
+            say("searching")
+    lines = [line for line in capsys.readouterr().err.splitlines() if re.search("[a-z]{2}", line)]
+    assert lines == ["... adding margins", "... searching"]
+
+
+def test_silence_never_lasts_three_seconds(capsys: pytest.CaptureFixture[str]) -> None:
+    lines, times = list[str](), [time.monotonic()]
+    with progress.progress_output() as say:
+        say("searching")
+        for _ in range(2):
+            before = len(lines)
+            assert wait_until(lambda count=before: len(read_on(capsys, lines)) > count)
+            times.append(time.monotonic())
+    assert max(b - a for a, b in itertools.pairwise(times)) < 3.0
+    assert len(set(lines)) == len(lines)
 
 
 @pytest.mark.parametrize("error", [SystemError, RuntimeError, InputError])

@@ -51,23 +51,29 @@ def build_plan(dims: Dimensions) -> list[Work]:
         work
         for kind in kinds
         for work in (
-            Work(name=kind, do=partial(_part, kind), turn=_turn(kind)),
+            Work(name=kind, do=partial(_part, kind), turn=_turn(kind), words=f"drawing: {_words(kind)}"),
             Work(
                 name=f"{kind}_for_makers",
                 do=partial(_for_makers, kind),
                 needs=(kind,),
                 named=PRODUCTION[kind].drawn,
                 turn=Turn.LATE,
+                words=f"drawings and print files: {_words(kind)}",
             ),
         )
     ]
-    springs = [Work(name=kind, do=partial(_spring, kind)) for kind in SPRINGS]
+    springs = [Work(name=kind, do=partial(_spring, kind), words=f"drawing: {_words(kind)}") for kind in SPRINGS]
     clearances = [
-        Work(name=f"interference_{index + 1}", do=partial(_clearances, share), needs=kinds)
+        Work(
+            name=f"interference_{index + 1}",
+            do=partial(_clearances, share),
+            needs=kinds,
+            words=f"collisions of parts, position {index + 1} / {len(POSITIONS)} of the stroke",
+        )
         for index, share in enumerate(POSITIONS)
     ]
     inspections = [
-        Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,))
+        Work(name=f"inspect_{kind}", do=partial(_inspect, kind), needs=(kind,), words=f"checking: {_words(kind)}")
         for kind in kinds
         if is_of_structure(kind)
     ]
@@ -75,17 +81,21 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name=PICTURES, do=_pictures, needs=kinds, turn=Turn.FIRST),  # before all else, once the parts are there
         *parts,
         *springs,
-        Work(name="sizes", do=_sizes, needs=kinds),
+        Work(name="sizes", do=_sizes, needs=kinds, words="volumes and inertias"),
         *clearances,
         *inspections,
         *(Work(name=kind, do=partial(_fixture, kind)) for kind in casting_jig.DRAWN),
         Work(name="inspect_casting", do=_inspect_casting, needs=(casting_jig.part_of(kinds), *casting_jig.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
-        Work(name="assembly", do=_assembly, needs=kinds, named=True),
+        Work(name="assembly", do=_assembly, needs=kinds, named=True, words="assembly files"),
         Work(name="spring_sheet", do=_spring_sheet, named=True),
-        Work(name="script", do=_script, named=True),
-        Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True),
+        Work(name="script", do=_script, named=True, words="script of the parts"),
+        Work(name="bill_and_note", do=_bill_and_note, needs=kinds, named=True, words="bill of materials"),
     ]
+
+
+def _words(kind: str) -> str:
+    return kind.replace("_", " ")
 
 
 def _turn(kind: str) -> Turn:

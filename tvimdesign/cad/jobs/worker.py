@@ -70,6 +70,8 @@ class Work:
     named: bool = False
     """Whether the design's name is written into its files."""
     turn: Turn = Turn.USUAL
+    words: str = ""
+    """Short description for people; without one the name."""
 
 
 @dataclass
@@ -166,7 +168,7 @@ class WorkerPool:
                 self._untold.append(kept)
                 done.reused.append(work.name)
             elif len(running) < self._hands:
-                running.append(self._begin(work, done))
+                running.append(self._begin(work, done, len(running)))
             else:
                 left.append(work)
         return left
@@ -180,8 +182,9 @@ class WorkerPool:
     def _needs(self, work: Work, done: Done) -> dict[str, Result]:
         return {need: done.results[need] for need in work.needs}
 
-    def _begin(self, work: Work, done: Done) -> _Running:
-        self._progress(work.name)
+    def _begin(self, work: Work, done: Done, running: int) -> _Running:
+        number = len(done.results) + len(done.failed) + len(done.lost) + running + 1
+        self._progress(f"{number} of {len(self._plan)}, {work.words or work.name.replace('_', ' ')}")
         hand = self._idle.pop() if self._idle else self._fork()
         folder = self._store.fresh(work.name)
         needs = {need: result.folder / "kept" for need, result in self._needs(work, done).items()}
@@ -215,8 +218,7 @@ class WorkerPool:
         except (EOFError, OSError):
             return True
         if "step" in message:
-            one.step = message["step"]
-            self._progress(one.step if one.step == one.work.name else f"{one.work.name}: {one.step}")
+            one.step = message["step"]  # where it was, if it fails
             return False
         one.reported = message
         return True

@@ -17,8 +17,8 @@ from tvimdesign.report.output.terminal import OwnMarkupConsole
 
 Progress = Callable[[str], None]
 WIDTH = 132
-PLAIN_EVERY = 3.0  # s
-"""Time between plain lines; messages in between are not shown."""
+PLAIN_EVERY = 2.5  # s
+"""Time between plain lines: the next new message, or how long the last one goes on; others are left out."""
 _TICK = 0.25  # s
 
 
@@ -33,7 +33,8 @@ def wide_console() -> Console:
 def progress_output() -> Iterator[Progress]:
     """Say on standard error what is going on, for how long, and what is left where that is known.
 
-    One moving line on a terminal; plain lines, one every few seconds, elsewhere. An interrupt that a library swallows
+    One moving line on a terminal; plain lines, one every few seconds, elsewhere. No message is printed twice: what goes
+    on, or comes again, is a line of time, with a bar where the end is known. An interrupt that a library swallows
     is raised again at the next thing said; CasADi swallows some. An empty text ends the line, to print something else.
     """
     shown = _Shown(Console(stderr=True, highlight=False, markup=False))
@@ -55,7 +56,8 @@ class _Shown:
     def __init__(self, console: Console) -> None:
         self._console = console
         self._status = Status("", console=console) if console.is_terminal else None
-        self._text, self._new, self._remaining = "", False, RemainingTime()
+        self._text, self._remaining = "", RemainingTime()
+        self._shown: set[str] = set()
         self._began = time.monotonic()
         self._printed = self._began - PLAIN_EVERY
         self._lock, self._ended = threading.Lock(), threading.Event()
@@ -65,7 +67,7 @@ class _Shown:
     def say(self, text: str) -> None:
         """Show a text from now on; an empty one ends the line."""
         with self._lock:
-            self._text, self._new = text, bool(text)
+            self._text = text
             self._remaining.heard(text, time.monotonic())
             if self._status is not None and not text:
                 self._status.stop()
@@ -85,13 +87,32 @@ class _Shown:
 
     def _show(self) -> None:
         now = time.monotonic()
-        times = clock(now - self._began, self._remaining.left(now))
-        if self._text and self._status is not None:
-            self._status.update(f"{self._text}{times and ' · '}{times}")
+        if not self._text or (self._status is None and now - self._printed < PLAIN_EVERY):
+            return
+        elapsed, part = now - self._began, share_done(self._text)
+        times = clock(elapsed, self._remaining.left(now))
+        if self._status is not None:
+            self._status.update(" · ".join(filter(None, [self._text, part, times])))
             self._status.start()
-        elif self._new and now - self._printed >= PLAIN_EVERY:
-            self._console.print(f"... {self._text}{times and ' · '}{times}", soft_wrap=True)
-            self._printed, self._new = now, False
+            return
+        text = "" if self._text in self._shown else self._text
+        self._console.print(f"... {' · '.join(filter(None, [text, part, times]))}", soft_wrap=True)
+        self._shown.add(self._text)
+        self._printed = now
+
+
+_CELLS = 20
+"""Cells of a bar."""
+
+
+def share_done(text: str) -> str:
+    """Return a bar with its percentage for `3 of 12`, the step that runs now; empty for a text without an end."""
+    match = _COUNTED.match(text)
+    if match is None or int(match["all"]) < 2:
+        return ""
+    share = max(int(match["done"]) - 1, 0) / int(match["all"])
+    cells = round(_CELLS * min(share, 1.0))
+    return f"{'█' * cells}{'░' * (_CELLS - cells)} {min(share, 1.0):.0%}"
 
 
 _COUNTED = re.compile(r"(?P<of>.*?)(?P<done>\d+) of (?:about )?(?P<all>\d+)")

@@ -97,7 +97,7 @@ def write_models(
     written = write_design(design, folder.path / "design.json")
     base, moving, report = make_bodies(written, folder.path, lambda text: progress(f"bodies: {text}"))
     refuse_failed(report)
-    progress("models")
+    progress("writing the robot models")
     model = joint_model(resolved, base, moving, step)
     for state in model.states:
         folder.write(f"joint_{state.point}.xml", mjcf(model, state))
@@ -110,7 +110,7 @@ def write_models(
     for name, columns in tables.items():
         units = {column: unit_of(column) for column in columns}
         folder.write(f"{name}.csv", curves_csv(columns, units, "1"))
-    progress("FMU")
+    progress("building the FMU")
     fmu = write_fmu(resolved, folder.path / "joint.fmu")
     folder.write_json("joint.json", plain_model(model, fmu))
     return model, fmu

@@ -90,6 +90,7 @@ def answer_study(
     Raises InputError, InfeasibleError for what no search can mend, and TimeOverError where the time is over before the
     search; a search that finds no design is a result.
     """
+    progress("preparing the equations")
     study = read_tree(tree)
     study = proving(study) if prove else study
     table = study.table
@@ -101,7 +102,7 @@ def answer_study(
     answered = AnsweredStudy(tree, study, result, front, _reported(result, table), deadline=deadline)
     answered.reported["doubts"] = record_checks(study)
     if result.found and (sensitivities or study.write.sensitivities):
-        progress("differentiating the outputs")
+        progress("computing sensitivities")
         with noting(answered.failures):
             deadline.attempt("the sensitivities", partial(_differentiate, answered))
     front.seek(result, progress, answered.reported, answered.failures)

@@ -63,7 +63,7 @@ class FrontOfRun:
             return
         trade = Tradeoff(self.study, result.solution, *self._built[0], progress, self._memory)
         sought = trace_front(trade, self.outputs, self.study.front.points)
-        progress("simulating the whole cycle of the front's points")
+        progress("simulating the working cycle of each point of the front")
         front = self.front = completed(sought, trade)
         self.optimum = trade.optimum
         late = trade.optimizer.deadline.late

@@ -71,7 +71,7 @@ def tolerate_study(
         spread, preload = _analysed(analyses[0], count)
         table, study = subject.resolved.table, subject.resolved.study
         data = reported(spread, preload, table, study, count)
-        progress("moving unmeasured inputs")
+        progress("varying the assumed inputs")
         unknown = epistemic_uncertainty(subject.resolved, spread, threads)
         data["not_known"] = unknown_data(unknown, table)
         data["notes"] = [*subject.notes, f"Soft is {soft_of_module(subject.resolved)}."]
@@ -108,13 +108,13 @@ def _subject(source: Path, study: Study, progress: Progress) -> TolerancedModule
         )
     if not study.vary:
         return TolerancedModule(resolve_study(study), None, (f"Module: {source}.", *notes))
-    progress("seeking the optimum")
+    progress("searching for the optimum")
     design = _optimum(study, progress)
     module = f"Module: the optimum of {source}{', robust as it asks' if study.robust else ''}."
     notes = [module, *design.rating_notes, *notes]
     nominal = None
     if study.robust:
-        progress("seeking the optimum that is not robust")
+        progress("searching for the optimum without margins")
         plain = _optimum(study.model_copy(update={"robust": None}), progress)
         nominal = resolve_design(plain)
     return TolerancedModule(resolve_design(design), design, tuple(notes), nominal)

@@ -325,7 +325,7 @@ class BranchAndBound:
         left = len(self._open)
         best = min((run.start.objective for run in self.found.values()), default=None)
         so_far = "" if best is None else f", objective {best:.5g} so far"
-        message = f"{len(self.found)} combinations solved, {left} nodes left in branch and bound{so_far}"
+        message = f"{len(self.found)} combinations solved, groups of combinations left: {left}{so_far}"
         relaxation.optimizer.progress(message)
 
 

@@ -83,7 +83,7 @@ class Relaxation:
                 break
             best = min((earlier.start.objective for earlier in runs if earlier.start.converged), default=None)
             so_far = "" if best is None else f", objective {best:.5g} so far"
-            self.optimizer.progress(f"start {number + 1} of {count}{so_far}")
+            self.optimizer.progress(f"searching: start {number + 1} of {count}{so_far}")
             run = self._from_one_of_each(self.constant_current_optimum.beyond(begin))
             if not run.start.converged and count > FEW and any(earlier.start.converged for earlier in runs):
                 run = second_try.from_conflict_search(run)

@@ -107,7 +107,7 @@ def _settled(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objecti
         _report_unmargined(optimizer, margins)
         if all(abs(value - before.get(name, 0.0)) < _SETTLED for name, value in margins.items()):
             return run
-        optimizer.progress("staying within the limits on times by what they spread")
+        optimizer.progress("adding margins to the limits on times")
         optimum = _again(optimizer, run, within, objective)
         if not optimum.start.converged and optimizer.deadline.passed:
             optimizer.deadline.leave_out(MARGINS)

@@ -127,9 +127,15 @@ class Tolerancing:
                 f"{resolved.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
                 "give tolerances of other inputs, or require what depends on these"
             )
+<<<<<<< HEAD
         progress("differentiating the outputs by what spreads")
         exact = output_sensitivities(resolved, list(wanted), names)
         progress("recording the module for many designs")
+=======
+        progress("computing sensitivities to the tolerances")
+        exact = output_sensitivities(resolved, resolved.study.solver.cells, list(wanted), names)
+        progress("preparing the equations for random deviations")
+>>>>>>> 7853aab3 (Print progress at least every three seconds, in plain words, with a bar)
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
         self.asked = tuple(name for name in dict.fromkeys(self._requested()) if name in self.outputs)
@@ -205,11 +211,11 @@ class Tolerancing:
         place = [self.names.index(contributor.name) for contributor in contributors]
         derivatives = self.exact[:, place]
         deviation, shares = spread.shares(contributors, derivatives)
-        self.progress("looking at the corners of the tolerances")
+        self.progress("checking the extremes of the tolerances")
         worst = spread.worst_case(function, contributors, derivatives)
-        self.progress(f"drawing {samples} modules")
+        self.progress(f"simulating {samples} modules with random deviations")
         results = spread.moments_of(self._draws(samples, seed)(self.whole))
-        self.progress("sharing the variance out")
+        self.progress("finding which tolerance matters most")
         first, total = spread.sobol_indices(function, contributors, SOBOL_SAMPLES, seed, self.horizon)
         satisfied, together = self._satisfied(results)
         return Spread(

@@ -75,7 +75,7 @@ def reach_yield(
         moves = _moves(drawn, aim, margins, _pressing(optimizer, run))
         if not moves or _no_better(candidates):
             break
-        optimizer.progress(f"yield {drawn.together.share:.1%} (target {share:.0%}): adding tolerance margins")
+        optimizer.progress(f"adding tolerance margins: yield so far {drawn.together.share:.1%}, target {share:.0%}")
         following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves, halvings)
         if following is run:
             if optimizer.deadline.passed:

@@ -171,7 +171,7 @@ def yields_of(optimizer: Optimizer) -> Yields:
     It is recorded at the first request and lives as long as the problem.
     """
     if optimizer not in _RECORDED:
-        optimizer.progress("recording the equations, to draw modules")
+        optimizer.progress("preparing the equations for random deviations")
         _RECORDED[optimizer] = Yields(optimizer)
     return _RECORDED[optimizer]
 
