@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import trimesh
+from PIL import Image
 from support import ROOT
 
 from tvimdesign.base.atomic_files import atomic_write
@@ -21,6 +22,12 @@ from tvimdesign.report.run.run_page import write_run_page
 from tvimdesign.study.tree import tree_of_file
 
 STUDY = ROOT / "studies/calibrated_shear.yaml"
+REQUIREMENTS = (
+    "joint_stiffness@hot=<= 20 N.m/rad", "holding_torque=>= 1 N.m", "envelope_diameter=<= 160 mm",
+    "envelope_height=<= 40 mm", "response_time=<= 100 s", "peak_voltage=<= 24 V", "peak_current=<= 3 A",
+    "module_mass=<= 300 g", "stiffening_time=<= 400 s", "spring_stiffness=>= 2 N.m/rad",
+)  # fmt: skip
+"""Requirements that are added, as many as a study to order has."""
 RING = 4
 """Points around the wire of the spring."""
 LEG_MOVED = 2.5
@@ -35,8 +42,8 @@ _TO_GLTF = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 
 
 
 def answered_study() -> AnsweredStudy:
-    """The study answered, with a front whose numbers are easy to follow."""
-    answered = answer_study(tree_of_file(STUDY), lambda _: None)
+    """The study answered with requirements, and a front whose numbers are easy to follow."""
+    answered = answer_study(tree_of_file(STUDY, [f"require.{limit}" for limit in REQUIREMENTS]), lambda _: None)
     names = {"response_time": "s", "module_mass": "g", "pcl_thickness": "mm"}
     points = [(100.0, 60.0, 2.0), (80.0, 70.0, 1.6), (60.0, 90.0, 1.2), (50.0, 120.0, 0.9), (45.0, 160.0, 0.6)]
     answered.reported["front"] = {
@@ -72,6 +79,10 @@ def write_parts(cad: Path) -> None:
     for name in _BOXES:
         atomic_write(cad / f"step/{name}.step", f"ISO-10303-21; /* {name} */\n".encode())
     atomic_write(cad / "print/housing.3mf", b"PK of the housing")
+    for name, size in (("preview.png", (1800, 800)), ("views/exploded.png", (1000, 1300))):
+        picture = io.BytesIO()
+        Image.new("RGB", size, "white").save(picture, "png")
+        atomic_write(cad / name, picture.getvalue())
     scene = trimesh.Scene()
     for name, (size, middle) in _BOXES.items():
         place = np.eye(4)

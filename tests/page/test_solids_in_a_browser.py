@@ -142,5 +142,6 @@ def test_the_assembly_is_put_together_step_by_step_with_pictures(solids: Solids)
     pictures = solids.found.page.locator("#steps .steps img")
     assert pictures.count() == 3
     assert len({pictures.nth(i).get_attribute("src") for i in range(3)}) == 3
+    solids.found.page.get_by_role("heading", name="Assembly steps").click()
     solids.found.page.get_by_role("button", name="Show in 3-D").last.click()
     assert solids.part("rotor", "object.visible") is True

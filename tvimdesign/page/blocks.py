@@ -28,6 +28,8 @@ class Head:
 
     text: str
     right: bool = False
+    wide: bool = False
+    """True if a narrow screen hides the column until it is asked for."""
 
 
 @dataclass(frozen=True)
@@ -94,13 +96,18 @@ class Listing:
 
 @dataclass(frozen=True)
 class Picture:
-    """A PNG that is part of the page."""
+    """A picture that is part of the page: PNG or WebP, on white."""
 
     macro: ClassVar[str] = "picture"
-    png: bytes
+    data: bytes
     says: str
-    """What a reader who cannot see it is told."""
+    """Text for readers who cannot see it."""
     caption: str = ""
+
+    @property
+    def media(self) -> str:
+        """Type of the file."""
+        return "image/webp" if self.data[8:12] == b"WEBP" else "image/png"
 
 
 @dataclass(frozen=True)
@@ -140,6 +147,8 @@ class Section:
     """The end of its address: `report.html#name`."""
     title: str
     blocks: Sequence[Block]
+    folded: bool = False
+    """True if only the heading is shown until it is opened."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from typing import Any
 from tvimdesign.page.blocks import Block, Drawn, Folded, Page, Section
 
 FILE = "report.html"
-MOST = 8_000_000
+MOST = 4_000_000
 """Bytes that a page may have, so that a mail takes it."""
 _RESERVE = 100_000
 """Bytes of them that no carried file takes."""
@@ -32,7 +32,8 @@ def page_html(page: Page) -> bytes:
     text: str = template("page.html.jinja").render(
         page=page,
         style="\n".join(_static(name) for name in _STYLES),
-        imports=_json({"imports": _modules(drawn)}),
+        code=_modules(drawn),
+        loader=_static("loader.js"),
         data=_json({one.name: dict(one.data) for one in drawn}),
         drawn=drawn,
     )
@@ -41,13 +42,13 @@ def page_html(page: Page) -> bytes:
 
 def _with_files(text: str, files: Mapping[str, bytes]) -> str:
     """Return a page's text with the files that it carries, as many as it has room for."""
-    begin, imports, end = text.rpartition('<script type="importmap">')
+    begin, code, end = text.rpartition('<script type="application/gzip" id="page-code">')
     room = MOST - len(text.encode()) - _RESERVE
     for address, data in files.items():
         held = f'<script type="application/gzip" data-file="{escape(address)}">{packed(data)}</script>\n'
         if len(held) <= room:
             begin, room = begin + held, room - len(held)
-    return begin + imports + end
+    return begin + code + end
 
 
 def figures(page: Page) -> Iterator[Drawn]:
@@ -63,11 +64,19 @@ def _figures(blocks: Sequence[Block]) -> Iterator[Drawn]:
             yield from _figures(block.blocks)
 
 
-def _modules(drawn: Sequence[Drawn]) -> dict[str, str]:
-    """Return the page's code by the names it is imported by; libraries only where a figure needs them."""
+def _modules(drawn: Sequence[Drawn]) -> str:
+    """Return the page's code packed: texts by the names they are imported by; libraries only where a figure needs them.
+
+    `loader.js` unpacks it: a page that was opened from a disk cannot import other files.
+    """
     libraries = {name for one in drawn for name in one.libraries}
     own = [path for path in _own_modules() if path in _ALWAYS or drawn]
-    return {f"page/{name}": _address(name) for name in (*own, *(f"vendor/{name}.js" for name in sorted(libraries)))}
+    return _packed_code((*own, *(f"vendor/{name}.js" for name in sorted(libraries))))
+
+
+@cache
+def _packed_code(names: tuple[str, ...]) -> str:
+    return packed(_json({f"page/{name}": _static(name) for name in names}).encode())
 
 
 @cache
@@ -80,15 +89,9 @@ def _own_modules() -> tuple[str, ...]:
         for entry in resources.files(__package__).joinpath("static", *folder.parts).iterdir():
             if entry.is_dir() and entry.name != "vendor":
                 folders.append(folder / entry.name)
-            elif entry.name.endswith(".js"):
+            elif entry.name.endswith(".js") and entry.name != "loader.js":
                 found.append((folder / entry.name).as_posix())
     return tuple(sorted(found))
-
-
-@cache
-def _address(name: str) -> str:
-    """Return a module as an address that holds it: a page that was opened from a disk cannot import other files."""
-    return f"data:text/javascript;base64,{base64.b64encode(_static(name).encode()).decode()}"
 
 
 @cache
@@ -130,7 +133,8 @@ def page_fragment(page: Page, left_out: Collection[str] = ()) -> dict[str, Any]:
         "tone": page.tone,
         "first": str(macros.each(page.first)),
         "sections": [
-            {"name": one.name, "title": one.title, "html": str(macros.each(one.blocks))} for one in shown.sections
+            {"name": one.name, "title": one.title, "html": str(macros.each(one.blocks)), "folded": one.folded}
+            for one in shown.sections
         ],
         "data": {one.name: dict(one.data) for one in drawn},
         "binaries": {one.name: packed(one.binary) for one in drawn if one.binary},

@@ -36,7 +36,7 @@ export function draw(place, data) {
     return {
       ...frame(look), legend: { show: false },
       xAxis: axis("Depth from the pads (mm)", look, { scale: false }),
-      yAxis: axis("Temperature (°C)", look, { nameGap: 38, min: Math.floor(Math.min(...all)), max: Math.ceil(Math.max(...all)) }),
+      yAxis: axis("Temperature (°C)", look, { nameGap: 38, min: 10 * Math.floor(Math.min(...all) / 10), max: 10 * Math.ceil(Math.max(...all) / 10) }),
       series: [{ ...lineOf("layer", pairs, 0, look), markArea: band([start, end], look) }],
     };
   });
@@ -72,8 +72,8 @@ export function draw(place, data) {
 function overTime(place, { says, height }, line, axes, lines) {
   const build = (look, width) => ({
     ...frame(look),
-    grid: { ...frame(look).grid, top: 14 + 20 * legendRows(lines.map(({ name }) => name), width) },
-    xAxis: axis("Time (s)", look, { scale: false, max: line.end, axisLabel: { color: look.quiet, formatter: short } }),
+    grid: { ...frame(look).grid, top: 32 + 20 * legendRows(lines.map(({ name }) => name), width) },
+    xAxis: axis("Time (s)", look, { scale: false, max: line.end, axisLabel: { color: look.quiet, formatter: short, showMaxLabel: false } }),
     yAxis: axes.map(({ name, log }, i) => axis(name, look, {
       type: log ? "log" : "value", nameGap: 42, position: i ? "right" : "left", splitLine: { show: !i, lineStyle: { color: look.line } },
     })),
@@ -98,17 +98,17 @@ function pairsOf(line, column) {
 
 /** The cursor, where phases meet, and the limits of an axis. */
 function marks(line, { limits = {} }, look) {
-  const between = line.phases.slice(1).map(({ begin, name }) => ({ xAxis: begin, label: { formatter: name, position: "insideEndTop" }, lineStyle: { type: "dotted", width: 1 } }));
-  const level = Object.entries(limits).map(([name, yAxis]) => ({ yAxis, label: { formatter: name, position: "insideStartTop" }, lineStyle: { type: "dashed", width: 1 } }));
+  const between = line.phases.slice(1).map(({ begin, name }) => ({ xAxis: begin, label: { formatter: name, position: "end", distance: 6 }, lineStyle: { type: "dotted", width: 1 } }));
+  const level = Object.entries(limits).map(([name, yAxis]) => ({ yAxis, label: { formatter: name, position: "end" }, lineStyle: { type: "dashed", width: 1 } }));
   const cursor = { xAxis: moment(), label: { show: false }, lineStyle: { type: "solid", width: 2 } };
   const coloured = look ? { lineStyle: { color: look.accent }, label: { color: look.text } } : {};
   return { symbol: "none", silent: true, animation: false, ...coloured, data: [cursor, ...between, ...level] };
 }
 
-/** The melting range. */
+/** The melting range, named beside the plot: nothing stands on a line. */
 function band([start, end], look) {
   return {
-    silent: true, itemStyle: { color: look.colours[1], opacity: 0.14 }, label: { color: look.quiet, position: "insideTopRight" },
-    data: [[{ yAxis: start, name: "melting range" }, { yAxis: end }]],
+    silent: true, itemStyle: { color: look.colours[1], opacity: 0.14 }, label: { color: look.quiet, position: "right" },
+    data: [[{ yAxis: start, name: "melting" }, { yAxis: end }]],
   };
 }

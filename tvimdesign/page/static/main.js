@@ -6,9 +6,20 @@ import { makeSortable } from "page/tables.js";
 /** Bring the page to life; without it all text and tables are there as they are. */
 export function start() {
   serveFiles();
+  addEventListener("hashchange", openTarget);
+  openTarget();
   const all = bring(document);
   document.documentElement.dataset.ready = "yes";
   all.then(() => { document.documentElement.dataset.ready = "all"; });
+}
+
+/** Unfold the section that the address names. */
+function openTarget() {
+  const target = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
+  const folded = target?.querySelector(":scope > details");
+  if (!folded || folded.open) return;
+  folded.open = true;
+  target.scrollIntoView();
 }
 
 /** Bring to life what stands in an element, what is near the screen first. */

@@ -1,8 +1,8 @@
 """Draws a run's plots from plain data, in a process of its own that loads matplotlib while the solver works.
 
-Run as `python -m tvimdesign.report.figures.plot_process`: reads one JSON object on standard input, `{"folder": ...,
-"study": ..., "endings": ["png", ...], "drawings": [{"file": ..., "figure": ..., "data": ...}]}`, and writes a file of
-each ending for each drawing. `PlotProcess` is the other end.
+Run as `python -m tvimdesign.report.figures.plot_process`: reads JSON objects on standard input, a line each,
+`{"folder": ..., "study": ..., "endings": ["png", ...], "drawings": [{"file": ..., "figure": ..., "data": ...}]}`, and
+writes a file of each ending for each drawing. `PlotProcess` is the other end.
 """
 
 from __future__ import annotations
@@ -47,8 +47,23 @@ class PlotProcess:
             "tvimdesign.report.figures.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
+        self._sender: threading.Thread | None = None
         if gives_way:
             set_low_priority(self._child.pid, Niceness.FAR)
+
+    def _no_more(self) -> None:
+        """Close the process's input once everything is sent, so that it ends when all is drawn."""
+        stream, self._child.stdin = self._child.stdin, None
+        sender = self._sender
+
+        def close() -> None:
+            if sender:
+                sender.join()
+            with contextlib.suppress(BrokenPipeError):
+                if stream:
+                    stream.close()
+
+        threading.Thread(target=close, daemon=True).start()
 
     def __enter__(self) -> PlotProcess:
         """Return itself."""
@@ -62,25 +77,38 @@ class PlotProcess:
 
     def begin(self, folder: Path, drawings: Sequence[Drawing], study: str, *, vector: bool = True) -> None:
         """Ask for every plot, signed with the study's name, and come back at once; `vector` for PDF and SVG as well."""
-        drawings_asked = [drawing._asdict() for drawing in drawings]
         endings = ["png", "pdf", "svg"] if vector else ["png"]
-        request = {"folder": str(folder.resolve()), "study": study, "endings": endings, "drawings": drawings_asked}
-        message = json.dumps(request).encode()
-        stream, self._child.stdin = self._child.stdin, None
+        self._ask(folder, drawings, study, endings)
+
+    def _ask(self, folder: Path, drawings: Sequence[Drawing], study: str, endings: Sequence[str]) -> None:
+        request = {
+            "folder": str(folder.resolve()), "study": study, "endings": endings,
+            "drawings": [drawing._asdict() for drawing in drawings],
+        }  # fmt: skip
+        message, stream, before = f"{json.dumps(request)}\n".encode(), self._child.stdin, self._sender
 
         def send() -> None:
+            if before:
+                before.join()
             assert stream is not None
-            with contextlib.suppress(BrokenPipeError), stream:  # a process that has died says why in `finish`
+            with contextlib.suppress(BrokenPipeError):  # a process that has died says why in `finish`
                 stream.write(message)
+                stream.flush()
 
         # A pipe holds little, and the process reads only once matplotlib is loaded.
-        threading.Thread(target=send, daemon=True).start()
+        self._sender = threading.Thread(target=send, daemon=True)
+        self._sender.start()
+
+    def add(self, folder: Path, drawing: Drawing, study: str, ending: str) -> None:
+        """Ask for one more file after `begin`, of what was not known before."""
+        self._ask(folder, [drawing], study, [ending])
 
     def finish(self, again: str = "repeat the command with --overwrite") -> None:
         """Wait until every plot is in the folder. Raises TvimError if that fails; `again` says how to get the plots.
 
         Write all numbers before.
         """
+        self._no_more()
         try:
             _, complaint = communicate(self._child, PROCESSOR_LIMIT)
         except ProcessorTimeError as error:
@@ -99,22 +127,30 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the parent's to handle
     gc.disable()  # a tenth of the time; all there ever is to collect is a few figures
     _warm_up()
-    request = json.load(sys.stdin)
-    folder = Path(request["folder"])
-    folder.mkdir(parents=True, exist_ok=True)
+    request = json.loads(sys.stdin.readline())
     drawings = [Drawing(**drawing) for drawing in request["drawings"]]
     if sys.platform != "linux":  # a fork is not safe elsewhere
-        _draw(folder, drawings, request)
+        _draw(drawings, request)
+        _draw_added()
         return
     # Matplotlib is slow and single-threaded: two processes with it loaded share the plots. Taking the interpreter down
     # in order would take as long as two plots, so they leave at once.
     first, other = os.getpid(), os.fork()
     if not other:
         follow_parent(first)
-    _draw(folder, drawings[int(bool(other)) :: 2], request)
+    _draw(drawings[int(bool(other)) :: 2], request)
+    if other:
+        _draw_added()
     if not other or os.waitpid(other, 0)[1] == 0:
         os._exit(0)
     raise SystemExit(1)
+
+
+def _draw_added() -> None:
+    """Draw what `PlotProcess.add` asks for, until there is no more."""
+    for line in sys.stdin:
+        request = json.loads(line)
+        _draw([Drawing(**drawing) for drawing in request["drawings"]], request)
 
 
 def _warm_up() -> None:
@@ -134,10 +170,12 @@ def _warm_up() -> None:
     import_module("fontTools.subset")  # what cuts a PDF's fonts
 
 
-def _draw(folder: Path, drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
+def _draw(drawings: Sequence[Drawing], request: dict[str, Any]) -> None:
     """Write every plot in the first ending, which people look at, before any in another."""
     from tvimdesign.report.figures.theme import as_file, sign
 
+    folder = Path(request["folder"])
+    folder.mkdir(parents=True, exist_ok=True)
     figures = {}
     first, *others = request["endings"]
     for drawing in drawings:

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from tvimdesign.cad.assembly.file_names import PREVIEW
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
+from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.axis_labels import axis_label
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry
+from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.run.answered_study import AnsweredStudy
-from tvimdesign.report.run.blocks.facts import main_facts, more_facts
-from tvimdesign.report.run.blocks.requirements import requirements, requirements_grid
+from tvimdesign.report.run.blocks.facts import Fact, main_facts, more_facts
+from tvimdesign.report.run.blocks.requirements import HEADS, requirements, requirements_grid
 from tvimdesign.report.run.blocks.sections import (
     assumptions_section,
     conflict_points,
@@ -44,12 +49,17 @@ from tvimdesign.study import Study
 from tvimdesign.study.tree import StudyTree, study_file
 
 _FILES = {
-    "summary.txt": "all tables as text", "results.csv": "every value", "why.csv": "shadow prices",
-    "front.csv": "the front", "cad/assembly.step": "the assembly as STEP", "cad/bom.csv": "bill of materials",
+    "summary.pdf": "this screen as one page", "summary.txt": "all tables as text", "results.csv": "every value",
+    "why.csv": "shadow prices", "front.csv": "the front",
+    "cad/assembly.step": "the assembly as STEP", "cad/bom.csv": "bill of materials",
     "cad/springs/spring.pdf": "spring sheet", "cad/checks.json": "checks on the solids",
     "design.json": "the design as data",
 }  # fmt: skip
 _PHASES = ("softening", "stiffening")
+WARNINGS = 3
+"""Warnings that are shown; others are behind a line."""
+LISTED = 3
+"""Parts of a listing that are shown of many."""
 _COLUMNS = ("current", "electrical_power", "joint_impedance", "joint_stiffness", "joint_damping")
 
 
@@ -64,13 +74,28 @@ def run_page(folder: ResultsFolder, answered: AnsweredStudy) -> Page:
     module = module_section(answered)
     values = answered.reported["values"]
     every = Folded(f"All {len(values)} inputs and outputs, with their sources", [values_grid(values)])
-    sections = [Section(module.name, module.title, [*module.blocks, *([every] if answer.found else [])])]
+    sections = [folded(Section(module.name, module.title, [*module.blocks, *([every] if answer.found else [])]))]
     if answer.found:
-        sections += _of_a_design(cad, answered)
+        sections = _of_a_design(cad, answered, sections)
     return Page(
         answer.design.name, f"{answer.design.mode} module", says.text, says.tone, glance(answered), preview(cad),
         [*sections, *_last(folder, answered.tree)], made_by_words(folder), there(folder, _FILES), carried_files(cad),
     )  # fmt: skip
+
+
+def summary_sheet(folder: ResultsFolder, answered: AnsweredStudy) -> Drawing:
+    """Return the page's first screen as a drawing for one sheet of paper."""
+    answer, says, picture = answered.result, verdict_of(answered), folder.path / FOLDER / PREVIEW
+    data = {
+        "title": answer.design.name, "kind": f"{answer.design.mode} module", "status": says.text, "tone": says.tone,
+        "heads": ["requirement", *HEADS[1:]],
+        "rows": [row.cells for row in requirements(answer, answered.uncertainty)],
+        "facts": [(fact.label, _in_short(fact)) for fact in main_facts(answer, answered.uncertainty)],
+        "warnings": [warning[:2] for warning in answered.warnings[:WARNINGS]],
+        "picture": str(picture.resolve()) if picture.exists() else "",
+        "made_by": f"{made_by_words(folder)} All tables and the module in 3-D: report.html.",
+    }  # fmt: skip
+    return Drawing("summary", "summary_sheet.summary", data)
 
 
 def glance(answered: AnsweredStudy) -> list[Block]:
@@ -80,28 +105,50 @@ def glance(answered: AnsweredStudy) -> list[Block]:
     first: list[Block] = [requirements_grid(rows)] if rows else []
     if not answer.found:
         return [*first, Points([warning.text for warning in answered.warnings]), conflict_points(answered)]
-    facts = [(fact.label, fact.text) for fact in main_facts(answer, uncertainty)]
+    facts = [(fact.label, _in_short(fact)) for fact in main_facts(answer, uncertainty)]
     more = [(fact.label, fact.text) for fact in more_facts(answer, uncertainty, answered.front.front)]
     more += [("Starts", text) for text in starts_in_words(answer)]
-    warned = [Warned([warning[:2] for warning in answered.warnings])] if answered.warnings else []
+    warnings = [warning[:2] for warning in answered.warnings]
+    warned: list[Block] = [Warned(warnings[:WARNINGS])] if warnings else []
+    if others := warnings[WARNINGS:]:
+        warned.append(Folded(f"{len(others)} more warnings", [Warned(others)]))
     return [*first, Facts(facts), *warned, Folded("Thresholds, cooling, margins and assumed values", [Facts(more)])]
 
 
-def _of_a_design(cad: Path, answered: AnsweredStudy) -> list[Section]:
-    """Return what there is to show of a design, and of its parts if they were made."""
+def _in_short(fact: Fact) -> str:
+    """Return a fact in one text; of a listing the first parts, and how many more there are."""
+    more = len(fact.parts) - LISTED
+    if not fact.listing or more < 2:
+        return fact.text
+    return DOT.join([*fact.parts[:LISTED], f"{more} more"])
+
+
+def folded(section: Section) -> Section:
+    """Return a section that shows its heading alone until a reader opens it."""
+    return replace(section, folded=True)
+
+
+def _of_a_design(cad: Path, answered: AnsweredStudy, of_the_module: Sequence[Section]) -> list[Section]:
+    """Return figures, front and active constraints, then folded what there is to look up, of the parts if any."""
     path, front = answered.tree.path, answered.reported.get("front")
     return [
         solids_section(cad, path.name if path else "STUDY"),
         cycle_section(answered.result, answered.study.table),
-        reasons_section(answered),
-        assumptions_section(answered),
-        *search_section(answered),
         *([drawn_front(answered.study.table, front)] if front else []),
-        *checks_section(cad),
-        *materials_section(cad),
-        *steps_section(cad),
-        *spring_section(cad),
-        *verification_sections(cad.parent),
+        reasons_section(answered),
+        *of_the_module,
+        *map(
+            folded,
+            [
+                assumptions_section(answered),
+                *search_section(answered),
+                *checks_section(cad),
+                *materials_section(cad),
+                *steps_section(cad),
+                *spring_section(cad),
+                *verification_sections(cad.parent),
+            ],
+        ),
     ]
 
 
@@ -168,4 +215,4 @@ def refused_page(folder: ResultsFolder, tree: StudyTree, study: Study, reason: s
 def _last(folder: ResultsFolder, tree: StudyTree) -> list[Section]:
     """Return the study and what made the page."""
     text = study_file(tree)
-    return [study_section(text if isinstance(text, str) else text.decode()), versions_section(folder)]
+    return [folded(study_section(text if isinstance(text, str) else text.decode())), folded(versions_section(folder))]

@@ -66,7 +66,7 @@ def run_study(
         from tvimdesign.report.run.answered_study import answer_study, drawings
         from tvimdesign.report.run.first_screen import print_result, write_summary
         from tvimdesign.report.run.keep_best import keeping_best
-        from tvimdesign.report.run.run_page import write_run_page
+        from tvimdesign.report.run.run_page import summary_sheet, write_run_page
         from tvimdesign.report.run.uncertainty_process import uncertainty_process
         from tvimdesign.report.run.write_answer import finish, write_answer, write_failure, write_results
         from tvimdesign.solve.search import optimize
@@ -106,6 +106,7 @@ def run_study(
         if drawing and result.found:
             progress("drawing the plots")
             folder.look_up_versions()
+            drawing.add(folder.path, summary_sheet(folder, answered), study.name, "pdf")
             with noting(failures):
                 drawing.finish()
         write_run_page(folder, answered)
@@ -117,7 +118,9 @@ def run_study(
 def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
     """Raise what `check` raises; print the JSON of a study whose limits conflict."""
     try:
-        refuse_what_cannot_be(study, deadline=deadline)
+        with progress_output() as progress:
+            progress("checking whether the requirements conflict")
+            refuse_what_cannot_be(study, deadline=deadline)
     except InfeasibleError as error:
         if as_json:
             from tvimdesign.report.run.write_answer import refused_run
@@ -161,7 +164,7 @@ def _wait_for_uncertainty(
 
     if process is None or not process.begun:
         return
-    progress(f"computing {STEP}")
+    progress(f"computing {STEP} over the assumed values")
     try:
         data, solution = process.finish(answered.deadline), answered.result.solution
         if solution and (reached := solution.yield_reached):

@@ -58,7 +58,7 @@ def verification_section(folder: Path, run: Path, room: float = MOST) -> Section
         if taken < room:
             blocks.append(Picture(picture.read_bytes(), words, words))
             room -= taken
-    return Section(NAME, "Finite elements", blocks)
+    return Section(NAME, "Finite elements", blocks, folded=True)
 
 
 def put_on_page(folder: Path, run: Path) -> bool:

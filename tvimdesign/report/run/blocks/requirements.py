@@ -23,6 +23,8 @@ from tvimdesign.report.output.tables import (
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 HEADS = ("", "asked", "got", "range", "margin")
+_WIDE = (3, 5)
+"""Columns that a narrow screen hides: the range, and the assumed input."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,8 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
 
 def requirements_grid(rows: Sequence[Requirement]) -> Grid:
     """Return the table that a page shows."""
-    heads = [Head(text, i == 2) for i, text in enumerate(("output", *HEADS[1:], "depends on (assumed)"))]
+    texts = ("requirement", *HEADS[1:], "depends most on")
+    heads = [Head(text, i == 2, i in _WIDE) for i, text in enumerate(texts)]
     cells = [
         [
             *(Cell(text, tone=row.tone if i == len(HEADS) - 1 else "") for i, text in enumerate(row.cells)),
@@ -135,4 +138,7 @@ def _stands(answer: StudyResult, check: ConstraintCheck, table: Table) -> tuple[
 
 def assumption(row: Mapping[str, Any]) -> str:
     """Return an assumed input with its value and its range."""
-    return f"{row['input']} {number(row['value'])} {row['unit']}".rstrip() + f" ({ends_text(row['low'], row['high'])})"
+    return (
+        f"{label(row['input'])} {number(row['value'])} {row['unit']}".rstrip()
+        + f" ({ends_text(row['low'], row['high'])})"
+    )

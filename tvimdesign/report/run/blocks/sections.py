@@ -8,6 +8,7 @@ from typing import Any
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Input, table_for
 from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
+from tvimdesign.report.output.axis_labels import in_labels
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint
 from tvimdesign.report.output.tables import number, percent
@@ -19,6 +20,9 @@ from tvimdesign.report.run.why import sentences, slack_in_words
 from tvimdesign.report.run.yield_words import lost_in_words, yield_of
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import StudyResult
+
+COSTS = 5
+"""Active constraints that are shown as sentences, the costliest first; the table has all."""
 
 
 def text_sections(answered: AnsweredStudy) -> list[Section]:
@@ -65,7 +69,7 @@ def search_section(answered: AnsweredStudy) -> list[Section]:
         blocks += [tables.choices_grid(choosing, table), Words([*filter(None, [price]), tally_in_words(choosing)])]
     if answer.design.current_profiles:
         blocks += [tables.currents_grid(answer), tables.profile_grid(answer), Words(_constant_currents(answer))]
-    return [Section("search", "How it was found", [Folded("How it was found", blocks)])] if blocks else []
+    return [Section("search", "How it was found", blocks)] if blocks else []
 
 
 def _robustness(answer: StudyResult) -> list[str]:
@@ -116,14 +120,19 @@ def constant_against(objective: float, solution: Solution) -> str:
 def reasons_section(answered: AnsweredStudy) -> Section:
     """Return the active constraints in words, with what easing each would buy."""
     answer = answered.result
-    costs, slack = sentences(answer), slack_in_words(answer, answered.study.table)
+    costs = [in_labels(line) for line in sentences(answer)]
     if answer.solution is None:
-        blocks: list[Block] = [Words(["The study varies nothing, so nothing is traded: its one module was evaluated."])]
-    elif not costs:
-        blocks = [Words(["No constraint is active: easing any of them changes nothing."])]
+        return Section(
+            "why", "Active constraints", [Words(["The study varies nothing: its one module was evaluated."])]
+        )
+    if not costs:
+        blocks: list[Block] = [Words(["No constraint is active: easing any of them changes nothing."])]
     else:
-        blocks = [Points(costs), tables.prices_grid(answer)]
-    return Section("why", "Active constraints", [*blocks, *([Words([slack])] if slack else [])])
+        blocks = [Points(costs[:COSTS])]
+    slack = slack_in_words(answer, answered.study.table)
+    more: list[Block] = [*([tables.prices_grid(answer)] if costs else []), *([Words([slack])] if slack else [])]
+    others = f", {len(costs) - COSTS} more" if len(costs) > COSTS else ""
+    return Section("why", "Active constraints", [*blocks, Folded(f"Prices as a table{others}, and slack limits", more)])
 
 
 def assumptions_section(answered: AnsweredStudy) -> Section:
