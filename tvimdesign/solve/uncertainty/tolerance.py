@@ -127,15 +127,9 @@ class Tolerancing:
                 f"{resolved.study.name}: nothing that is required, minimised or limited depends on {', '.join(names)}; "
                 "give tolerances of other inputs, or require what depends on these"
             )
-<<<<<<< HEAD
-        progress("differentiating the outputs by what spreads")
-        exact = output_sensitivities(resolved, list(wanted), names)
-        progress("recording the module for many designs")
-=======
         progress("computing sensitivities to the tolerances")
-        exact = output_sensitivities(resolved, resolved.study.solver.cells, list(wanted), names)
+        exact = output_sensitivities(resolved, list(wanted), names)
         progress("preparing the equations for random deviations")
->>>>>>> 7853aab3 (Print progress at least every three seconds, in plain words, with a bar)
         self.names, self.outputs = names, exact.outputs
         self.exact, self.nominal, self.left_out = exact.derivatives, exact.values, exact.left_out
         self.asked = tuple(name for name in dict.fromkeys(self._requested()) if name in self.outputs)
