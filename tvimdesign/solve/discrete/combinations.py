@@ -177,6 +177,6 @@ def enumerated_here(begin: Begin) -> Iterator[tuple[Block, SolvedBlock]]:
             return
         seconds = (time.perf_counter() - began) / max(number, 1) * (count - number)
         left = f", about {seconds:.0f} s left" if number else ""
-        tree.optimizer.progress(f"enumeration: {number} of {count} combinations solved{left}")
+        tree.optimizer.progress(f"choosing from lists: {number} of {count} combinations solved{left}")
         yield block, solved(tree, block)
         number += min(BLOCK, tree.sizes.count - block.first)
