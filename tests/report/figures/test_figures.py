@@ -84,9 +84,9 @@ def test_margins_stand_in_their_limit_s_own_unit(found: StudyResult, data: dict[
     gap = next(row for row in rows if row["name"] == "rotor spring gap ≥ 0 mm")
     assert gap["unit"] == "mm"
     assert gap["margin"] == pytest.approx(1e3 * found.design.value("rotor_spring_gap"), rel=1e-6)
-    angle = next(row for row in rows if row["name"] == "free angle over preload ≤ 1")
+    angle = next(row for row in rows if row["name"] == "sorted share ≥ 0.2")
     assert angle["unit"] == "%"
-    left = 1.0 - found.design.value("free_angle_over_preload")
+    left = found.design.value("sorted_share") / 0.2 - 1.0
     assert angle["margin"] == pytest.approx(100.0 * left, rel=1e-6)
     assert float(angle["text"].replace("−", "-")) == pytest.approx(left, rel=5e-3)
 

@@ -77,7 +77,7 @@ def _proposed() -> dict[str, str]:
     "output",
     [
         *(pytest.param(name, marks=pytest.mark.slow) for name in ("stiffening_structure_margin", "melt_loss")),
-        "free_angle_over_preload",
+        "sorted_share",
         "layer_play",
     ],
 )

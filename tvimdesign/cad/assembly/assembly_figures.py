@@ -79,14 +79,15 @@ def _preload_force(design: Design, _: Dimensions) -> str:
 def _sorting(design: Design, dims: Dimensions) -> str:
     """Return which springs are good enough, by what the study counts on; else how the rotor is brought to its place."""
     off = preload_tolerance(design)
+    if not dims.adjuster_radius:
+        share, sorting = 100.0 * design.value("sorted_share"), degrees(design.value("free_angle_sorting"))
+        return (
+            f"measure each before it goes in, and keep out those further off than ±{sorting:.3g}°: {share:.0f} % of "
+            "what is bought are good enough"
+        )
     if off is None or off >= design.value("free_angle_tolerance"):
         return "choose pairs that agree, or bend the legs until the rotor rests with its pins in line with the posts"
-    if dims.adjuster_radius:
-        return f"the study counts on a preload that is set within ±{degrees(off):.3g}°"
-    return (
-        f"the study counts on springs within ±{degrees(off):.3g}°: measure each before it goes in, and keep out "
-        "those further off"
-    )
+    return f"the study counts on a preload that is set within ±{degrees(off):.3g}°"
 
 
 def _bonding_heat(design: Design, _: Dimensions) -> str:

@@ -124,6 +124,17 @@ def diameter_tolerance(wire_diameter: Any, coil_diameter: Any, grade_factor: flo
     return 0.025 * coil_diameter * (wire_diameter / _MILLIMETRE) ** -0.17 * grade_factor
 
 
+def share_within(width: Any, tolerance: Any) -> Any:
+    """Return the share [1] of springs whose deviation is within a width, of a normal one whose tolerance is 3 sigma.
+
+    erf(x), x = 3 w/(sqrt(2) t), by Abramowitz and Stegun, Handbook of Mathematical Functions, eq. 7.1.26 (1.5e-7).
+    """
+    x = 3.0 * width / (np.sqrt(2.0) * tolerance)
+    t = 1.0 / (1.0 + 0.3275911 * x)
+    series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))))
+    return 1.0 - series * np.exp(-(x**2))
+
+
 def free_angle_tolerance(body_coils: Any, index: Any, grade_factor: float) -> Any:
     """Return the free-angle tolerance A_phi = 2.4 n^0.76 sqrt(C) Q degrees, returned in radians (DIN 2194)."""
     return np.pi / 180.0 * 2.4 * body_coils**0.76 * np.sqrt(index) * grade_factor

@@ -231,14 +231,33 @@ def free_angle_tolerance(m: Module) -> Scalar:
     return spring.free_angle_tolerance(m.coil_count, m.spring_index, _GRADE_2)
 
 
-_SPREAD = "springs as bought spread more than the preload that is left: make it adjustable"
+@quantities.output("deg")
+def fitted_angle_tolerance(m: Module) -> Scalar:
+    """Deviation of the free angle of springs that go in, to either side, as sorted; none with adjusters."""
+    return np.fmax(np.fmin(m.free_angle_tolerance, m.free_angle_sorting) - 0.5 * m.preload_adjustment, 0.0)
 
 
-@quantities.output("1", advice=(Rule(sense="<=", value=1.0, reason=_SPREAD),))
-def free_angle_over_preload(m: Module) -> Scalar:
-    """Free-angle tolerance of a spring that no adjustment takes out, over the preload that is left at full stroke."""
-    left = np.fmax(m.free_angle_tolerance - 0.5 * m.preload_adjustment, 0.0)
-    return left / np.fmax(m.preload_margin, 1e-3)
+_LIFTS = (
+    "springs lift off before the rotor meets its stops, as their free angles spread: more preload_angle, a finer "
+    "free_angle_sorting, or preload_adjuster: rotary"
+)
+
+
+@quantities.output("deg", Rule(sense=">=", value=0.0, reason=_LIFTS))
+def free_angle_margin(m: Module) -> Scalar:
+    """Preload that is left at the stops, less what the free angle of the springs that go in may take."""
+    return m.preload_margin - m.fitted_angle_tolerance
+
+
+_STAY_OUT = "four of five springs as bought stay out"
+
+
+@quantities.output("1", advice=(Rule(sense=">=", value=0.2, reason=_STAY_OUT),))
+def sorted_share(m: Module) -> Scalar:
+    """Share of the springs as bought that go in: all with adjusters, else those within `free_angle_sorting`."""
+    if m.preload_adjuster != "fixed":
+        return 1.0
+    return spring.share_within(m.free_angle_sorting, m.free_angle_tolerance)
 
 
 @quantities.output(
