@@ -11,9 +11,12 @@ from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, TILES, design_o
 from tvimdesign.base.record import Record
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
 from tvimdesign.cad.assembly.bill_of_materials import _titled, beside, bill, bill_csv
+from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.drawing.spring_sheet import spring_lines
 from tvimdesign.cad.geometry.dimensions import dimensions
+from tvimdesign.cad.geometry.draft_kernel import DraftKernel
 from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.geometry.solids import drawn_by
 from tvimdesign.cad.jobs.build_plan import fits
 from tvimdesign.cad.jobs.main import _ordered_by, _titles
 from tvimdesign.catalog.catalog import Catalog
@@ -85,3 +88,19 @@ def test_screws_pins_and_records_say_how_they_are_ordered() -> None:
         for record in (Catalog().record(category, name) for name in Catalog().names(category)):
             assert record.words["designation"].count("{length}") == 1, record.name
             assert record.words["designation"].startswith(record.title.split(" ISO ")[0]), record.name
+
+
+@pytest.mark.parametrize(
+    "name", ["paper", "tiles", "tiles in vanes", "bearings", "sprung blocks", "bearings among blocks"]
+)
+def test_parts_and_fasteners_are_counted_as_they_are_drawn(name: str) -> None:
+    mode, changes = CASES[name]
+    design = design_of(name, changes, mode)
+    dims = dimensions(design)
+    with drawn_by(DraftKernel()):
+        drafts = {kind: draw(dims) for kind, draw in MODULES[mode].drawn(dims).items()}
+        kinds = [kind_of(part) for part in MODULES[mode].stand(dims, drafts)]
+    together = [kind for kind in kinds if kind not in ("heater_lead", "bearing_inner")]
+    assert design.values["part_count"] == len(together) + dims.count("spring_count")
+    fasteners = [kind for kind in kinds if kind.endswith(("_screw", "_insert", "_dowel"))]
+    assert design.values["fastener_count"] == len(fasteners)

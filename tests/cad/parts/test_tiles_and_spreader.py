@@ -1,6 +1,7 @@
 """Solids of rectangular Peltier modules and their spreader: as large as their rows, apart, each over a window."""
 
 from math import pi
+from typing import Any
 
 import cadquery as cq
 import pytest
@@ -11,9 +12,12 @@ from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.assembly.assembly_note import steps_of
 from tvimdesign.cad.assembly.bill_of_materials import beside
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
+from tvimdesign.cad.geometry.draft_kernel import DraftKernel
 from tvimdesign.cad.geometry.kinds import kind_of
+from tvimdesign.cad.geometry.solids import drawn_by
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.cad.parts import shear_parts
+from tvimdesign.cad.parts.heater_parts import heater_lead
 from tvimdesign.study.design import Design
 
 KINDS = ("housing", "peltier_pad", "heater_lead", "spreader", "pcl_arc")
@@ -127,3 +131,9 @@ def test_the_supply_is_for_the_pads_as_they_are_wired(wiring: str, said: str) ->
     design = design_of("wired", TILES | {"heater_wiring": wiring})
     design.values.update(peak_voltage=9.0, peak_current=2.0)
     assert said in next(item.title for item in beside(design, {}) if item.kind == "supply")
+
+
+def test_a_drafted_lead_is_as_large_as_the_exact_one(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
+    with drawn_by(DraftKernel()):
+        draft: Any = heater_lead(dims)
+    assert draft.body.volume() == pytest.approx(placed["heater_lead_1"].Volume(), rel=0.12)

@@ -134,9 +134,9 @@ def _skinned(rings: Sequence[Array]) -> Manifold:
     fan = np.arange(1, count - 1)
     ends = [np.stack((0 * fan, fan + 1, fan), -1), last + np.stack((0 * fan, fan, fan + 1), -1)]
     faces = np.concatenate([*sides, *ends]).astype(np.uint32)
-    mesh = ManifoldMesh(np.concatenate(rings).astype(np.float32), faces)
-    body = Manifold(mesh)
-    return body if body.volume() > 0.0 else Manifold(ManifoldMesh(mesh.vert_properties, faces[:, ::-1].copy()))
+    points = np.concatenate(rings).astype(np.float32)
+    body = Manifold(ManifoldMesh(points, faces))
+    return body if body.volume() > 0.0 else Manifold(ManifoldMesh(points, np.ascontiguousarray(faces[:, ::-1])))
 
 
 def corners_of(radius: float) -> int:
