@@ -14,7 +14,7 @@ from tvimdesign.solve import search
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.search import optimize
-from tvimdesign.study import Range, Study, given, read_study, read_study_text
+from tvimdesign.study import Range, given, read_study, read_study_text
 
 TABLE = table_for("shear")
 SMALL = (
@@ -30,19 +30,11 @@ solver: {starts: 1}
 )
 
 
-def _solve(study: Study) -> Solution:
-    return optimize(study)
-
-
-def _study(text: str) -> Study:
-    return read_study_text(text, "test")
-
-
 @pytest.fixture(scope="module")
 def paper() -> Solution:
     """Return the paper's study from eleven starts."""
     study = read_study(ROOT / "studies/paper_shear.yaml")
-    return _solve(study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 11})}))
+    return optimize(study.model_copy(update={"solver": study.solver.model_copy(update={"starts": 11})}))
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +47,7 @@ def as_shipped() -> Solution:
 
 @pytest.mark.slow
 def test_ten_random_starts_come_to_one_optimum() -> None:
-    solution = _solve(_study(SMALL.replace("starts: 1", "starts: 11")))
+    solution = optimize(read_study_text(SMALL.replace("starts: 1", "starts: 11")))
     assert all(start.converged for start in solution.starts)
     objectives = [start.objective for start in solution.starts]
     assert max(objectives) - min(objectives) <= 1e-4 * min(objectives)
@@ -133,8 +125,8 @@ def test_the_response_time_holds_on_a_fine_grid_with_another_integrator(paper: S
 
 @pytest.mark.gate
 def test_a_price_is_what_relaxing_the_limit_saves() -> None:
-    study = _study(SMALL)
-    before = _solve(study)
+    study = read_study_text(SMALL)
+    before = optimize(study)
     checked = 0
     for held in before.held:
         if held.origin != "require" or held.shadow_price < 1e-2:
@@ -147,7 +139,7 @@ def test_a_price_is_what_relaxing_the_limit_saves() -> None:
             for r in study.require
         ]
         assert eased != list(study.require)
-        after = _solve(study.model_copy(update={"require": tuple(eased)}))
+        after = optimize(study.model_copy(update={"require": tuple(eased)}))
         saved = 100.0 * (before.objective - after.objective) / before.objective
         assert saved == pytest.approx(held.shadow_price, rel=0.1), held.text
         checked += 1
@@ -156,21 +148,21 @@ def test_a_price_is_what_relaxing_the_limit_saves() -> None:
 
 @pytest.mark.gate
 def test_a_bound_s_price_is_what_moving_it_saves() -> None:
-    study = _study(SMALL)
-    before = _solve(study)
+    study = read_study_text(SMALL)
+    before = optimize(study)
     held = max((h for h in before.held if h.origin == "vary"), key=lambda h: h.shadow_price)
     name, sense, _ = held.name.split(" ")[0], held.name.split(" ")[1], held.shadow_price
     vary = study.vary[name]
     assert isinstance(vary, Range)
     moved = {"upper": vary.upper * 1.01} if sense == "<=" else {"lower": vary.lower * 0.99}
-    after = _solve(study.model_copy(update={"vary": {**study.vary, name: vary.model_copy(update=moved)}}))
+    after = optimize(study.model_copy(update={"vary": {**study.vary, name: vary.model_copy(update=moved)}}))
     assert 100.0 * (before.objective - after.objective) / before.objective == pytest.approx(held.shadow_price, rel=0.1)
 
 
 @pytest.mark.gate
 def test_listed_records_are_compared_by_one_measure() -> None:
     text = SMALL.replace("vary:", "vary:\n  spring_material: {choose: [stainless_302, music_wire]}")
-    solution = _solve(_study(text))
+    solution = optimize(read_study_text(text))
     assert solution.choosing is not None
     by_material = {one.choices["spring_material"]: one.objective for one in solution.choosing.best}
     assert by_material.keys() == {"music_wire", "stainless_302"}
@@ -181,10 +173,10 @@ def test_listed_records_are_compared_by_one_measure() -> None:
 
 @pytest.mark.gate
 def test_a_limit_on_one_time_while_another_is_minimised_holds() -> None:
-    free = _solve(_study(SMALL))
+    free = optimize(read_study_text(SMALL))
     limit = 0.9 * free.values["near_face_time"]
     bounded = SMALL.replace("require:", f'require:\n  near_face_time: "<= {limit:.3f} s"').replace("<= 9 W", "<= 20 W")
-    solution = _solve(_study(bounded))
+    solution = optimize(read_study_text(bounded))
     assert solution.status == "optimal"
     assert solution.values["near_face_time"] <= limit * 1.002
 
@@ -194,12 +186,14 @@ def test_energy_can_be_minimised_and_bounded() -> None:
     small = SMALL.replace("[0.5 A, 2 A]", "[0.5 A, 2 A]\n  pcl_outer_radius: [30 mm, 40 mm]").replace(
         "40 N.m", "20 N.m"
     )
-    least = _solve(_study(small.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "switch_energy")))
+    least = optimize(
+        read_study_text(small.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "switch_energy"))
+    )
     assert least.status == "optimal"
     stiff = small.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "{joint_stiffness@hot: 1}")
     limit = 1.05 * least.values["switch_energy"]
-    free = _solve(_study(stiff))
-    bounded = _solve(_study(stiff.replace("require:", f'require:\n  switch_energy: "<= {limit:.3f} J"')))
+    free = optimize(read_study_text(stiff))
+    bounded = optimize(read_study_text(stiff.replace("require:", f'require:\n  switch_energy: "<= {limit:.3f} J"')))
     assert bounded.status == "optimal"
     assert free.values["switch_energy"] > limit
     assert bounded.values["switch_energy"] == pytest.approx(limit, rel=2e-3)
@@ -207,7 +201,7 @@ def test_energy_can_be_minimised_and_bounded() -> None:
 
 def test_a_peak_of_a_constant_current_can_have_a_least() -> None:
     """Least power is asked for, and no less than so much."""
-    solution = _solve(_study(SMALL.replace('peak_power: "<= 9 W"', 'peak_power: ">= 9 W"').replace(
+    solution = optimize(read_study_text(SMALL.replace('peak_power: "<= 9 W"', 'peak_power: ">= 9 W"').replace(
         "{envelope_volume: 1, module_mass: 1, response_time: 1}", "peak_power"
     )))  # fmt: skip
     assert solution.status == "optimal"
@@ -219,8 +213,8 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
     """Objectives are ratios to each study's own start, so the same goal is set with one output alone."""
     goal = SMALL.replace("{envelope_volume: 1, module_mass: 1, response_time: 1}", "response_time")
     goal = goal.replace("[0.5 A, 2 A]", "[0.1 A, 2 A]")
-    weak = _solve(_study(goal.replace("vary:", "module: {current: 0.2 A}\nvary:")))
-    reference = _solve(_study(goal))
+    weak = optimize(read_study_text(goal.replace("vary:", "module: {current: 0.2 A}\nvary:")))
+    reference = optimize(read_study_text(goal))
     assert weak.status == reference.status == "optimal"
     for name in ("response_time", "peak_power"):
         assert weak.values[name] == pytest.approx(reference.values[name], rel=1e-4)
@@ -229,7 +223,7 @@ def test_a_start_that_never_ends_still_finds_the_optimum() -> None:
 
 
 def test_advice_that_is_not_followed_is_told() -> None:
-    found = answer(_study("mode: shear\n"))
+    found = answer(read_study_text("mode: shear\n"))
     assert "structure_temperature_margin" in {warning.output for warning in found.warnings}
 
 
@@ -248,18 +242,18 @@ def test_a_target_no_design_can_reach_is_named_with_what_one_can(targets: str, s
         + "vary: {pcl_thickness: [0.6 mm, 2 mm], wire_diameter: [1.5 mm, 3 mm]}\nminimize: response_time\n"
     )
     with pytest.raises(InputError, match=said) as caught:
-        _solve(read_study_text(text, "a test"))
+        optimize(read_study_text(text, "a test"))
     # The target it names can be reached: a little beyond it on the side of what is possible, the search goes on.
     possible = str(caught.value).rpartition("target is ")[2]
     number, unit = possible.split(" ")
     word = targets.partition(":")[0]
     eased = float(number) * (1.02 if word.startswith("soft") else 0.98)
     again = text.replace(targets, f"{word}: {eased:g} {unit.replace('·', '.')}")
-    assert _solve(read_study_text(again, "a test")).starts
+    assert optimize(read_study_text(again, "a test")).starts
 
 
 def test_where_no_switch_is_found_the_arithmetic_conflict_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(search, "find_conflicts", lambda *_: None)
     asked = "  spring_stiffness: '>= 9 N.m/rad'\n  spring_fatigue_safety: '>= 3'\nminimize: {peak_power: 1}\n"
     with pytest.raises(InfeasibleError, match=r"cannot hold together.*\n  spring_stiffness.*\n  spring_fatigue_safety"):
-        optimize(_study(f"{FOUR_SIZES_IN_SHEAR}require:\n{asked}solver: {{starts: 1}}\n"))
+        optimize(read_study_text(f"{FOUR_SIZES_IN_SHEAR}require:\n{asked}solver: {{starts: 1}}\n"))

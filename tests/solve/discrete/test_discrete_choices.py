@@ -50,10 +50,6 @@ vary:
 )
 
 
-def _solve(study: Study) -> Solution:
-    return optimize(study)
-
-
 def _chosen(solution: Solution) -> Choosing:
     assert solution.choosing is not None
     return solution.choosing
@@ -79,7 +75,7 @@ def _agrees(study: Study, solution: Solution, alone: dict[tuple[float, ...], flo
 
 @pytest.fixture(scope="module")
 def found() -> Solution:
-    return _solve(listed())
+    return optimize(listed())
 
 
 @pytest.fixture(scope="module")
@@ -99,19 +95,19 @@ def test_branch_and_bound_is_as_good_as_solving_every_combination_alone(
 @pytest.mark.parametrize("weights", WEIGHT_SETS)
 def test_it_is_as_good_whatever_is_minimised(weights: str) -> None:
     study = listed(LISTED.replace(WEIGHTS, weights))
-    _agrees(study, _solve(study))
+    _agrees(study, optimize(study))
 
 
 @pytest.mark.slow
 def test_it_is_as_good_in_compression() -> None:
     study = listed(COMPRESSION)
-    _agrees(study, _solve(study))
+    _agrees(study, optimize(study))
 
 
 def test_the_bounds_save_most_of_the_work() -> None:
     # One design is asked for; the solver runs for half of the combinations at most, though some have no design.
     alone = listed(LISTED.replace("solver: {", "solver: {alternatives: 1, "))
-    choosing = _chosen(_solve(alone))
+    choosing = _chosen(optimize(alone))
     assert len(choosing.best) == 1
     assert choosing.work.warm + choosing.work.cold <= choosing.combinations // 2
 
@@ -126,7 +122,7 @@ def test_a_re_solve_takes_a_few_iterations(found: Solution) -> None:
 def test_solving_every_combination_finds_the_same_and_says_so(
     found: Solution, alone: dict[tuple[float, ...], float]
 ) -> None:
-    proven = _chosen(_solve(listed(LISTED.replace("solver: {", "solver: {prove: true, "))))
+    proven = _chosen(optimize(listed(LISTED.replace("solver: {", "solver: {prove: true, "))))
     assert proven.proven
     assert proven.improved <= 1e-6
     assert [one.choices for one in proven.best] == [one.choices for one in _chosen(found).best]
@@ -186,7 +182,9 @@ def test_the_order_of_a_list_changes_nothing(found: Solution) -> None:
         "{from: 3, to: 4, step: 0.5}", "{choose: [4, 3.5, 3]}"
     )
     # Objectives are over the study's own start, which is the same module.
-    assert [one.choices for one in _chosen(_solve(listed(turned))).best] == [one.choices for one in _chosen(found).best]
+    assert [one.choices for one in _chosen(optimize(listed(turned))).best] == [
+        one.choices for one in _chosen(found).best
+    ]
 
 
 @pytest.mark.gate
@@ -240,9 +238,9 @@ def test_records_that_differ_in_numbers_share_a_problem_and_optimum() -> None:
 @pytest.mark.slow
 def test_records_and_sizes_are_chosen_together() -> None:
     text = POWERFUL.replace("arc_count: {choose: [3, 4]}", "structure_material: {choose: [petg, aluminum_6061_t6]}")
-    both = _solve(listed(text))
+    both = optimize(listed(text))
     alone = [
-        _solve(listed(text.replace("vary:", f"module: {{structure_material: {name}}}\nvary:").replace(
+        optimize(listed(text.replace("vary:", f"module: {{structure_material: {name}}}\nvary:").replace(
             "  structure_material: {choose: [petg, aluminum_6061_t6]}\n", "")))
         for name in ("petg", "aluminum_6061_t6")
     ]  # fmt: skip
@@ -256,7 +254,7 @@ def test_records_and_sizes_are_chosen_together() -> None:
 
 @pytest.mark.slow
 def test_where_no_combination_has_a_design_that_is_said() -> None:
-    none = _solve(listed(LISTED.replace('">= 5 N.m/rad"', '">= 5 N.m/rad"\n  response_time: "<= 2 s"')))
+    none = optimize(listed(LISTED.replace('">= 5 N.m/rad"', '">= 5 N.m/rad"\n  response_time: "<= 2 s"')))
     assert none.status.startswith("infeasible")
     assert none.conflict_set
     assert any("response_time" in side.text for side in none.conflict_set.broken)
@@ -306,4 +304,4 @@ def test_too_many_combinations_are_refused_with_advice() -> None:
     text = text.replace("[32 mm, 40 mm]", "{from: 32 mm, to: 40 mm, step: 0.5 mm}")
     assert discrete_sizes(listed(text), TABLE).count > 1_000_000
     with pytest.raises(InputError, match="combinations of listed choices; the limit is 1000000; narrow a list"):
-        _solve(listed(text))
+        optimize(listed(text))

@@ -11,7 +11,7 @@ from tvimdesign.solve.infeasibility.conflict_set import SecondTry
 from tvimdesign.solve.infeasibility.early_checks import refuse_infeasible
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.result import StudyResult, answer
-from tvimdesign.study import Study, read_study_text
+from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
 STIFF = """
@@ -43,17 +43,13 @@ solver: {cells: 8, starts: 1}
 """
 
 
-def _study(text: str) -> Study:
-    return read_study_text(text, "test")
-
-
 def _answer(text: str) -> StudyResult:
-    return answer(_study(text))
+    return answer(read_study_text(text))
 
 
 def _refusal(text: str) -> str:
     with pytest.raises(InfeasibleError) as caught:
-        refuse_infeasible(_study(text))
+        refuse_infeasible(read_study_text(text))
     return str(caught.value)
 
 
@@ -74,7 +70,7 @@ def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
     )
     assert "vary placement_radius (57 mm), which moves it more than all that is varied" in _refusal(text)
     freed = text.replace("30 mm]}", "30 mm], placement_radius: [45 mm, 57 mm]}")
-    refuse_infeasible(_study(freed))
+    refuse_infeasible(read_study_text(freed))
     little = freed.replace("45 mm", "56 mm")  # nothing that is fixed moves it more now
     assert "moves it more" not in _refusal(little)
 
@@ -82,7 +78,7 @@ def test_the_fixed_number_that_moves_a_limit_most_is_named_and_helps() -> None:
 def test_what_a_design_keeps_is_never_refused() -> None:
     free = _answer(HEAVY.replace(', module_mass: "<= 60 g"', ""))
     just = 1e3 * free.design.values["module_mass"] * (1.0 + 1e-6)
-    refuse_infeasible(_study(HEAVY.replace("<= 60 g", f"<= {just:.9g} g")))
+    refuse_infeasible(read_study_text(HEAVY.replace("<= 60 g", f"<= {just:.9g} g")))
 
 
 def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None:
@@ -99,9 +95,9 @@ def test_limits_that_cannot_hold_together_are_named_without_the_others() -> None
     assert "module_mass" not in said
     (figure,) = re.findall(r"coil_pitch <= 2.05 mm: alone it would have to move to <= ([\d.]+) mm", said)
     assert float(figure) > 2.05
-    refuse_infeasible(_study(text.replace("<= 2.05 mm", f"<= {1.001 * float(figure):.6g} mm")))
-    refuse_infeasible(_study(text.replace(', coil_pitch: "<= 2.05 mm"', "")))
-    refuse_infeasible(_study(text.replace('spring_index: "<= 6", ', "")))
+    refuse_infeasible(read_study_text(text.replace("<= 2.05 mm", f"<= {1.001 * float(figure):.6g} mm")))
+    refuse_infeasible(read_study_text(text.replace(', coil_pitch: "<= 2.05 mm"', "")))
+    refuse_infeasible(read_study_text(text.replace('spring_index: "<= 6", ', "")))
 
 
 def test_a_limit_that_nothing_varied_changes_is_reported_before_building() -> None:
@@ -126,7 +122,7 @@ def test_every_limit_that_the_fixed_inputs_break_is_told_at_once() -> None:
 def test_every_listed_record_must_be_impossible_before_a_study_is_refused() -> None:
     listed = HEAVY.replace("vary: {", "vary: {structure_material: {choose: [petg, aluminum_6061_t6]}, ")
     assert "every listed structure_material" in _refusal(listed)
-    refuse_infeasible(_study(listed.replace("<= 60 g", "<= 250 g")))
+    refuse_infeasible(read_study_text(listed.replace("<= 60 g", "<= 250 g")))
 
 
 def test_a_check_says_the_same_of_limits_that_need_no_simulation() -> None:
@@ -191,7 +187,7 @@ def test_a_limit_on_a_time_quarrels_with_the_power_it_takes() -> None:
 
 
 def test_a_start_begun_again_from_a_design_that_keeps_all_limits_converges() -> None:
-    study = _study(STIFF.replace(">= 12 N.m/rad", ">= 4.5 N.m/rad"))
+    study = read_study_text(STIFF.replace(">= 12 N.m/rad", ">= 4.5 N.m/rad"))
     optimizer = Optimizer(study)
     run = optimizer.solve()
     again = SecondTry(optimizer).from_conflict_search(run)

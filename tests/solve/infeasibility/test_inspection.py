@@ -7,7 +7,7 @@ from small_studies import FOUR_SIZES_IN_SHEAR
 from tvimdesign.device import table_for
 from tvimdesign.solve.infeasibility.inspection import DERIVATIVE_TOLERANCE, Inspection
 from tvimdesign.solve.optimizer.optimizer import Optimizer
-from tvimdesign.study import Study, read_study_text
+from tvimdesign.study import read_study_text
 
 TABLE = table_for("shear")
 TIMED = (
@@ -24,13 +24,9 @@ solver: {starts: 1, cells: 6, fineness: 0.67}
 )
 
 
-def _study(text: str) -> Study:
-    return read_study_text(text, "test")
-
-
 @pytest.fixture(scope="module")
 def inspection() -> Inspection:
-    return Inspection(Optimizer(_study(TIMED)))
+    return Inspection(Optimizer(read_study_text(TIMED)))
 
 
 def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> None:
@@ -40,7 +36,7 @@ def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> Non
 
 
 def test_a_wrong_derivative_is_found_and_named() -> None:
-    spoilt = Inspection(Optimizer(_study(TIMED)))
+    spoilt = Inspection(Optimizer(read_study_text(TIMED)))
     names = spoilt._rows
     row = names.index("spring_stiffness >=")
     spoilt._jacobian[row, 0] *= 1.001
@@ -67,7 +63,7 @@ def test_without_a_current_profile_there_is_no_equation_to_condition(inspection:
 def test_a_driven_phase_s_time_follows_from_current_and_free_numbers() -> None:
     """Conditioning is by the free numbers alone: the time of the pieces is what the equation makes it."""
     text = TIMED.replace("minimize:", "profile: {softening: 3}\nminimize:")
-    driven = Inspection(Optimizer(_study(text)))
+    driven = Inspection(Optimizer(read_study_text(text)))
     decided, along, equations = driven._along()
     assert len(decided) == len(driven.problem.free) == 3
     assert 1.0 <= equations < 1e4
@@ -85,7 +81,7 @@ require: {envelope_diameter: "<= 400 mm"}
 minimize: envelope_diameter
 solver: {starts: 1}
 """
-    found = Inspection(Optimizer(_study(text)))
+    found = Inspection(Optimizer(read_study_text(text)))
     rows = [i for i, name in enumerate(found._rows) if not name.startswith(("envelope", "goal"))]
     found._jacobian[rows, :] = 0.0
     conditioning = found.conditioning()
@@ -101,7 +97,7 @@ require: {spring_stiffness: ">= 2 N.m/rad", springs_mass: "<= 100 g"}
 minimize: springs_mass
 solver: {starts: 1}
 """
-    optimizer = Optimizer(_study(text))
+    optimizer = Optimizer(read_study_text(text))
     model = optimizer.model
     outputs = [*(limit.output for limit in optimizer.problem.limits), "springs_mass"]
     scales = np.array([*(limit.scale for limit in optimizer.problem.limits), 1.0])
