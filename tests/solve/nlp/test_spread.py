@@ -1,4 +1,4 @@
-"""Worst case, root-sum-square and Monte Carlo on functions whose answers are known; points are scipy's."""
+"""Worst case, root-sum-square, moments and Monte Carlo on functions whose answers are known; points are scipy's."""
 
 import math
 import subprocess
@@ -10,11 +10,14 @@ import pytest
 from scipy import stats
 from scipy.stats import qmc
 
+from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
+from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.solve.nlp import spread
-from tvimdesign.solve.nlp.spread import Contributor
+from tvimdesign.solve.nlp.spread import Contributor, moments
 from tvimdesign.solve.uncertainty.design_uncertainty import sobol_points
 from tvimdesign.solve.uncertainty.intervals import draw
 from tvimdesign.solve.uncertainty.uncertain_inputs import UnmeasuredInput
+from tvimdesign.study import read_study_text
 
 PARTS = [Contributor("a", 1.0, 0.3), Contributor("b", 2.0, 0.3, "uniform"), Contributor("c", -1.0, 0.2, sigma=2.0)]
 SLOPES = np.array([[2.0, -3.0, 1.0], [0.0, 0.0, 5.0]])
@@ -138,8 +141,8 @@ def test_kept_points_are_scipys_and_scipy_is_not_loaded_for_them(
         "import sys\nfrom tvimdesign.solve.uncertainty.design_uncertainty import sobol_points\n"
         "points = sobol_points(5, 64, 2)\nassert 'scipy.stats' not in sys.modules\nprint(points.tobytes().hex())"
     )
-    said = subprocess.run([sys.executable, "-c", again], capture_output=True, text=True, check=True).stdout
-    assert bytes.fromhex(said.strip()) == expected.tobytes()
+    printed = subprocess.run([sys.executable, "-c", again], capture_output=True, text=True, check=True).stdout
+    assert bytes.fromhex(printed.strip()) == expected.tobytes()
 
 
 def test_points_of_another_seed_or_count_are_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -148,3 +151,40 @@ def test_points_of_another_seed_or_count_are_others(tmp_path: Path, monkeypatch:
     assert not np.array_equal(first, sobol_points(3, 16, 2))
     assert sobol_points(3, 32, 1).shape == (32, 3)
     assert np.array_equal(first, sobol_points(3, 32, 1)[:16])
+
+
+WIRE = 2e-3  # m
+
+
+def _moments(tolerance: str) -> tuple[float, float, float]:
+    """Value of the springs' rate, which goes with the fourth power of the wire; shift of its mean; its deviation."""
+    text = f"mode: shear\nmodule: {{wire_diameter: 2 mm, leg_model: ignored}}\ntolerances: {{{tolerance}}}\n"
+    module = resolve_study(read_study_text(text, "a test"))
+    model = DeviceFunctions(module.table, module.values, module.points, 2)
+    function = moments(model, module.study.tolerances, ["spring_rate"], [1.0])
+    shift, deviation = (float(np.asarray(part).ravel()[0]) for part in function(model.start))
+    return float(module.quantity("spring_rate")), shift, deviation
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "sigma"),
+    [
+        ("{plus_minus: 0.03 mm}", 0.01e-3),
+        ("{plus_minus: 0.03 mm, sigma: 2}", 0.015e-3),
+        ("{plus_minus: 0.03 mm, distribution: uniform}", 0.03e-3 / math.sqrt(3.0)),
+        ("1.5 %", 0.01e-3),
+        ("{plus_minus: 0.03 mm, adjustable: true, adjusted_to: 0.006 mm}", 0.002e-3),
+        ("{plus_minus: 0.03 mm, adjustable: true, adjusted_to: 0.05 mm}", 0.01e-3),
+    ],
+)
+def test_a_fourth_power_has_the_moments_of_one(tolerance: str, sigma: float) -> None:
+    """Of k = c d^4, to second order: deviation 4 k sigma/d, shift of the mean 6 k (sigma/d)^2."""
+    rate, shift, deviation = _moments(f"wire_diameter: {tolerance}")
+    assert deviation == pytest.approx(4.0 * rate * sigma / WIRE, rel=1e-9)
+    assert shift == pytest.approx(6.0 * rate * (sigma / WIRE) ** 2, rel=1e-9)
+
+
+def test_two_inputs_add_their_variances() -> None:
+    # The rate is proportional to Young's modulus: 3 % at three sigma are a hundredth of it.
+    rate, _, deviation = _moments("wire_diameter: {plus_minus: 0.03 mm}, spring_youngs_modulus: 3 %")
+    assert deviation == pytest.approx(rate * math.hypot(4.0 * 0.01e-3 / WIRE, 0.01), rel=1e-9)
