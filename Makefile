@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
 .DEFAULT_GOAL := help
-.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-engine bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine same same-optima validation fit-coverage check-wheel check-cad docs pictures lint format types contracts words page-code schema units vendor cad clean
+.PHONY: help study wheel release test test-gate test-all test-slow bench bench-switch bench-choices bench-shelf bench-cad bench-sweep bench-cells bench-front bench-designs bench-random-choices bench-explore bench-engine bench-slider gallery screenshots fuzz kills folders sweep-kills random-studies time-limits machine same same-optima validation fit-coverage check-wheel check-cad docs pictures lint format types contracts words prose page-code schema units vendor cad clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -114,7 +114,7 @@ fit-coverage: $(STAMP)  ## how often the intervals of fits hold the truth, over 
 check-wheel: $(STAMP)  ## fit, verify and validation from a wheel outside the repository; FE_PYTHON=... names a Python that has ngsolve (minutes)
 	$(BIN)/python -m pytest -q -m slow tests/test_wheel.py
 
-lint: $(STAMP) types contracts words page-code  ## ruff, mypy, import contracts, the words of names and texts; eslint and tsc for the page's code (needs npm)
+lint: $(STAMP) types contracts words prose page-code  ## ruff, mypy, import contracts, words of names, lengths of sentences; eslint and tsc for the page's code (needs npm)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
@@ -126,6 +126,9 @@ contracts: $(STAMP)
 
 words: $(STAMP)  ## private words in names, messages and docs: no floor has more than its allowance; `--update` lowers it
 	$(BIN)/python .ci/words/words.py
+
+prose: $(STAMP)  ## sentences of README, docs and help: a mean below 18 words, none above 35
+	$(BIN)/python .ci/words/prose.py
 
 PAGE := .ci/page
 PAGE_BIN := $(PAGE)/node_modules/.bin

@@ -27,6 +27,8 @@ ALLOWED = HERE / "allowed.json"
 RULES: dict[str, Any] = yaml.safe_load((HERE / "words.yaml").read_text(encoding="utf-8"))
 PHRASES = [(re.compile(pattern, re.IGNORECASE), instead) for pattern, instead in RULES["phrases"].items()]
 CODE = ("tvimdesign", "tests", "campaigns", "benchmarks", "validation", "docs/make", "release", ".ci")
+PLAIN = ("*.js", "*.jinja", "*.yaml")
+"""Other files with texts for people: the page's code and templates, labels, warnings."""
 FEWEST_WORDS = 3
 """A text of fewer words is no message."""
 Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -116,6 +118,9 @@ def floors() -> dict[str, dict[Path, list[Find]]]:
     finds: dict[str, dict[Path, list[Find]]] = defaultdict(dict)
     for path in sorted(path for folder in CODE for path in (ROOT / folder).rglob("*.py")):
         finds[floor_of(path)][path] = list(in_code(ast.parse(path.read_text(encoding="utf-8"))))
+    for path in sorted(path for pattern in PLAIN for path in (ROOT / "tvimdesign").rglob(pattern)):
+        if "vendor" not in path.parts:
+            finds[floor_of(path)][path] = list(in_text("message", path.read_text(encoding="utf-8"), 1))
     for path in sorted([*(ROOT / "docs").rglob("*.md"), ROOT / "README.md", ROOT / "CHANGELOG.md"]):
         finds["docs"][path] = list(in_text("docs", path.read_text(encoding="utf-8"), 1))
     return finds

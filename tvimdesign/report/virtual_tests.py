@@ -37,7 +37,7 @@ TESTS: dict[str, VirtualTest] = {
         "moduli of the PCL while it cools and while it is heated: where it freezes, where it melts",
     ),
     "creep": VirtualTest(
-        "tvimdesign.simulation.rheometer.transient:creep", "how the PCL gives way under a stress, and comes back"
+        "tvimdesign.simulation.rheometer.transient:creep", "creep of the PCL under a stress, and its recovery"
     ),
     "relaxation": VirtualTest(
         "tvimdesign.simulation.rheometer.transient:relaxation", "how the stress in the PCL fades at a held strain"

@@ -184,7 +184,7 @@ def layer_edge_traction(m: Module) -> Scalar:
     return m.layer_edge_rise * layer.traction(m.holding_torque, m.layer_polar_moment, m.pcl_outer_radius)
 
 
-_PEELS = "the bond may give way along the arcs' edges before the joint bears what it is said to hold"
+_PEELS = "the bond may fail along the arcs' edges below the torque that the joint must hold"
 
 
 @quantities.output("1", advice=(Rule(sense=">=", value=1.0, reason=_PEELS),))

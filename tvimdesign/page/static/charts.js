@@ -9,7 +9,7 @@ const every = new Set();
 const PAPER = 640; // px that a chart is wide on a sheet
 let onPaper = false;
 
-/** A chart in `place`: `build(look, width)` gives its options, at a width [px]; `says` is what a reader who cannot see it is told. */
+/** A chart in `place`: `build(look, width)` gives its options, at a width [px]; `says` describes it to readers who cannot see it. */
 export function chart(place, { says, height = 260 }, build) {
   forgetGone();
   const box = document.createElement("div");

@@ -17,7 +17,7 @@ export function draw(figure) {
   return drawn.get(figure);
 }
 
-/** Draw; what fails is said in the figure's place. */
+/** Draw; a failure is reported in the place of the figure. */
 async function attempt(figure) {
   const place = figure.querySelector(".canvas");
   const { name, by } = figure.dataset;

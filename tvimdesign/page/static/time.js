@@ -6,7 +6,7 @@ let now = 0;
 /** The moment [s] from the beginning of the cycle. */
 export const moment = () => now;
 
-/** Be told of every move of the moment. */
+/** Call back at every move of the moment. */
 export function onMoment(listener) {
   listeners.add(listener);
 }

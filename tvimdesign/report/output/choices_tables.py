@@ -124,7 +124,7 @@ def _fates(choosing: Choosing) -> str:
     parts = [f"{choosing.solved} solved"]
     if choosing.pruned:
         parts.append(f"{choosing.pruned} ruled out by their bounds")
-    parts.append(f"{choosing.without_design} without a design that keeps the limits")
+    parts.append(f"{choosing.without_design} without a design that satisfies the limits")
     if choosing.not_searched:
         parts.append(f"{choosing.not_searched} left as the time was over")
     return ", ".join(parts)

@@ -145,7 +145,7 @@ class LostTo(TypedDict):
 
 @closed
 class Yield(TypedDict):
-    """The yield of a design of which one was asked for, and of the one without margins, by random modules."""
+    """Yield of a design with margins, and of the one without margins, by random modules."""
 
     asked: float
     modules: int

@@ -57,7 +57,7 @@ def complaint(answer: StudyResult, table: Table) -> str:
             "Ease a limit, or widen a range under `vary`. The design.json written is the one that comes closest."
         )
     elif late:
-        lines.append("Whether there is one is not known: raise `solver.time_limit` (or --time-limit).")
+        lines.append("The search could not decide whether there is one: raise `solver.time_limit` (or --time-limit).")
     elif between is None:
         lines += endings(solution.starts if solution else ())
         lines.append("Relax one of them, widen a range under `vary`, or try more `solver.starts`.")

@@ -44,7 +44,7 @@ def _sentence(held: ActiveConstraint) -> str:
     subject = f"{held.step} {more} {held.output} (now{held.text.removeprefix(held.output)})"
     if not held.sensitivity:
         share = f"{held.shadow_price:.2g} % of the objective"
-        return f"{subject} costs {share}; what of which output is not settled: {_WHY_NOT}."
+        return f"{subject} costs {share}. Its share of each output cannot be computed: {_WHY_NOT}."
     costs = [f"{saving:.2g} % {name}" for name, saving in held.sensitivity.items() if saving >= _SAVING_SHOWN]
     saves = [f"{-saving:.2g} % {name}" for name, saving in held.sensitivity.items() if saving <= -_SAVING_SHOWN]
     clauses = [f"{verb} {_listed(parts)}" for verb, parts in (("costs", costs), ("saves", saves)) if parts]

@@ -15,7 +15,7 @@ function edgesOf(geometry) {
   return known.get(geometry);
 }
 
-/** Every part of a GLB by name, with what is told of it. Copies of a kind share their mesh; polymer has its own. */
+/** Every part of a GLB by name, with its data. Copies of a kind share their mesh; polymer has its own. */
 export async function readParts(binary, told) {
   const { scene } = await new GLTFLoader().parseAsync(binary, "");
   scene.updateMatrixWorld(true);

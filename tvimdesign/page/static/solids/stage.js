@@ -135,7 +135,7 @@ export class Stage {
     this.renew();
   }
 
-  /** Be told which part was clicked; null beside all parts. */
+  /** Call `told` with the part that was clicked; null beside all parts. */
   onPick(told) {
     /** @type {number[] | null} */
     let from = null;

@@ -1,4 +1,4 @@
-// The parts as a tree of boxes to tick, and what is told of the one that is picked.
+// The parts as a tree of boxes to tick, and a description of the picked one.
 import { button, make, tick } from "page/dom.js";
 
 /**
@@ -53,7 +53,7 @@ function branch(kind, members, changed, picked) {
   return item;
 }
 
-/** What is told of a part: made of what, how heavy, its files. */
+/** Describe a part: its material, mass and files. */
 export function aboutPart(part, folder) {
   if (!part) return [make("p", {}, "Pick a part in the picture, or press “about” in the list.")];
   const links = part.files.flatMap((file) => [make("a", { href: `${folder}/${file}` }, file.split("/").at(-1)), " "]);
