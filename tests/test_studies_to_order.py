@@ -9,8 +9,8 @@ from answers import shipped_answer
 from cad_designs import as_it_starts
 from support import STUDIES
 
+from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import Item, as_ordered, beside, bill, fixtures
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.study import Study, read_study

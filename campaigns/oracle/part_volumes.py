@@ -19,8 +19,7 @@ def part_volumes(design: tvimdesign.Design) -> dict[str, Value]:
     GeometryError
         If a part cannot be built.
     """
-    from tvimdesign.cad.assembly.assembly import drawn_part, place
-    from tvimdesign.cad.assembly.module_parts import MODULES
+    from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, place
     from tvimdesign.cad.geometry.dimensions import dimensions
     from tvimdesign.cad.geometry.kinds import kind_of
 

@@ -19,8 +19,8 @@ from tvimdesign.base.child_process import read_lines
 from tvimdesign.base.errors import GeometryError, InputError
 from tvimdesign.base.processes import ProcessorLimit, ProcessorTimeError
 from tvimdesign.cad import CadReport, make_cad
+from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.assembly_data import _linear
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.export.step_file import Product, in_fixed_order, write_assembly
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.kinds import KINDS

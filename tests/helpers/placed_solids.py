@@ -4,8 +4,7 @@ from collections.abc import Iterable
 
 import cadquery as cq
 
-from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 
 

@@ -46,7 +46,7 @@ def make_cad(
 
     `progress` gets each step. The files are written even where a check fails (`report.failed`), so that one can look
     at what collides. `job` is the module that is run as the child process: another one can change how parts are drawn
-    (`MODULES` in `cad/assembly/module_parts.py`) and call this one's `main`. Raises GeometryError where a part cannot
+    (`MODULES` in `cad/assembly/assembly.py`) and call this one's `main`. Raises GeometryError where a part cannot
     be built or takes more than `part_limit` of processor time [s], naming the part, once the files of the others are
     written; also where the process crashes or takes more than `limit` [s] without a report of progress. Raises
     InputError where the design cannot be read, or the extra [cad] is not installed.

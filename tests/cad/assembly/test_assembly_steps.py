@@ -7,10 +7,9 @@ from typing import Any
 import pytest
 from cad_designs import DRIVEN, TILES, design_of
 
-from tvimdesign.cad.assembly.assembly_figures import preload_tolerance
-from tvimdesign.cad.assembly.assembly_note import all_steps, assembly_note, written_steps
+from tvimdesign.cad.assembly.assembly import MODULES
+from tvimdesign.cad.assembly.assembly_note import all_steps, assembly_note, preload_tolerance, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import Item
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.study.design import Design

@@ -8,9 +8,8 @@ import pytest
 from cad_designs import BLOCKS, WRIST, design_of
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import build
+from tvimdesign.cad.assembly.assembly import MODULES, build
 from tvimdesign.cad.assembly.draft_module import draft_module
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.draft_kernel import CHORD, DraftKernel, DraftSolid
 from tvimdesign.cad.geometry.kinds import kind_of

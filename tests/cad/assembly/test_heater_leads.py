@@ -8,9 +8,9 @@ import pytest
 from cad_designs import TILES, design_of
 
 from tvimdesign.base.units import ZERO_CELSIUS
+from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, fixtures
 from tvimdesign.cad.assembly.heater_leads import fuse_in_words, thermistor_in_words, thermistors, wires
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.jobs.main import _titles
 from tvimdesign.catalog import Catalog

@@ -16,8 +16,7 @@ from ezdxf.entities import Hatch
 from ezdxf.entities.boundary_paths import PolylinePath
 from test_drawings import measured, no_text_lies_on_another, sheet_of, texts
 
-from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements, drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import figure
 from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows

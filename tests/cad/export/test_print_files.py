@@ -13,8 +13,7 @@ import trimesh
 from cad_designs import BEARINGS, BLOCKS, DRIVEN, SPRUNG_BLOCKS, TILES, design_of
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.export.mesh import Mesh, face_meshes, solid_mesh
 from tvimdesign.cad.export.print_files import (
     _distance,

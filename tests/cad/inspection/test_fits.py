@@ -7,8 +7,7 @@ import cadquery as cq
 import pytest
 from cad_designs import BLOCKS, TILES, VANE_TILES, broken_rules, design_of
 
-from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.inspection.inspect import fit_checks

@@ -30,8 +30,7 @@ from tvimdesign.cad.inspection.inspect import (
 from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
-from tvimdesign.cad.inspection.rays import Triangles
-from tvimdesign.cad.inspection.walls import slot_check, wall_checks
+from tvimdesign.cad.inspection.rays import Triangles, slot_check, wall_checks
 from tvimdesign.cad.parts.common_parts import mounts
 from tvimdesign.study.design import Design
 

@@ -7,8 +7,7 @@ import pytest
 from cad_designs import broken_rules, design_of
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import build, drawn_parts
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.assembly import MODULES, build, drawn_parts
 from tvimdesign.cad.export.mesh import solid_mesh
 from tvimdesign.cad.export.print_files import closed
 from tvimdesign.cad.geometry.dimensions import dimensions

@@ -6,9 +6,8 @@ import cadquery as cq
 import pytest
 from cad_designs import BLOCKS, TILES, VANE_TILES, broken_rules, design_of
 
-from tvimdesign.cad.assembly.assembly import drawn_part
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.assembly.assembly_note import steps_of
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.cad.parts import shear_parts

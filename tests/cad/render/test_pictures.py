@@ -11,9 +11,8 @@ from PIL import Image
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
-from tvimdesign.cad.render.field_picture import write_field_picture
 from tvimdesign.cad.render.pictures import _spring_outside, wedge_of
-from tvimdesign.cad.render.render import actors, look, renderer_on_white, write_png
+from tvimdesign.cad.render.render import actors, look, renderer_on_white, write_field_picture, write_png
 
 GREEN = (0.0, 0.8, 0.2)
 SIZE = (200, 100)

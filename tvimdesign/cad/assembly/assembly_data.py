@@ -10,10 +10,9 @@ import cadquery as cq
 import numpy as np
 import trimesh
 
-from tvimdesign.cad.assembly.assembly import installed_coils
+from tvimdesign.cad.assembly.assembly import installed_coils, lifts
 from tvimdesign.cad.assembly.assembly_note import WrittenStep, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import Item
-from tvimdesign.cad.assembly.module_parts import lifts
 from tvimdesign.cad.export.mesh import RING, Instance, Mesh, coil_points, part_meshes, wire_centre
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.exact_kernel import placement

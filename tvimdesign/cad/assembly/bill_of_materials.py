@@ -12,7 +12,7 @@ import cadquery as cq
 
 from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import ZERO_CELSIUS
-from tvimdesign.cad.assembly import file_names
+from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.heater_leads import lead_in_words, pad_count, thermistor_in_words, up, wire_in_words
 from tvimdesign.cad.assembly.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.cad.export.step_file import product
@@ -179,7 +179,7 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
     record = str(design.choices["structure_material"])
     bears = f"of {titles.get('structure_material', record)} where that bears 80 °C, else of aluminium, PC or ABS"
     jig = [
-        Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, (file_names.step(kind), file_names.print_3mf(kind)),
+        Item(kind, 1, True, record, f"Fixture, {bears}", 0.0, (cad_report.step(kind), cad_report.print_3mf(kind)),
              fixture=True)
         for kind in casting_jig.MAKING
     ]  # fmt: skip
@@ -307,11 +307,11 @@ def _supply(design: Design) -> list[Item]:
 def _papers(kind: str) -> tuple[str, ...]:
     """Return files a part is made from, or ordered by."""
     if kind in SPRINGS:
-        return (file_names.SPRING_SHEET, file_names.SPRING_TABLE)
-    drawing = (file_names.drawing_pdf(kind),) if PRODUCTION[kind].drawn else ()
+        return (cad_report.SPRING_SHEET, cad_report.SPRING_TABLE)
+    drawing = (cad_report.drawing_pdf(kind),) if PRODUCTION[kind].drawn else ()
     if PRODUCTION[kind].down == "bought":
-        return (file_names.step(kind), *drawing)
-    return (file_names.step(kind), *drawing, file_names.print_3mf(kind))
+        return (cad_report.step(kind), *drawing)
+    return (cad_report.step(kind), *drawing, cad_report.print_3mf(kind))
 
 
 def _come_by(one: Item) -> str:

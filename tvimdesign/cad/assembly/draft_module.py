@@ -11,8 +11,7 @@ from manifold3d import Manifold
 from numpy.typing import NDArray
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.assembly import installed_coils, spring_locations
-from tvimdesign.cad.assembly.module_parts import MODULES, lifts
+from tvimdesign.cad.assembly.assembly import MODULES, installed_coils, lifts, spring_locations
 from tvimdesign.cad.export.mesh import Instance, Mesh, spring_mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.draft_kernel import DraftKernel, DraftSolid

@@ -8,8 +8,7 @@ from math import cos, radians, sin
 import cadquery as cq
 
 from tvimdesign import __version__
-from tvimdesign.cad.assembly import file_names
-from tvimdesign.cad.drawing.balloons import draw_balloons
+from tvimdesign.cad import cad_report
 from tvimdesign.cad.drawing.details import HEIGHT as DETAIL_HEIGHT
 from tvimdesign.cad.drawing.details import draw_details, small_steps
 from tvimdesign.cad.drawing.drawing_requirements import DATUM, GROUND, DrawingRequirements
@@ -28,7 +27,15 @@ from tvimdesign.cad.drawing.feature_rows import FeatureRow, feature_rows, sized
 from tvimdesign.cad.drawing.iso_1101 import draw_frames
 from tvimdesign.cad.drawing.placed_view import CuttingMark, PlacedView, apart
 from tvimdesign.cad.drawing.projection import View, from_above, half_section, section
-from tvimdesign.cad.drawing.sheet_layout import FIRST, NEXT, draw_tables, layout, table_height, with_datum
+from tvimdesign.cad.drawing.sheet_layout import (
+    FIRST,
+    NEXT,
+    draw_balloons,
+    draw_tables,
+    layout,
+    table_height,
+    with_datum,
+)
 from tvimdesign.cad.export.step_file import Product
 from tvimdesign.cad.geometry.features import Cylinder, levels, upright_cylinders
 from tvimdesign.cad.geometry.kinds import PRODUCTION
@@ -194,7 +201,7 @@ def _words(
         "Millimetres. Heights h are over the lowest face; in brackets what lies between.",
         *([_AZIMUTHS] if any("°" in row.place for row in rows) else []),
         *([_WALLS] if any(row.what == "wall" for row in rows) else []),
-        f"Exact shape: {file_names.step(kind)}.",
+        f"Exact shape: {cad_report.step(kind)}.",
         *asked.notes,
         *([f"Printing: {lying}; print/ has it so, with wider holes."] if asked.printed else []),
     ]  # fmt: skip

@@ -13,9 +13,8 @@ import cadquery as cq
 from tvimdesign.cad.drawing.drawing_requirements import DrawingRequirements
 from tvimdesign.cad.drawing.drawing_sheet import around, figure
 from tvimdesign.cad.drawing.iso_1101 import Frame
-from tvimdesign.cad.drawing.sectors import CORNER, Sector, sectors
 from tvimdesign.cad.geometry.features import Cylinder, tight_box, upright_cylinders
-from tvimdesign.cad.geometry.upright_walls import Pair, Wall, pairs, upright_walls
+from tvimdesign.cad.geometry.upright_walls import CORNER, Pair, Sector, Wall, pairs, sectors, upright_walls
 
 Point = tuple[float, float]
 T = TypeVar("T")

@@ -10,7 +10,7 @@ from typing import Any
 import cadquery as cq
 import numpy as np
 
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.spring_solids import installed_coil, spring_solid
 from tvimdesign.study.design import Design

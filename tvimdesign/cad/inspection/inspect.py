@@ -22,9 +22,8 @@ from tvimdesign.cad.geometry.spring_solids import Coil, free_coil, installed_coi
 from tvimdesign.cad.inspection.milling import corner_checks, hole_check, milling_checks
 from tvimdesign.cad.inspection.order import order_checks
 from tvimdesign.cad.inspection.printing import bed_check, printing_checks
-from tvimdesign.cad.inspection.rays import Triangles
+from tvimdesign.cad.inspection.rays import Triangles, slot_check, wall_checks
 from tvimdesign.cad.inspection.size_checks import TOUCHING, interference_checks
-from tvimdesign.cad.inspection.walls import slot_check, wall_checks
 from tvimdesign.cad.parts import casting_jig
 from tvimdesign.cad.parts.common_parts import between_springs, link_dowels, link_screws, mounts
 from tvimdesign.cad.parts.fasteners import insert_length, insert_places

@@ -12,12 +12,11 @@ from OCP.BinTools import BinTools
 from OCP.TopoDS import TopoDS_Shape
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly import file_names
-from tvimdesign.cad.assembly.assembly import drawn_part, free_spring, one_solid, place
+from tvimdesign.cad import cad_report
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, one_solid, place
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
 from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
-from tvimdesign.cad.assembly.module_parts import MODULES
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet
@@ -118,8 +117,8 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
     if PRODUCTION[kind].drawn:
         asked = drawing_requirements(kind, job.dims, job.design.choices)
         sheet = part_sheet(kind, solid, what, job.design.name, asked, job.titles.get(KINDS[kind].material, ""))
-        _write(job.folder, file_names.drawing_dxf(kind), sheet.dxf())
-        _write(job.folder, file_names.drawing_pdf(kind), sheet.pdf())
+        _write(job.folder, cad_report.drawing_dxf(kind), sheet.dxf())
+        _write(job.folder, cad_report.drawing_pdf(kind), sheet.pdf())
     if PRODUCTION[kind].down == "bought":
         return [_bought_mesh(job.folder, solid, kind)]
     return [_print(job, kind, solid, what, PRODUCTION[kind])]
@@ -142,13 +141,13 @@ def _spring(kind: str, job: Job) -> list[SolidCheck]:
     mesh = spring_mesh(free_coil(job.dims))
     checks = _step(job.folder, solid, product(job.design, kind))
     body = closed(kind, mesh if kind == "spring_right" else mesh.mirrored())
-    _write(job.folder, file_names.mesh_stl(kind), stl_bytes(body))
-    return [*checks, SolidCheck(file_names.mesh_stl(kind), 0.0, 0.0, True, f"{kind}: its mesh is watertight")]
+    _write(job.folder, cad_report.mesh_stl(kind), stl_bytes(body))
+    return [*checks, SolidCheck(cad_report.mesh_stl(kind), 0.0, 0.0, True, f"{kind}: its mesh is watertight")]
 
 
 def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
     """Write a part's STEP file, and compare what is read back with what the file says it must be."""
-    path = _place(folder, file_names.step(what.name))
+    path = _place(folder, cad_report.step(what.name))
     told = write_part(path, solid, what)
     read, reported = read_part(path)
     found = validation(read)
@@ -158,28 +157,28 @@ def _step(folder: Path, solid: cq.Solid, what: Product) -> list[SolidCheck]:
     if beside > off:  # else it is less than that over any size; the tightest box takes as long as all else here
         off = max(off, beside / max(tight_box(solid).DiagonalLength, 1.0))
     text = f"{what.name}: volume, area and centroid read back from STEP as the file says they are"
-    return [SolidCheck(file_names.step(what.name), off, _READ_BACK, off <= _READ_BACK, text)]
+    return [SolidCheck(cad_report.step(what.name), off, _READ_BACK, off <= _READ_BACK, text)]
 
 
 def _print(job: Job, kind: str, solid: cq.Solid, what: Product, making: Production) -> SolidCheck:
     """Write what a printer gets. A mesh that does not close is a check that fails, and its files are left out."""
-    name = file_names.print_stl(kind)
+    name = cad_report.print_stl(kind)
     try:
         lying = as_printed(solid, making, job.dims.hole_compensation, link_dowels(job.dims))
         body, distance = printed_mesh(kind, lying)
     except GeometryError as error:
         return SolidCheck(name, 1.0, 0.0, False, str(error))
     _write(job.folder, name, stl_bytes(body))
-    _write(job.folder, file_names.print_3mf(kind), threemf_bytes(body, what))
+    _write(job.folder, cad_report.print_3mf(kind), threemf_bytes(body, what))
     text = f"{kind}: its print mesh is watertight and nowhere further than stated from the part [mm]"
     return SolidCheck(name, distance, CHORD, distance <= CHORD, text)
 
 
 def _bought_mesh(folder: Path, solid: cq.Solid, kind: str) -> SolidCheck:
     body, distance = printed_mesh(kind, solid)
-    _write(folder, file_names.mesh_stl(kind), stl_bytes(body))
+    _write(folder, cad_report.mesh_stl(kind), stl_bytes(body))
     text = f"{kind}: its mesh is watertight and nowhere further than stated from the part [mm]"
-    return SolidCheck(file_names.mesh_stl(kind), distance, CHORD, distance <= CHORD, text)
+    return SolidCheck(cad_report.mesh_stl(kind), distance, CHORD, distance <= CHORD, text)
 
 
 def _sizes(job: Job) -> list[SolidCheck]:
@@ -207,19 +206,19 @@ def _assembly(job: Job) -> list[SolidCheck]:
     drawn = _solids(job.needs)
     placed = place(job.dims, drawn)
     products = {name: product(job.design, kind_of(name)) for name in placed}
-    write_assembly(job.folder / "out" / file_names.ASSEMBLY_STEP, job.design.name, placed, products)
+    write_assembly(job.folder / "out" / cad_report.ASSEMBLY_STEP, job.design.name, placed, products)
     meshed = instances(job.dims, drawn, placed, _meshes(job.needs))
-    _write(job.folder, file_names.ASSEMBLY_GLB, glb_bytes(meshed))
+    _write(job.folder, cad_report.ASSEMBLY_GLB, glb_bytes(meshed))
     items = bill(job.design, job.titles, placed)
-    _write(job.folder, file_names.ASSEMBLY_DATA, assembly_data(job.design, job.dims, items, meshed))
+    _write(job.folder, cad_report.ASSEMBLY_DATA, assembly_data(job.design, job.dims, items, meshed))
     return []
 
 
 def _spring_sheet(job: Job) -> list[SolidCheck]:
     """Make what the spring maker needs."""
     lines = spring_lines(job.design, job.dims, job.titles)
-    _write(job.folder, file_names.SPRING_TABLE, spring_csv(lines))
-    _write(job.folder, file_names.SPRING_SHEET, spring_sheet(job.design, job.dims, lines).pdf())
+    _write(job.folder, cad_report.SPRING_TABLE, spring_csv(lines))
+    _write(job.folder, cad_report.SPRING_SHEET, spring_sheet(job.design, job.dims, lines).pdf())
     return []
 
 
@@ -233,8 +232,8 @@ def _bill_and_note(job: Job) -> list[SolidCheck]:
     """Make what there is of each part, and how they go together."""
     items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)), fits(job.design, job.dims))
     extra = [*beside(job.design, job.titles), *fixtures(job.design, job.titles)]
-    _write(job.folder, file_names.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
-    _write(job.folder, file_names.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items, extra))
+    _write(job.folder, cad_report.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
+    _write(job.folder, cad_report.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items, extra))
     return []
 
 
@@ -257,9 +256,9 @@ def _pictures(job: Job) -> list[SolidCheck]:
     drawn = _solids(job.needs)
     solids = place(job.dims, drawn)
     placed = instances(job.dims, drawn, solids, _meshes(job.needs))
-    write_preview(_place(job.folder, file_names.PREVIEW), job.dims, drawn, placed)
-    write_exploded(_place(job.folder, file_names.EXPLODED), placed)
-    write_section(_place(job.folder, file_names.SECTION), solids, placed)
+    write_preview(_place(job.folder, cad_report.PREVIEW), job.dims, drawn, placed)
+    write_exploded(_place(job.folder, cad_report.EXPLODED), placed)
+    write_section(_place(job.folder, cad_report.SECTION), solids, placed)
     return []
 
 

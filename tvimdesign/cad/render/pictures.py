@@ -16,7 +16,7 @@ from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface
 from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from tvimdesign.base.errors import GeometryError
-from tvimdesign.cad.assembly.module_parts import MODULES, VIEWED_FROM, lifts
+from tvimdesign.cad.assembly.assembly import MODULES, VIEWED_FROM, lifts
 from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh
 from tvimdesign.cad.export.print_files import body_of, mesh_of
 from tvimdesign.cad.geometry.dimensions import Dimensions

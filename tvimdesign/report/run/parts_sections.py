@@ -10,7 +10,7 @@ from typing import Any
 
 from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import pretty
-from tvimdesign.cad.assembly import file_names
+from tvimdesign.cad import cad_report
 from tvimdesign.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import number
@@ -24,13 +24,13 @@ _LEVELS = ("failure", "warning", "pass")
 
 def preview(cad: Path) -> Picture | None:
     """Return the module whole, where CAD has drawn it."""
-    path = cad / file_names.PREVIEW
+    path = cad / cad_report.PREVIEW
     return Picture(path.read_bytes(), "The module, whole and opened") if path.exists() else None
 
 
 def solids_section(cad: Path, study: str) -> Section:
     """Return the assembly to turn; or, where no parts were made, how to make them."""
-    model, data = cad / file_names.ASSEMBLY_GLB, cad / file_names.ASSEMBLY_DATA
+    model, data = cad / cad_report.ASSEMBLY_GLB, cad / cad_report.ASSEMBLY_DATA
     if not (model.exists() and data.exists()):
         words = (
             f"This run made no parts, so there is no module to turn here. `tvimdesign run {study} --overwrite` makes "
@@ -86,7 +86,7 @@ _HEADS = {"made_or_bought": "made or bought", "mass_each_g": "g each", "mass_all
 
 def materials_section(cad: Path) -> list[Section]:
     """Return the bill of materials, with links to the files a part is made from."""
-    rows = _csv(cad / file_names.BILL_OF_MATERIALS)
+    rows = _csv(cad / cad_report.BILL_OF_MATERIALS)
     if not rows:
         return []
     shown = ["item", "part", "quantity", "made_or_bought", "title", "fit", "mass_each_g", "mass_all_g"]
@@ -115,13 +115,13 @@ def _files(names: list[str]) -> Cell:
 
 def steps_section(cad: Path) -> list[Section]:
     """Return how the parts go together, in order, with the pictures that CAD has drawn."""
-    path = cad / file_names.ASSEMBLY_DATA
+    path = cad / cad_report.ASSEMBLY_DATA
     if not path.exists():
         return []
     steps = json.loads(path.read_text("utf-8"))["steps"]
     drawn = (
-        (file_names.EXPLODED, "The parts in the order in which they go on, the lowest first"),
-        (file_names.SECTION, "The module cut through its axis"),
+        (cad_report.EXPLODED, "The parts in the order in which they go on, the lowest first"),
+        (cad_report.SECTION, "The module cut through its axis"),
     )
     pictures = [Picture((cad / name).read_bytes(), says, says) for name, says in drawn if (cad / name).exists()]
     return [Section("steps", "Assembly steps", [Steps([step["text"] for step in steps], "solids"), *pictures])]
@@ -129,7 +129,7 @@ def steps_section(cad: Path) -> list[Section]:
 
 def spring_section(cad: Path) -> list[Section]:
     """Return what the spring's maker needs."""
-    rows = _csv(cad / file_names.SPRING_TABLE)
+    rows = _csv(cad / cad_report.SPRING_TABLE)
     if not rows:
         return []
     heads = ("", "value", "unit", "tolerance", "note")
@@ -139,11 +139,11 @@ def spring_section(cad: Path) -> list[Section]:
 
 def carried_files(cad: Path) -> dict[str, bytes]:
     """Return the files that a part, a row of the bill of materials or the spring sheet leads to, by their addresses."""
-    names = [name for row in _csv(cad / file_names.BILL_OF_MATERIALS) for name in row["files"].split()]
-    data = cad / file_names.ASSEMBLY_DATA
+    names = [name for row in _csv(cad / cad_report.BILL_OF_MATERIALS) for name in row["files"].split()]
+    data = cad / cad_report.ASSEMBLY_DATA
     if data.exists():
         names += [name for part in json.loads(data.read_text("utf-8"))["parts"] for name in part["files"]]
-    names.append(file_names.SPRING_SHEET)
+    names.append(cad_report.SPRING_SHEET)
     files = [name for ending in _CARRIED for name in dict.fromkeys(names) if name.endswith(ending)]
     return {f"{FOLDER}/{name}": (cad / name).read_bytes() for name in files if (cad / name).exists()}
 

@@ -123,7 +123,7 @@ def _export(design: Design, folder: Path) -> None:
 
 
 def _draw(folder: ResultsFolder, work: Path, name: str, solved: Solved) -> None:
-    from tvimdesign.cad.render.field_picture import write_field_picture
+    from tvimdesign.cad.render.render import write_field_picture
 
     with np.load(solved.field) as field:
         points, triangles, values, ways = (field[part] for part in ("points", "triangles", "values", "ways"))
