@@ -134,4 +134,4 @@ def test_a_steady_state_ignores_last_digits_of_the_switch_s_end() -> None:
         inputs = model.start.copy()
         inputs[model.index["pcl_thickness"]] *= 1.0 + 1e-8 * step
         found.append(simulator.run(inputs, phases=["softening"]).values["hold_current"])
-    assert found == pytest.approx([found[0]] * 40, rel=1e-5)
+    assert found == pytest.approx([found[0]] * 40, rel=1e-8)

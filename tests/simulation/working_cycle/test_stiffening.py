@@ -154,10 +154,10 @@ def test_kinetics_never_stiffen_sooner_than_the_melting_curve(
 def test_the_phase_model_equilibrium_makes_both_times_one(build: Callable[..., DeviceFunctions]) -> None:
     model = build("equilibrium")
     values = tight(model).run(model.start).values
-    assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-5)
+    assert values["stiffening_time"] == pytest.approx(values["equilibrium_stiffening_time"], rel=1e-6)
     kinetic = build()
     other = tight(kinetic).run(kinetic.start).values
-    assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-5)
+    assert values["stiffening_time"] == pytest.approx(other["equilibrium_stiffening_time"], rel=1e-6)
 
 
 def test_the_layer_starts_to_stiffen_where_the_switch_left_it(

@@ -5,7 +5,7 @@ import pytest
 from small_studies import FOUR_SIZES_IN_SHEAR
 
 from tvimdesign.device import table_for
-from tvimdesign.solve.infeasibility.inspection import DERIVATIVE_TOLERANCE, Inspection
+from tvimdesign.solve.infeasibility.inspection import Inspection
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.study import read_study_text
 
@@ -32,7 +32,7 @@ def inspection() -> Inspection:
 def test_exact_derivatives_agree_with_differences(inspection: Inspection) -> None:
     found = inspection.derivatives()
     assert found.right
-    assert 0.0 < found.worst[0][2] <= DERIVATIVE_TOLERANCE
+    assert 0.0 < found.worst[0][2] <= 1e-7
 
 
 def test_a_wrong_derivative_is_found_and_named() -> None:

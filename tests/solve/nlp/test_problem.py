@@ -39,7 +39,7 @@ SLOW = SHEAR.replace("mode: shear", "mode: shear\nmodule: {current_slew: 0.2 A/s
 PROFILE = f"{SLOW}profile: {{softening: 3, stiffening: 2}}\n"
 STUDIES = {"shear": SHEAR, "compression": COMPRESSION, "profile": PROFILE}
 STEP = 1e-4
-RIGHT = 1e-4
+RIGHT = {"shear": 1e-5, "compression": 1e-6, "profile": 1e-4}
 """Largest difference of derivatives, as a share of the largest of a row: those of a step are taken with the matrix
 of its last Newton iteration, whose state is up to 1e-5 off."""
 
@@ -76,7 +76,7 @@ def test_gradient_and_jacobian_are_those_of_central_differences(name: str) -> No
     worst = np.abs(shown - exact) / sizes
     row, column = np.unravel_index(np.argmax(worst), worst.shape)
     names = [*row_names(optimizer.problem), "objective"]
-    assert np.max(worst) < RIGHT, (names[row], unknown_names(optimizer.problem)[column])
+    assert np.max(worst) < RIGHT[name], (names[row], unknown_names(optimizer.problem)[column])
 
 
 def test_every_row_and_unknown_has_a_name() -> None:
