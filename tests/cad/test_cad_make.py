@@ -44,8 +44,10 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
         bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw",
                           "thermal_cutout"}  # fmt: skip
         expected |= {f"mesh/{kind}.stl"} if bought else {f"print/{kind}.stl", f"print/{kind}.3mf"}
-    expected |= {f"step/{piece}.step" for piece in ("casting_mould", "casting_lid")}
-    expected |= {f"print/casting_{piece}.{form}" for piece in ("mould", "lid") for form in ("stl", "3mf")}
+    expected |= {f"step/{piece}.step" for piece in ("casting_mould", "casting_lid", "setting_fork")}
+    expected |= {
+        f"print/{piece}.{form}" for piece in ("casting_mould", "casting_lid", "setting_fork") for form in ("stl", "3mf")
+    }
     cast = "pcl_arc" if design.mode == "shear" else "pcl_block"
     for kind in ("housing", "rotor", "link", "retainer", "peltier_pad", cast):
         expected |= {f"drawings/{kind}.dxf", f"drawings/{kind}.pdf"}

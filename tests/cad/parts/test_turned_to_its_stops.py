@@ -8,7 +8,9 @@ from tvimdesign.cad.assembly.assembly import drawn_part
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.solids import turned
 from tvimdesign.cad.geometry.spring_solids import installed_coil, spring_solid
+from tvimdesign.cad.inspection.inspect import setting_checks
 from tvimdesign.cad.inspection.size_checks import bearing_checks, stop_checks
+from tvimdesign.cad.parts import setting_jig
 
 
 @pytest.mark.parametrize(
@@ -29,6 +31,16 @@ def test_the_rotor_meets_its_stops_at_their_angle(case: str) -> None:
         before = turned(drawn["rotor"], side * (dims.stop_angle - 1e-4)).intersect(drawn["housing"])
         assert before.Volume() == pytest.approx(0.0, abs=1e-6)
     assert all(check.ok for check in bearing_checks(dims))
+
+
+@pytest.mark.parametrize("case", ["wrist", pytest.param("odd blocks", marks=pytest.mark.gate)])
+def test_a_fork_holds_the_rotor_at_rest(case: str) -> None:
+    mode, overrides = CASES[case]
+    dims = dimensions(design_of(case, overrides, mode))
+    solids = {kind: drawn_part(dims, kind) for kind in ("housing", "rotor")}
+    solids[setting_jig.FORK] = setting_jig.fork(dims).Solids()[0]
+    assert solids[setting_jig.FORK].isValid()
+    assert [check.text for check in setting_checks(dims, solids) if not check.ok] == []
 
 
 def test_a_leg_lies_on_its_pin_at_either_stop() -> None:

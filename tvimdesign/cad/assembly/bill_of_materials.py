@@ -17,7 +17,7 @@ from tvimdesign.cad.assembly.heater_leads import lead_in_words, pad_count, therm
 from tvimdesign.cad.assembly.offers import QUOTE, Offer, Total, offer_for, total
 from tvimdesign.cad.export.step_file import product
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, kind_of
-from tvimdesign.cad.parts import casting_jig
+from tvimdesign.cad.parts import casting_jig, setting_jig
 from tvimdesign.device.components.tang import BONDED
 from tvimdesign.study.design import Design
 
@@ -172,7 +172,7 @@ def _liner_adhesive_mass(design: Design, film: float) -> float:
 
 
 def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
-    """Return what the PCL is cast with: the jig, which is made, and mould release.
+    """Return what the PCL is cast with, and what holds the rotor while springs are set: jigs, and mould release.
 
     No part of it, and not in its mass.
     """
@@ -183,6 +183,9 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
              fixture=True)
         for kind in casting_jig.MAKING
     ]  # fmt: skip
+    holds = "Fixture: holds the rotor at rest while its springs are set"
+    fork = (file_names.step(setting_jig.FORK), file_names.print_3mf(setting_jig.FORK))
+    jig.append(Item(setting_jig.FORK, setting_jig.COUNT, True, record, holds, 0.0, fork, fixture=True))
     release = "Mould release for thermoplastics at 80 °C, wiped thinly on mould and lid"
     return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]
 

@@ -29,10 +29,10 @@ from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
 from tvimdesign.cad.geometry.kinds import KINDS, PRODUCTION, SPRINGS, Production, is_of_structure, kind_of
 from tvimdesign.cad.geometry.spring_solids import free_coil
-from tvimdesign.cad.inspection.inspect import casting_checks, module_checks, part_checks
+from tvimdesign.cad.inspection.inspect import casting_checks, module_checks, part_checks, setting_checks
 from tvimdesign.cad.inspection.size_checks import POSITIONS, clearance_checks, rest_checks
 from tvimdesign.cad.jobs.worker import Job, Turn, Work
-from tvimdesign.cad.parts import casting_jig
+from tvimdesign.cad.parts import casting_jig, setting_jig
 from tvimdesign.cad.parts.common_parts import link_dowels
 from tvimdesign.study.design import Design
 
@@ -83,7 +83,9 @@ def build_plan(dims: Dimensions) -> list[Work]:
         Work(name="sizes", do=_sizes, needs=kinds, words="volumes and inertias"),
         *clearances,
         *inspections,
-        *(Work(name=kind, do=partial(_fixture, kind)) for kind in casting_jig.DRAWN),
+        *(Work(name=kind, do=partial(_casting_jig, kind)) for kind in casting_jig.DRAWN),
+        Work(name=setting_jig.FORK, do=_setting_fork),
+        Work(name="inspect_setting", do=_inspect_setting, needs=("housing", "rotor", setting_jig.FORK)),
         Work(name="inspect_casting", do=_inspect_casting, needs=(casting_jig.part_of(kinds), *casting_jig.DRAWN)),
         Work(name="inspect_module", do=_inspect_module, needs=kinds),
         Work(name="assembly", do=_assembly, needs=kinds, named=True, words="assembly files"),
@@ -124,15 +126,26 @@ def _for_makers(kind: str, job: Job) -> list[SolidCheck]:
     return [_print(job, kind, solid, what, PRODUCTION[kind])]
 
 
-def _fixture(kind: str, job: Job) -> list[SolidCheck]:
+def _casting_jig(kind: str, job: Job) -> list[SolidCheck]:
     """Make one piece of the jig that the PCL is cast in."""
     cast = casting_jig.part_of(tuple(MODULES[job.dims.mode].drawn(job.dims)))
     solid = one_solid(kind, lambda: casting_jig.DRAWN[kind](job.dims, drawn_part(job.dims, cast)))
+    return _fixture(job, kind, solid, casting_jig.MAKING[kind])
+
+
+def _setting_fork(job: Job) -> list[SolidCheck]:
+    """Make the fork that holds the rotor while its springs are set."""
+    solid = one_solid(setting_jig.FORK, lambda: setting_jig.fork(job.dims))
+    return _fixture(job, setting_jig.FORK, solid, setting_jig.MAKING)
+
+
+def _fixture(job: Job, kind: str, solid: cq.Solid, making: Production) -> list[SolidCheck]:
+    """Write a fixture, which is made of what the structure is made of."""
     _keep(job.folder / "kept" / _SOLID, solid)
     of = str(job.design.choices["structure_material"])
     density = job.design.value("structure_density")
     what = Product(name=kind, colour=casting_jig.COLOUR, material=of, density=density)
-    return [*_step(job.folder, solid, what), _print(job, kind, solid, what, casting_jig.MAKING[kind])]
+    return [*_step(job.folder, solid, what), _print(job, kind, solid, what, making)]
 
 
 def _spring(kind: str, job: Job) -> list[SolidCheck]:
@@ -191,6 +204,10 @@ def _clearances(share: float, job: Job) -> list[SolidCheck]:
 
 def _inspect(kind: str, job: Job) -> list[SolidCheck]:
     return part_checks(job.design, job.dims, kind, _solids(job.needs)[kind], _meshes(job.needs)[kind])
+
+
+def _inspect_setting(job: Job) -> list[SolidCheck]:
+    return list(setting_checks(job.dims, _solids(job.needs)))
 
 
 def _inspect_casting(job: Job) -> list[SolidCheck]:
