@@ -7,10 +7,9 @@ from collections.abc import Mapping
 
 import pytest
 from cad_designs import BEARING_BLOCKS, BEARINGS, CASES, DRIVEN, TILES, design_of
-from tvimdesign.cad.assembly.module_parts import MODULES
 
 from tvimdesign.base.record import Record
-from tvimdesign.cad.assembly.assembly import drawn_parts, place
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_parts, place
 from tvimdesign.cad.assembly.bill_of_materials import _titled, beside, bill, bill_csv
 from tvimdesign.cad.drawing.spring_sheet import spring_lines
 from tvimdesign.cad.geometry.dimensions import dimensions

@@ -7,9 +7,8 @@ from typing import Any
 
 import pytest
 from cad_designs import CASES, design_of
-from tvimdesign.cad.assembly.module_parts import MODULES
 
-from tvimdesign.cad.assembly.assembly import drawn_parts
+from tvimdesign.cad.assembly.assembly import MODULES, drawn_parts
 from tvimdesign.cad.export.script import module_script
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 

@@ -184,7 +184,7 @@ def fixtures(design: Design, titles: Mapping[str, str]) -> list[Item]:
         for kind in casting_jig.MAKING
     ]  # fmt: skip
     holds = "Fixture: holds the rotor at rest while its springs are set"
-    fork = (file_names.step(setting_jig.FORK), file_names.print_3mf(setting_jig.FORK))
+    fork = (cad_report.step(setting_jig.FORK), cad_report.print_3mf(setting_jig.FORK))
     jig.append(Item(setting_jig.FORK, setting_jig.COUNT, True, record, holds, 0.0, fork, fixture=True))
     release = "Mould release for thermoplastics at 80 °C, wiped thinly on mould and lid"
     return [*jig, Item("mould_release", 1, False, "", release, 0.0, ())]

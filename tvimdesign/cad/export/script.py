@@ -14,7 +14,7 @@ from typing import Any
 
 import cadquery as cq
 
-from tvimdesign.cad.assembly.module_parts import MODULES
+from tvimdesign.cad.assembly.assembly import MODULES
 from tvimdesign.cad.geometry import exact_kernel
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.exact_kernel import ExactKernel, Kernel

@@ -241,7 +241,7 @@ def _spring_sheet(job: Job) -> list[SolidCheck]:
 
 def _script(job: Job) -> list[SolidCheck]:
     """Make the script that draws the parts with CadQuery alone."""
-    _write(job.folder, file_names.MODULE_SCRIPT, module_script(job.design, job.dims))
+    _write(job.folder, cad_report.MODULE_SCRIPT, module_script(job.design, job.dims))
     return []
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.cad.assembly.file_names import PREVIEW
+from tvimdesign.cad.cad_report import PREVIEW
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
 from tvimdesign.report.figures.plot_process import Drawing
