@@ -227,6 +227,7 @@ def test_advice_that_is_not_followed_is_told() -> None:
     assert "structure_temperature_margin" in {warning.output for warning in found.warnings}
 
 
+@pytest.mark.gate
 @pytest.mark.parametrize(
     ("targets", "said"),
     [

@@ -180,6 +180,7 @@ solver: {starts: 1, cells: 12, time_limit: 5 min}
 """
 
 
+@pytest.mark.gate
 def test_a_design_without_its_margins_by_deviations_is_no_optimum() -> None:
     clock = Clock("staying within the limits")
     answered = clock.answer(read_study_text(TIMED))
@@ -188,6 +189,7 @@ def test_a_design_without_its_margins_by_deviations_is_no_optimum() -> None:
     assert "ended the search before it had all margins" in below_yield(answered)
 
 
+@pytest.mark.gate
 def test_alternatives_that_are_left_out_are_named() -> None:
     clock = Clock("simulating the next-best choice", 1e6)
     solution = clock.optimize(read_study_text(LISTED))

@@ -193,6 +193,7 @@ def test_what_can_be_traded_does_not_change_the_optimum(solved: Solved) -> None:
     assert bare.reference.keys() == solved.solution.reference.keys() == solved.study.minimize.keys()
 
 
+@pytest.mark.gate
 def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved, noted: tuple[Front, Notes]) -> None:
     whole, notes = noted[0], Notes()
     notes.known = {number: found for number, found in noted[1].known.items() if number < 6}
@@ -202,6 +203,7 @@ def test_a_front_goes_on_from_what_is_known_to_the_same_points(solved: Solved, n
     assert [point.values for point in again.points] == [point.values for point in whole.points]
 
 
+@pytest.mark.gate
 def test_a_point_that_the_solver_does_not_reach_is_named(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> None:
     solve = Optimizer.solve
 
