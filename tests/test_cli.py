@@ -103,6 +103,7 @@ def test_every_command_explains_itself(tvimdesign: Command, command: list[str]) 
     done = tvimdesign(*command, "--help")
     assert done.returncode == 0
     assert "Usage:" in done.stdout
+    assert "..." not in done.stdout.partition("Commands:")[2]  # no summary of a command is cut
 
 
 def test_a_new_study_is_valid_and_never_replaces_a_file(tvimdesign: Command, tmp_path: Path) -> None:

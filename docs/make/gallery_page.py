@@ -24,7 +24,7 @@ def gallery_page() -> str:
         "# Gallery of the studies",
         "",
         "Run a study with `tvimdesign run studies/NAME.yaml`. The pictures (`make pictures`) show the result of a run,",
-        "whole and opened. The README's table has sizes and times. `make gallery` adds reports with their parts.",
+        "whole and opened. [Studies](studies.md) has sizes and times. `make gallery` adds reports with their parts.",
         "",
     ]  # fmt: skip
     for path in sorted((ROOT / "studies").glob("*.yaml")):

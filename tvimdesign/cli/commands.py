@@ -68,7 +68,7 @@ def run(
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
-    """Evaluate or optimise a study and write a folder of results."""
+    """Optimise or evaluate a study; write a folder of results."""
     from tvimdesign.report.run.run_study import run_study
 
     folder = out or default_folder(study)
@@ -105,7 +105,7 @@ def check(
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
-    """Read a study and say everything that is wrong with it, limits that cannot hold together included."""
+    """Check a study: every mistake, and limits that conflict."""
     if deep:
         from tvimdesign.report.run.diagnostics import check_deep
         from tvimdesign.study import read_tree
@@ -137,7 +137,7 @@ def new(
     ] = None,
     list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
-    """Write a commented study to start from, a copy of a shipped one, or the module of a result."""
+    """Write a study to start from. It is commented, or a shipped one, or the module of a result."""
     from tvimdesign.report.study_files import list_examples, write_new_study
 
     if list_all:
@@ -148,7 +148,7 @@ def new(
 
 @app.command()
 def schema() -> None:
-    """Print the JSON Schema of studies, with which an editor knows names, units and descriptions."""
+    """Print the JSON Schema of studies. An editor then knows names, units and descriptions."""
     from tvimdesign.report.study_files import print_schema
 
     print_schema()
@@ -171,7 +171,7 @@ def cad(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Make the parts of a design: STEP, print files, drawings, checks; in a folder beside the run's, ending in -cad."""
+    """Make parts: STEP, print files, drawings, checks. They go into a folder beside the run's, ending in -cad."""
     if cells:
         from tvimdesign.report.sweep.cell_parts import make_parts_of_cells
 
@@ -221,7 +221,7 @@ def fit(
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure of the residuals.")] = True,
     json: AsJson = False,
 ) -> None:
-    """Fit measured data: parameters with intervals, and a record of the catalogue that a study names."""
+    """Fit measured data. Writes parameters with intervals, and a record for studies."""
     from tvimdesign.report.fit.fit_files import fit_files, list_kinds
 
     if kinds:
@@ -250,7 +250,7 @@ PaperOut = Annotated[
 
 @app.command()
 def paper_check(out: PaperOut = None, overwrite: Overwrite = False, json: AsJson = False) -> None:
-    """Print the paper against its own numbers, as computed by this code."""
+    """Recompute the numbers of the paper."""
     from tvimdesign.report.paper.paper_check import print_paper_check
 
     print_paper_check(as_json=json)
@@ -275,7 +275,7 @@ def rows(
     ] = "",
     json: AsJson = False,
 ) -> None:
-    """List the names a study may use, groups first: variables, choices and outputs, with units and limits."""
+    """List the names a study may use. Prints groups, then inputs, choices and outputs with units and limits."""
     from tvimdesign.report.rows import print_rows
 
     print_rows(mode, match, as_json=json)

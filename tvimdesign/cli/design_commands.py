@@ -38,7 +38,7 @@ def robot(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Write the joint for simulators (MJCF, URDF, FMU, meshes, tables) into results/<name>-robot."""
+    """Write the joint for simulators: MJCF, URDF, FMU. The folder is results/<name>-robot."""
     from tvimdesign.base.units import parse_quantity
     from tvimdesign.report.robot.robot_files import write_robot
 
@@ -57,7 +57,7 @@ def simulate(
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
-    """Put a module to a virtual test: curves, a figure and findings, into results/<study>-<test>."""
+    """Simulate creep, release, sine or step. Writes curves and a figure into results/<study>-<test>."""
     from tvimdesign.report.simulate_study import simulate_study
 
     folder = out or Path("results") / f"{name_of(study)}-{test}"
@@ -72,7 +72,7 @@ def verify(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Check a design against finite elements of its exported parts, into results/<name>-verified."""
+    """Check a design against finite elements of its parts. The folder is results/<name>-verified."""
     from tvimdesign.report.verify.verify_design import verify_design
 
     folder = out or Path("results") / f"{name_of(result)}-verified"
@@ -86,7 +86,7 @@ def tolerate(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Say what tolerances do: worst case, root-sum-square and Monte Carlo, yield, into results/<study>-tolerances."""
+    """Analyse tolerances and yield. Worst case, root-sum-square and Monte Carlo; the folder is results/<study>-tolerances."""
     from tvimdesign.report.tolerate.tolerate_study import tolerate_study
 
     folder = out or Path("results") / f"{name_of(study)}-tolerances"
@@ -112,7 +112,7 @@ def compare(
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
-    """Compare studies with the same requirements, optimised and as drawn, or the results of finished runs."""
+    """Compare studies, or results of finished runs. Studies have the same requirements, optimised and as drawn."""
     from tvimdesign.report.compare.compare_studies import compare_studies
 
     compare_studies(
@@ -137,7 +137,7 @@ def sweep(
     settings: Settings = None,
     json: AsJson = False,
 ) -> None:
-    """Answer every cell of a study's `sweep:` and gather them to a table, into results/<study>-sweep."""
+    """Run every cell of a study's sweep; gather a table. The folder is results/<study>-sweep."""
     from tvimdesign.report.sweep.sweep_study import sweep_study
     from tvimdesign.sweep.run_sweep import Executor
 
@@ -168,7 +168,7 @@ def explore(
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Begin again, without what was done before.")] = False,
     settings: Settings = None,
 ) -> None:
-    """Serve a page on this machine with controls that evaluate and optimise as they move."""
+    """Evaluate and optimise with sliders in a browser. This machine serves the page."""
     from tvimdesign.explore.server import serve
 
     folder = out or Path("results") / f"{name_of(source)}-explore"

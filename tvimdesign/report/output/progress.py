@@ -17,7 +17,7 @@ from tvimdesign.report.output.terminal import OwnMarkupConsole
 
 Progress = Callable[[str], None]
 WIDTH = 132
-PLAIN_EVERY = 2.5  # s
+PLAIN_EVERY = 2.2  # s
 """Time between plain lines: the next new message, or how long the last one goes on; others are left out."""
 _TICK = 0.25  # s
 

@@ -93,8 +93,8 @@ def run_study(
         write_answer(folder, answered)  # before this run waits for other processes
         _wait_for_uncertainty(answered, uncertainty, progress)
         write_results(folder, answered)
-        progress("")
         write_summary(answered, folder)
+        progress("")
         if not as_json:
             after = 2 if making and result.found else 1
             print_result(answered, wide_console(), time.perf_counter() - began, after, full=full)
