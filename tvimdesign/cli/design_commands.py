@@ -86,7 +86,7 @@ def tolerate(
     overwrite: Overwrite = False,
     json: AsJson = False,
 ) -> None:
-    """Analyse tolerances and yield. Worst case, root-sum-square and Monte Carlo; the folder is results/<study>-tolerances."""
+    """Analyse tolerances and yield. Worst case, RSS and Monte Carlo; the folder is results/<study>-tolerances."""
     from tvimdesign.report.tolerate.tolerate_study import tolerate_study
 
     folder = out or Path("results") / f"{name_of(study)}-tolerances"
