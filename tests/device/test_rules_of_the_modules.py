@@ -9,6 +9,7 @@ OTHERS: dict[str, set[tuple[str, float]]] = {
     "spring_index": {(">=", 4.0), ("<=", 20.0)},  # EN 13906-3, cold coiled
     "stiffness_over_stroke": {(">=", 0.9), ("<=", 1.1)},  # linear to a tenth
     "wire_range_margin": {(">=", 1.0)},
+    "pin_wear": {("<=", 0.1 * MM)},
     "sorted_share": {(">=", 0.2)},  # four of five stay out
     "stiffening_over_freezing": {(">=", 1.0)},
     "hot_structure_share": {(">=", 0.5)},  # half as stiff as at 23 degC

@@ -7,6 +7,7 @@ from scipy.optimize import brentq, minimize
 
 from tvimdesign.physics.motions.contacts import (
     bolted_torque,
+    crossed_groove_depth,
     disc_torque,
     equivalent_damping,
     joint_play,
@@ -17,6 +18,7 @@ from tvimdesign.physics.motions.contacts import (
     spring_play,
     tightened_force,
     tightening_torque,
+    worn_volume,
 )
 from tvimdesign.physics.solids import fasteners
 from tvimdesign.physics.springs.spring import leg_ratio, pin_slip
@@ -160,3 +162,16 @@ def test_a_nut_factor_of_a_fifth_is_a_friction_of_fifteen_hundredths(diameter: f
     thread = 0.5 * at * (slope + friction * flank) / (1.0 - friction * slope * flank)
     by_parts = thread + 0.625 * friction * diameter  # mm, of one newton
     assert tightening_torque(1.0, 1e-3 * diameter, 0.2) == pytest.approx(1e-3 * by_parts, rel=0.03)
+
+
+def test_a_wire_wears_a_groove_across_its_pin() -> None:
+    # Archard: 1e-7 mm3/(N m), 20 N over 2 km wear off 0.004 mm3.
+    volume = worn_volume(1e-7 * 1e-9, 20.0, 2000.0)
+    assert volume == pytest.approx(0.004e-9)
+    wire, pin = 0.5e-3, 1.5e-3
+    depth = crossed_groove_depth(volume, wire, pin)
+    # What a round wire and a round pin that it crosses so deep have in common, counted across both.
+    x, y = (np.linspace(-reach, reach, 1001) for reach in (0.22e-3, 0.4e-3))
+    sunk = [radius - np.sqrt(radius**2 - along**2) for radius, along in ((wire, x), (pin, y))]
+    common = np.maximum(depth - sunk[0][:, None] - sunk[1][None, :], 0.0)
+    assert common.sum() * (x[1] - x[0]) * (y[1] - y[0]) == pytest.approx(volume, rel=0.03)

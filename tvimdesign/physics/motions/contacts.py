@@ -28,6 +28,22 @@ def sliding_torque(friction: Any, force: Any, slip: Any) -> Any:
     return friction * force * slip
 
 
+def worn_volume(coefficient: Any, force: Any, way: Any) -> Any:
+    """Return the volume [m^3] that a sliding contact wears off, k F s (Archard, J. Appl. Phys. 24 (1953) 981).
+
+    `coefficient` [m^2/N] is the volume for each newton and metre, `force` [N], `way` [m] slid in all.
+    """
+    return coefficient * force * way
+
+
+def crossed_groove_depth(volume: Any, radius: Any, other_radius: Any) -> Any:
+    """Return the depth [m] of the groove that a round wire of a radius wears across a pin, sqrt(V/(pi sqrt(r R))).
+
+    Near their contact crossed cylinders are x^2/2r + y^2/2R apart: up to a depth h lies the volume pi h^2 sqrt(r R).
+    """
+    return np.sqrt(volume / (np.pi * np.sqrt(radius * other_radius)))
+
+
 def bolted_torque(friction: Any, force: Any, count: Any, radius: Any) -> Any:
     """Return the torque [N*m] at which a flange slips under its screws, n mu F r; each clamps with `force` [N] at
     `radius` [m].

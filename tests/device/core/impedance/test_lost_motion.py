@@ -91,3 +91,11 @@ def test_frozen_keys_are_loose_once_the_bond_is_gone() -> None:
     other = values_of("key_play lost_motion", key_count="0")
     assert other["key_play"] == 0.0
     assert other["lost_motion"] == pytest.approx(found["lost_motion"], rel=1e-12)
+
+
+def test_legs_wear_into_their_pins_by_archards_law() -> None:
+    found = values_of("pin_wear pin_friction_torque")
+    # The legs' friction torque has force and slip: T = N mu F s', here four springs at 0.25.
+    work = 4e6 * 0.104 * found["pin_friction_torque"] / (4 * 0.25)
+    volume = 1e-14 * work  # 1e-5 mm3/(N m)
+    assert found["pin_wear"] == pytest.approx(np.sqrt(volume / (np.pi * np.sqrt(0.5 * 2.413e-3 * 2e-3))), rel=1e-9)

@@ -14,9 +14,15 @@ from typing import NamedTuple
 import numpy as np
 
 from tvimdesign.device.table.module import Module
-from tvimdesign.device.table.quantity import Scalar
+from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.motions.contacts import joint_play, overhung_shift, sliding_torque
+from tvimdesign.physics.motions.contacts import (
+    crossed_groove_depth,
+    joint_play,
+    overhung_shift,
+    sliding_torque,
+    worn_volume,
+)
 from tvimdesign.physics.springs.spring import pin_slip
 
 quantities = QuantityGroup("Lost motion")
@@ -38,6 +44,21 @@ def pin_friction_torque(m: Module) -> Scalar:
     """
     slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
     return m.spring_count * sliding_torque(m.pin_friction, m.pin_force, slip)
+
+
+WEAR_STROKES = 1e6
+"""Full strokes to both sides for which wear counts, as fatigue does [1]."""
+
+
+@quantities.output("mm", advice=(Rule(sense="<=", value=1e-4, reason="legs wear into their pins: grease them"),))
+def pin_wear(m: Module) -> Scalar:
+    """Depth that a leg wears into its pin in 1e6 full strokes to both sides, all of the wear on the pin.
+
+    Archard's law, with the force at rest; the preload falls by this depth over the leg's arm.
+    """
+    slip = pin_slip(m.pin_radius, m.placement_radius, m.leg_offset, m.pin_diameter)
+    volume = worn_volume(m.pin_wear_coefficient, m.pin_force, 4.0 * WEAR_STROKES * m.stroke * slip)
+    return crossed_groove_depth(volume, 0.5 * m.wire_diameter, 0.5 * m.pin_diameter)
 
 
 @quantities.output("rad")
