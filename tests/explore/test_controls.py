@@ -1,7 +1,5 @@
 """Controls of the explorer: each value in its quantity's own unit, with a label and a group."""
 
-from __future__ import annotations
-
 import pytest
 
 from tvimdesign.explore.states.state import State, controls_shown

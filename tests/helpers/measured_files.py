@@ -1,7 +1,5 @@
 """Files of measured data written for a test, and what fits of them come to."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

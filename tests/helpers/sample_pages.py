@@ -1,7 +1,5 @@
 """A run's page for tests: a study of this repository evaluated, a front written by hand, parts that are boxes."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """The file itself: valid HTML, the same bytes every time, no text that escapes, no library that nothing uses."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import hashlib

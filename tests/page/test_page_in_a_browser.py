@@ -1,7 +1,5 @@
 """The page as a reader meets it: opened from the disk in a browser, read, sorted, brushed, printed."""
 
-from __future__ import annotations
-
 import io
 import re
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The assembly in 3-D: turned, hidden, taken apart, cut, put together, picked, moved, coloured."""
 
-from __future__ import annotations
-
 import base64
 import io
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Stiffness at the end of the switch and of the way back: as simulated, as required, and frozen or not."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 

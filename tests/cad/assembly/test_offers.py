@@ -1,7 +1,5 @@
 """Offers for bought parts: real records, supplies that are enough, whole packs in the sum, and quotes for the rest."""
 
-from __future__ import annotations
-
 import pytest
 
 from tvimdesign.cad.assembly.offers import QUOTE, offer_for, offers, total

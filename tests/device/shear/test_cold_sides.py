@@ -1,7 +1,5 @@
 """Cold sides of the pads against a fin held at its end, and the adhesive that holds the pads."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

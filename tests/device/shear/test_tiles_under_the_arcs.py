@@ -1,7 +1,5 @@
 """Rectangular Peltier modules under the arcs: where they fit, what they cover and weigh, how they are wired."""
 
-from __future__ import annotations
-
 from itertools import combinations
 from math import cos, hypot, sin
 from typing import Any

@@ -1,7 +1,5 @@
 """Shear lag in a lap joint and over a window: Volkersen's result for like sheets, the equations solved by numbers."""
 
-from __future__ import annotations
-
 import csv
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Yield of a spectrum whose times shorten with stress, against closed solutions."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The one page for a mail or a lab book: A4, one page, whatever the run has to show."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Progress of a run: elapsed time and time left, a line every few seconds, a user's text as it stands."""
 
-from __future__ import annotations
-
 import io
 import itertools
 import os

@@ -1,7 +1,5 @@
 """The first screen: 16 lines of 100 columns, labels in place of names, and figures that the answer has."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

@@ -1,7 +1,5 @@
 """A link released against dry friction and one behind a lossy structure, against textbooks and scipy."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A goal that nothing moves: the check marks it, and no search calls where it ends an optimum."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

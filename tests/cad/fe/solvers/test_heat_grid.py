@@ -1,7 +1,5 @@
 """Cells of the heat's solver: sheets, flat backs of pads, and of which part a cell is."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import heat_grid

@@ -1,7 +1,5 @@
 """A module whose layer heats itself between combs: its resistance, its supply, and what cannot stand together."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

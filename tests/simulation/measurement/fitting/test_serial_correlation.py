@@ -1,7 +1,5 @@
 """Noise that follows itself: the posterior of its coefficient by whole matrices, coverage of white and correlated."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import quad

@@ -1,7 +1,5 @@
 """Runs of a calorimeter: times that an instrument has rounded, and times that fall."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Intervals hold what the data were made with; `benchmarks/fit_coverage.py` counts it over many seeds."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

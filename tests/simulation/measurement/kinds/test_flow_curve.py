@@ -1,7 +1,5 @@
 """Flow curves: Carreau's law by its closed form, the plateau at low rates, and what else a flow curve is not."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

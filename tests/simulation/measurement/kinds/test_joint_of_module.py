@@ -1,7 +1,5 @@
 """What sines of a module's joint tell of it, against closed forms: springs of E, a thin melt, friction on pins."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Each kind on data from closed solutions or another integrator, none of it made by the equations that are fitted."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The log of a module, simulated by CVODES and not by what is fitted: contacts and losses come back, and a record."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Creep, relaxation and ramps of a melt against closed solutions and another integrator."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Tests that do not see all: a solid, faster flow, the strain's rise, an instrument's inertia, the last digit."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

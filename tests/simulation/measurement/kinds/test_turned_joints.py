@@ -1,7 +1,5 @@
 """Sines against closed solutions of one degree of freedom, and frozen joints that are turned until they give."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -3,8 +3,6 @@
 Releases, sines, frozen joints, amplitude sweeps and logs of a module have theirs beside their other tests.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Text files in every way they are written: encodings, separators, decimal signs, headings, and what is refused."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 
