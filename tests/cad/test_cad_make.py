@@ -38,7 +38,11 @@ def test_every_file_is_there_and_every_check_holds(made: Made) -> None:
     assert report.notes == ()
     assert report.reused == ()
     expected = {"assembly.step", "assembly.glb", "assembly.json", "assembly.md", "bom.csv", "preview.png",
-                "views/exploded.png", "views/section.png", "springs/spring.pdf", "springs/spring.csv"}  # fmt: skip
+                "views/exploded.png", "views/section.png", "views/wiring.svg", "module.py", "springs/spring.pdf",
+                "springs/spring.csv"}  # fmt: skip
+    pictures = {file for file in report.files if file.startswith("views/step_")}
+    assert all(f"({picture})" in (report.folder / "assembly.md").read_text("utf-8") for picture in pictures)
+    expected |= pictures
     for kind in MODULES[design.mode].kinds(dimensions(design)):
         expected.add(f"step/{kind}.step")
         bought = kind in {"peltier_pad", "spring_right", "spring_left", "link_screw", "link_dowel", "retainer_screw",

@@ -102,8 +102,14 @@ MODULE_SCRIPT = "module.py"
 PREVIEW = "preview.png"
 EXPLODED = "views/exploded.png"
 SECTION = "views/section.png"
+WIRING = "views/wiring.svg"
 SPRING_SHEET = "springs/spring.pdf"
 SPRING_TABLE = "springs/spring.csv"
+
+
+def step_picture(number: int) -> str:
+    """Return the picture of a step of the assembly note, in which parts come into their places."""
+    return f"views/step_{number:02d}.png"
 
 
 def step(kind: str) -> str:

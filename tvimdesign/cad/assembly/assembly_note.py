@@ -16,7 +16,7 @@ from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.bill_of_materials import Item, cost
 from tvimdesign.cad.geometry.dimensions import Dimensions
-from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure
+from tvimdesign.cad.geometry.kinds import PRODUCTION, is_of_structure, kind_of
 from tvimdesign.cad.parts.heater_parts import fits_in_window
 from tvimdesign.device import Input, Output, table_for
 from tvimdesign.study.design import Design
@@ -46,8 +46,11 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += ["", _cost([*items, *extra])]
     lines += [""] if extra else []
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
-    lines += [f"{number}. {step.text}" for number, step in enumerate(written_steps(design, dims, items), start=1)]
-    lines += ["", f"![Cut through the axis]({cad_report.SECTION})", ""]
+    for number, step in enumerate(written_steps(design, dims, items), start=1):
+        picture = f"\n   ![Step {number}]({cad_report.step_picture(number)})" if step.place else ""
+        lines.append(f"{number}. {step.text}{picture}")
+    lines += ["", "## Wiring", "", f"![Supply, driver, heaters, cut-out and thermistors]({cad_report.WIRING})", ""]
+    lines += [f"![Cut through the axis]({cad_report.SECTION})", ""]
     return "\n".join(lines).encode()
 
 
@@ -57,7 +60,7 @@ def _cost(items: Sequence[Item]) -> str:
     between = f"{sums.low:.2f} USD" if sums.high == sums.low else f"{sums.low:.2f} to {sums.high:.2f} USD"
     return (
         f"Of {sums.lines} lines to buy {sums.priced} have a dated price in a public list: {between} for whole packs. "
-        f"Of the others `{cad_report.BILL_OF_MATERIALS}` says quote: ask a supplier."
+        "Ask suppliers for quotes of the others."
     )
 
 
@@ -102,6 +105,20 @@ def _weigh(design: Design, kinds: Sequence[str], milled: Sequence[str]) -> str:
 def _printing(kind: str) -> str:
     lying = "as it stands in the module" if PRODUCTION[kind].down == "bottom" else "turned over"
     return f"- {_words(kind)}: {lying}; {PRODUCTION[kind].why}."
+
+
+class PlacedPart(NamedTuple):
+    """One part that comes into its place."""
+
+    name: str
+    side: str
+
+
+def coming(place: Sequence[Mapping[str, str]], names: Sequence[str]) -> list[PlacedPart]:
+    """Return which of some placed parts come into their places in a step, and from which side."""
+    return [
+        PlacedPart(name, entry["from"]) for entry in place for name in names if entry["part"] in (name, kind_of(name))
+    ]
 
 
 class WrittenStep(NamedTuple):

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from math import cos, inf, pi, sin, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
-from tvimdesign.cad.assembly.assembly_note import steps_of
+from tvimdesign.cad.assembly.assembly_note import PlacedPart, coming, steps_of
 from tvimdesign.cad.cad_report import SolidCheck, at_least, at_most, finding
 from tvimdesign.cad.export.mesh import Array, Instance, Mesh
 from tvimdesign.cad.geometry.dimensions import Dimensions
@@ -29,13 +28,6 @@ _FLEXIBLE = ("heater_lead",)
 TOOL_LENGTH = 60.0
 """Free length of a hexagon key's long leg [mm]; assumed: 50 to 100 mm."""
 _TOOL_RAYS = 24
-
-
-class PlacedPart(NamedTuple):
-    """One part that comes into its place."""
-
-    name: str
-    side: str
 
 
 class Standing:
@@ -78,8 +70,7 @@ def sequence(names: Sequence[str]) -> list[PlacedPart]:
     kinds = {kind_of(name) for name in names}
     order: list[PlacedPart] = []
     for step in steps_of(kinds):
-        for one in step.get("place", ()):
-            order += [PlacedPart(name, one["from"]) for name in names if one["part"] in (name, kind_of(name))]
+        order += coming(step.get("place", ()), names)
     return order
 
 

@@ -15,15 +15,16 @@ from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad import cad_report
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part, free_spring, one_solid, place
 from tvimdesign.cad.assembly.assembly_data import assembly_data, glb_bytes, instances
-from tvimdesign.cad.assembly.assembly_note import assembly_note
+from tvimdesign.cad.assembly.assembly_note import assembly_note, coming, written_steps
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv, fixtures
+from tvimdesign.cad.assembly.module_script import module_script
+from tvimdesign.cad.assembly.wiring import wiring_svg
 from tvimdesign.cad.cad_report import SolidCheck
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawings import part_sheet
 from tvimdesign.cad.drawing.spring_sheet import spring_csv, spring_lines, spring_sheet
 from tvimdesign.cad.export.mesh import CHORD, Mesh, read_mesh, solid_mesh, spring_mesh, write_mesh
 from tvimdesign.cad.export.print_files import as_printed, closed, printed_mesh, stl_bytes, threemf_bytes
-from tvimdesign.cad.export.script import module_script
 from tvimdesign.cad.export.step_file import Product, product, read_part, validation, write_assembly, write_part
 from tvimdesign.cad.geometry.dimensions import Dimensions
 from tvimdesign.cad.geometry.features import tight_box
@@ -250,6 +251,7 @@ def _bill_and_note(job: Job) -> list[SolidCheck]:
     items = bill(job.design, job.titles, place(job.dims, _solids(job.needs)), fits(job.design, job.dims))
     extra = [*beside(job.design, job.titles), *fixtures(job.design, job.titles)]
     _write(job.folder, cad_report.BILL_OF_MATERIALS, bill_csv([*items, *extra]))
+    _write(job.folder, cad_report.WIRING, wiring_svg(job.design, extra))
     _write(job.folder, cad_report.ASSEMBLY_NOTE, assembly_note(job.design, job.dims, items, extra))
     return []
 
@@ -268,7 +270,7 @@ def fits(design: Design, dims: Dimensions) -> dict[str, str]:
 
 def _pictures(job: Job) -> list[SolidCheck]:
     """Make the module whole and opened, taken apart, and cut through."""
-    from tvimdesign.cad.render.pictures import write_exploded, write_preview, write_section
+    from tvimdesign.cad.render.pictures import write_exploded, write_preview, write_section, write_steps
 
     drawn = _solids(job.needs)
     solids = place(job.dims, drawn)
@@ -276,6 +278,11 @@ def _pictures(job: Job) -> list[SolidCheck]:
     write_preview(_place(job.folder, cad_report.PREVIEW), job.dims, drawn, placed)
     write_exploded(_place(job.folder, cad_report.EXPLODED), placed)
     write_section(_place(job.folder, cad_report.SECTION), solids, placed)
+    written = enumerate(written_steps(job.design, job.dims, bill(job.design, job.titles, solids)), start=1)
+    steps = {
+        cad_report.step_picture(number): coming(step.place, list(placed)) for number, step in written if step.place
+    }
+    write_steps(job.folder / "out", placed, steps)
     return []
 
 

@@ -17,6 +17,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer
 
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.cad.assembly.assembly import MODULES, VIEWED_FROM, lifts
+from tvimdesign.cad.assembly.assembly_note import PlacedPart
 from tvimdesign.cad.export.mesh import Instance, Mesh, solid_mesh
 from tvimdesign.cad.export.print_files import body_of, mesh_of
 from tvimdesign.cad.geometry.dimensions import Dimensions
@@ -119,6 +120,44 @@ def write_exploded(path: Path, placed: Mapping[str, Instance]) -> None:
         for actor in actors(placed[name].mesh, moved, KINDS[kind_of(name)].colour):
             renderer.AddActor(actor)
     write_view(path, renderer, apart, VIEWED_FROM, _EXPLODED_SIZE)
+
+
+_STEP_SIZE = (900, 600)
+_STEP_APART = 0.2
+"""Way from one kind of part to the next above its place, over the module's width."""
+_PALE = (0.86, 0.87, 0.88)
+_FROM_BELOW = (VIEWED_FROM[0], VIEWED_FROM[1], -VIEWED_FROM[2])
+
+
+def write_steps(folder: Path, placed: Mapping[str, Instance], steps: Mapping[str, Sequence[PlacedPart]]) -> None:
+    """Write a picture for each step, by its file: parts before they go in, in colour, over what is there, pale."""
+    standing: dict[str, Instance] = {}
+    for file, parts in steps.items():
+        renderer = renderer_on_white()
+        order = list(dict.fromkeys(_going_with(part.name) for part in parts))
+        apart = _STEP_APART * max(float(np.ptp(one.points()[:, 0])) for one in placed.values())
+        coming = {}
+        for part in parts:
+            moved = placed[part.name].matrix.copy()
+            lift = apart * (order.index(_going_with(part.name)) + 1.0) if standing else 0.0
+            moved[2, 3] += -lift if part.side == "below" else lift
+            coming[part.name] = Instance(placed[part.name].mesh, moved)
+        for group, pale in ((standing, True), (coming, False)):
+            for name, instance in group.items():
+                for actor in actors(instance.mesh, instance.matrix, _PALE if pale else KINDS[kind_of(name)].colour):
+                    renderer.AddActor(actor)
+        seen = _FROM_BELOW if all(part.side == "below" for part in parts) else VIEWED_FROM
+        kinds = list(dict.fromkeys(kind_of(name) for name in coming))
+        below = legend_height(kinds, _STEP_SIZE)
+        renderer.SetViewport(0.0, below, 1.0, 1.0)
+        look(renderer, standing | coming, seen, _STEP_SIZE[1] * (1.0 - below) / _STEP_SIZE[0])
+        write_png(folder / file, _STEP_SIZE, [renderer, legend(kinds, _STEP_SIZE)])
+        standing |= {part.name: placed[part.name] for part in parts}
+
+
+def _going_with(name: str) -> str:
+    """Return the kind of part that a part is put in with: leads hang on their heater."""
+    return "peltier_pad" if kind_of(name) == "heater_lead" else kind_of(name)
 
 
 _SECTION_SIZE = (1500, 750)

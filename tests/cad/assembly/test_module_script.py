@@ -9,7 +9,7 @@ import pytest
 from cad_designs import CASES, design_of
 
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_parts
-from tvimdesign.cad.export.script import module_script
+from tvimdesign.cad.assembly.module_script import module_script
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 
 EXACT = 1e-9
