@@ -1,4 +1,4 @@
-"""The fork that holds the rotor at rest while its springs are set: a fixture, two of which a module needs.
+"""The fork that holds the rotor at rest while its springs are set: a module needs two.
 
 Its legs fill the ways between a tooth of the rotor and its two stops, and a bridge over the tooth joins them. It goes
 in and out from above, so that both hands and the lower side are free for the springs' screws.

@@ -98,7 +98,7 @@ function show(shown) {
   const [first, ...reasons] = words.split("\n");
   if (status.textContent !== first) status.textContent = first;
   at("reasons").hidden = !reasons.length;
-  at("reasons").querySelector("p").textContent = reasons.join("\n");
+  at("reasons-text").textContent = reasons.join("\n");
   status.className = `status ${shown.found === false || broken.length ? "bad" : shown.status ? "warn" : "good"}`;
   if (!shown.values) return;
   controls.answer(shown);

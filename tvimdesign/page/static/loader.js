@@ -1,6 +1,6 @@
 // Unpacks the page's code, names its modules to the browser, and starts them.
 (async () => {
-  const held = document.getElementById("page-code").textContent;
+  const held = document.getElementById("page-code")?.textContent ?? "";
   const packed = Uint8Array.from(atob(held), (letter) => letter.charCodeAt(0));
   const texts = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).json();
   const address = (text) => URL.createObjectURL(new Blob([text], { type: "text/javascript" }));

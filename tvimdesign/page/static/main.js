@@ -16,10 +16,10 @@ export function start() {
 /** Unfold the section that the address names. */
 function openTarget() {
   const target = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
-  const folded = target?.querySelector(":scope > details");
+  const folded = /** @type {HTMLDetailsElement | null} */ (target?.querySelector(":scope > details") ?? null);
   if (!folded || folded.open) return;
   folded.open = true;
-  target.scrollIntoView();
+  target?.scrollIntoView();
 }
 
 /** Bring to life what stands in an element, what is near the screen first. */
