@@ -30,6 +30,7 @@ import tvimdesign
 from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.measurement.measure_files import kind_sheet, measure_of
 from tvimdesign.simulation.measurement.reading.data_file import Block
+from tvimdesign.simulation.measurement.record_file import as_recorded
 
 KEPT = Path("results/fit_coverage.jsonl")
 _NORMAL = 1.959964  # deviations to the end of an interval of 95 % of a normal distribution
@@ -41,6 +42,8 @@ AS_RECORDED = {
     "linear_strain_melt": "linear_strain", "youngs_modulus": "stiffness", "moving_inertia": "inertia",
 }  # fmt: skip
 """Values of records by the names of what the data were made with."""
+OF_RELEASE = ("stiffness", "damping")
+"""Values that records of a joint's release follow from."""
 SIZES = {"torque_angle": {"wire_diameter": "1 mm", "coil_diameter": "1 mm", "coil_count": str(1e-9 / 64.0)}}
 """Of a spring whose modulus is its stiffness, in numbers."""
 
@@ -98,8 +101,9 @@ def _recorded(
     if measurement.fit.misfit:
         return {}
     values = dict(measurement.record_values) or {
-        each.name: each for each in measurement.fit.parameters if kind == "release"
+        each.name: each for each in measurement.fit.parameters if kind == "release" and each.name in OF_RELEASE
     }  # whose record needs a module
+    values = {name: as_recorded(value) for name, value in values.items()}
     truth = {**truth, **{name: truth[of] for name, of in AS_RECORDED.items() if of in truth}}
     return {name: Found(truth[name], value.value, value.low, value.high)
             for name, value in values.items() if name in truth}  # fmt: skip

@@ -9,7 +9,7 @@ import typer
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.cli import options
-from tvimdesign.cli.design_commands import compare, explore, robot, simulate, sweep, tolerate, verify
+from tvimdesign.cli.design_commands import bench, compare, explore, robot, simulate, sweep, tolerate, verify
 from tvimdesign.cli.options import AsJson, FePython, Out, Overwrite, Settings, StudyFile, default_folder, name_of
 
 if TYPE_CHECKING:
@@ -235,6 +235,7 @@ def fit(
     )  # fmt: skip
 
 
+app.command()(bench)
 app.command()(compare)
 app.command()(sweep)
 app.command()(explore)

@@ -47,6 +47,24 @@ def robot(
     write_robot(result, folder, step, overwrite=overwrite, as_json=json)
 
 
+def bench(
+    result: ResultOfRun,
+    measured: Annotated[
+        Path | None,
+        typer.Option("--measured", metavar="FOLDER", help="A folder of `bench` whose tables are filled: fit them."),
+    ] = None,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure.")] = True,
+    json: AsJson = False,
+) -> None:
+    """Write tests of the module for a laboratory: protocols, blank tables, predictions, into results/<name>-bench."""
+    from tvimdesign.report.bench.bench_files import write_bench
+
+    folder = out or Path("results") / f"{name_of(result)}-{'measured' if measured else 'bench'}"
+    write_bench(result, folder, measured, overwrite=overwrite, plots=plots, as_json=json)
+
+
 def simulate(
     study: StudyOrDesign,
     test: Annotated[

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.errors import CatalogError, InputError
@@ -27,6 +30,11 @@ CHOICES = {
 """What a study names a record of each category by."""
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,60}")
 _DIGITS = 6
+
+
+ACCURACY, WARMER = 0.02, 0.5
+"""Share of a value, and kelvins of a temperature, by which scale and drift of the instrument may be off: no fit sees
+that."""
 
 
 class NoRecordError(InputError):
@@ -132,9 +140,25 @@ def _value_lines(measured: Measured, values: Mapping[str, Estimate]) -> Iterator
     for name, entry in values.items():
         if entry.low is None or entry.high is None:
             continue
-        low, value, high = (_number(from_si(end, entry.unit)) for end in (entry.low, entry.value, entry.high))
+        wide = as_recorded(entry)
+        low, value, high = (_number(from_si(end or 0.0, entry.unit)) for end in (wide.low, wide.value, wide.high))
         yield f'  {name}: {{value: {value}, unit: "{entry.unit}", low: {low}, high: {high}, status: measured,'
         yield f'    source: "{source}, interval of 95 %"}}'
+
+
+def as_recorded(estimate: Estimate) -> Estimate:
+    """Return an estimate with the interval that a record has: widened by the instrument's own error, in squares."""
+    if estimate.low is None or estimate.high is None:
+        return estimate
+    if estimate.unit != "degC" and estimate.low > 0.0:
+        below, above = (np.hypot(np.log(end / estimate.value), ACCURACY) for end in (estimate.low, estimate.high))
+        low, high = estimate.value * np.exp(-below), estimate.value * np.exp(above)
+    else:
+        own = WARMER if estimate.unit == "degC" else ACCURACY * abs(estimate.value)
+        below, above = (np.hypot(end - estimate.value, own) for end in (estimate.low, estimate.high))
+        low, high = estimate.value - below, estimate.value + above
+        low = max(low, 0.0) if estimate.low >= 0.0 else low
+    return replace(estimate, low=float(low), high=float(high))
 
 
 def _condition_lines(measured: Measured) -> Iterator[str]:

@@ -62,7 +62,7 @@ def test_a_molten_joint_tells_its_springs_its_melt_and_its_pins(tmp_path: Path, 
 def test_a_melt_that_thins_over_a_wide_motion_is_told_by_its_amplitude(module: ResolvedModule) -> None:
     # At one hertz the same stiffness and damping over a wider motion are a longer melt's: strained more, it thins.
     of = {size: JointOfModule(module, STUDY, "molten", 2.0 * np.pi, size) for size in (0.01, 0.1)}
-    seen = dict(zip(("stiffness", "damping"), of[0.1]._impedance({}), strict=True))
+    seen = dict(zip(("stiffness", "damping"), of[0.1].impedance({}), strict=True))
     viscosity = {size: float(one.derived()[1].formula(seen)) for size, one in of.items()}
     assert viscosity[0.1] == pytest.approx(float(module.values["pcl_zero_shear_viscosity"]), rel=1e-6)
     assert viscosity[0.01] < 0.9 * viscosity[0.1]

@@ -67,7 +67,7 @@ class JointOfModule:
         first, second = _EXPLAINS[self.state]
         return rows[first], rows[second]
 
-    def _impedance(self, given: Mapping[str, Any]) -> tuple[Any, Any]:
+    def impedance(self, given: Mapping[str, Any]) -> tuple[Any, Any]:
         """Return stiffness [N*m/rad] and damping [N*m*s/rad] of the module with some inputs replaced."""
         point, table = _POINTS[self.state], self.resolved.table
         as_built = {**self.resolved.values, **given, f"frequency@{point}": self.omega / (2.0 * np.pi)}
@@ -85,8 +85,8 @@ class JointOfModule:
         starts = [float(self.resolved.values[row.name]) for row in rows]
         share, seen = ca.SX.sym("share", 2), ca.SX.sym("seen", 2)
         inputs = {row.name: start * _factor(share[i]) for i, (row, start) in enumerate(zip(rows, starts, strict=True))}
-        stiffness, damping = self._impedance(inputs)
-        usual = [float(entry) for entry in self._impedance({})]
+        stiffness, damping = self.impedance(inputs)
+        usual = [float(entry) for entry in self.impedance({})]
         left = ca.vertcat((stiffness - seen[0]) / usual[0], (damping - seen[1]) / usual[1])
         solve = ca.rootfinder("solve", "newton", ca.Function("left", [share, seen], [left]), _NEWTON)
 
@@ -114,7 +114,7 @@ class JointOfModule:
         """Return whether the module with the values found has the stiffness and damping that were measured."""
         if not all(self._may_be(fit[name]) for name in names):
             return False
-        there = np.array(self._impedance({name: fit.value(name) for name in names}), dtype=float)
+        there = np.array(self.impedance({name: fit.value(name) for name in names}), dtype=float)
         misses = np.abs(there / np.array([fit.value("stiffness"), fit.value("damping")]) - 1.0)
         return bool(np.max(misses) < _HELD)
 
