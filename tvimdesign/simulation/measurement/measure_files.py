@@ -229,7 +229,10 @@ def measure_files(
     )
     if not fitting:
         raise InputError(_refusal(blocks, sheet))
-    measurement = measure_of(sheet)(fitting, values)
+    try:
+        measurement = measure_of(sheet)(fitting, values)
+    except InputError as error:
+        raise InputError(f"{error}{_not_understood(fitting)}") from None
     for block in reversed(fitting):
         if block.flagged:
             measurement = measurement.with_note(f"{block.place}: {block.flagged}, and left out.")
