@@ -25,9 +25,8 @@ from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.simulation.measurement import bench_tests
 from tvimdesign.simulation.measurement.bench_tests import Columns
-from tvimdesign.simulation.measurement.kind_sheet import kind_sheet
-from tvimdesign.simulation.measurement.kinds.measurement import LEAST_ROWS
-from tvimdesign.simulation.measurement.measure_files import Measured, measure_files
+from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheet, measure_files
+from tvimdesign.simulation.measurement.measurement import LEAST_ROWS
 from tvimdesign.simulation.measurement.reading.data_file import Block
 from tvimdesign.simulation.measurement.record_file import NoRecordError, write_records
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design
@@ -241,7 +240,7 @@ def _is_filled(path: Path, prediction: Prediction) -> bool:
     """Return whether a table has more filled cells than the blank one."""
     filled, empty = (sum(map(bool, re.split(r"[;,\t\n]", text.replace(" ", "")))) for text in (
         path.read_text(encoding="utf-8-sig", errors="replace"), blank(prediction)))  # fmt: skip
-    return filled >= empty + LEAST_ROWS
+    return bool(filled >= empty + LEAST_ROWS)
 
 
 def _record(name: str, done: Measured, command: Command) -> list[str]:

@@ -16,10 +16,9 @@ import numpy as np
 from tvimdesign.device.table.quantity import Feature
 from tvimdesign.physics.heat_flow import peltier
 from tvimdesign.physics.springs import spring
-from tvimdesign.simulation.measurement.kinds.heat import pad
-from tvimdesign.simulation.measurement.kinds.heat.logged_module import Course, LoggedModule
-from tvimdesign.simulation.measurement.kinds.joint import frozen_torque, release, torque_angle
-from tvimdesign.simulation.measurement.kinds.joint.joint_of_module import FROZEN, JointOfModule
+from tvimdesign.simulation.measurement.kinds import frozen_torque, pad, release, torque_angle
+from tvimdesign.simulation.measurement.kinds.heating_log import Course, LoggedModule
+from tvimdesign.simulation.measurement.kinds.joint_of_module import FROZEN, JointOfModule
 from tvimdesign.simulation.measurement.reading.data_file import Array
 from tvimdesign.simulation.working_cycle.casadi_setup import ca
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
