@@ -121,7 +121,7 @@ def dies(path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_what_ends_the_process_is_its_input_s_fault_and_the_others_are_tried(
+def test_an_input_that_ends_the_process_is_at_fault_and_others_are_tried(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(fuzz, "CORPUS", tmp_path)
