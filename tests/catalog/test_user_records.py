@@ -367,7 +367,7 @@ def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path: Path) -> 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="Windows: no folder has a numbered owner that could be another")
 @pytest.mark.parametrize("folder", [".", "peltiers"])
-def test_another_user_s_folder_is_reported_and_refused_if_anybody_writes_it(
+def test_another_user_s_folder_is_reported_and_refused_if_all_may_write(
     folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     put(tmp_path, GOOD)
