@@ -13,7 +13,7 @@ _PUBLIC = {
     "tvimdesign.api.measured": ("Fitted", "fit"),
     "tvimdesign.api.quantity": ("Quantity", "linspace"),
     "tvimdesign.api.result": ("NoDesignError", "Parts", "Reasons", "Result"),
-    "tvimdesign.api.study": ("Study", "example", "load"),
+    "tvimdesign.api.study": ("Study", "example", "load", "size"),
     "tvimdesign.api.sweep": ("Cell", "Sweep"),
     "tvimdesign.base.errors": (
         "CatalogError", "GeometryError", "InfeasibleError", "InputError", "SimulationError",

@@ -10,6 +10,7 @@ from tvimdesign.api.result import Result as Result
 from tvimdesign.api.study import Study as Study
 from tvimdesign.api.study import example as example
 from tvimdesign.api.study import load as load
+from tvimdesign.api.study import size as size
 from tvimdesign.api.sweep import Cell as Cell
 from tvimdesign.api.sweep import Sweep as Sweep
 from tvimdesign.base.errors import CatalogError as CatalogError

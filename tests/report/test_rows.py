@@ -2,18 +2,16 @@
 
 import io
 import json
-from importlib.resources import files
 from typing import Any
 
 import pytest
-import yaml
 from rich.console import Console
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.device import MODES
 from tvimdesign.report import rows
+from tvimdesign.study.text.mistakes import synonyms
 
-WORDS: dict[str, list[str]] = yaml.safe_load(files("tvimdesign.report").joinpath("row_words.yaml").read_text("utf-8"))
 WIDTHS = (80, 100, 140)
 
 
@@ -33,10 +31,12 @@ def printed(monkeypatch: pytest.MonkeyPatch) -> Any:
 @pytest.mark.parametrize("mode", MODES)
 def test_every_word_and_every_term_finds_rows(mode: str) -> None:
     every = rows.named_rows(mode)
-    for word, terms in WORDS.items():
+    for word, terms in synonyms().items():
         assert rows.matching(every, word), word
         for term in terms:
-            assert any(term in f"{row.name} {row.description}".lower() for row in every), f"{word}: {term}"
+            others = (rows.named_rows(other) for other in MODES)
+            every_mode = (row for named in others for row in named)
+            assert any(term in f"{row.name} {row.description}".lower() for row in every_mode), f"{word}: {term}"
 
 
 @pytest.mark.parametrize(

@@ -10,10 +10,11 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.simulation.working_cycle.cycle import Cycle, Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.batch.cycle_kernel import CycleKernel, Pace
+from tvimdesign.solve.nlp.constraints import constraints_of, refuse_impossible
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
 
-ENDS = ("softened_stiffness", "softened_impedance", "softened_temperature")
+ENDS = ("softened_stiffness", "softened_damping", "softened_impedance", "softened_temperature")
 STUDY = """
 mode: shear
 module: {{response_criterion: {criterion}}}
@@ -46,12 +47,9 @@ def test_a_joint_that_ends_the_switch_as_soft_ends_it_at_the_threshold() -> None
 @pytest.mark.parametrize("name", ENDS)
 def test_it_is_the_last_of_the_simulated_history(name: str) -> None:
     found = _answer()
-    column, zero = {"softened_temperature": ("far_face", 273.15)}.get(name, ("joint_impedance", 0.0))
+    column, zero = {"softened_temperature": ("far_face", 273.15)}.get(name, (f"joint_{name.partition('_')[2]}", 0.0))
     last = found.histories["softening"][column][-1] + zero
-    if name == "softened_stiffness":
-        assert found.design.values[name] < last  # the real part of what the history has in size
-    else:
-        assert found.design.values[name] == pytest.approx(last, rel=1e-6)
+    assert found.design.values[name] == pytest.approx(last, rel=1e-6)
 
 
 @pytest.mark.slow
@@ -65,7 +63,7 @@ def test_simulation_confirms_the_stiffness_required_at_the_end() -> None:
     # The values of a design are simulated; that the limit binds there says that the equations agree with it.
     assert held.design.values["softened_stiffness"] == pytest.approx(limit, rel=2e-3)
     assert held.design.values["softened_stiffness"] < 0.99 * free
-    active = [one.output for one in held.solution.held if abs(one.residual) < 1e-4] if held.solution else []
+    active = [limit.output for limit in held.solution.held if abs(limit.residual) < 1e-4] if held.solution else []
     assert "softened_stiffness" in active
 
 
@@ -110,6 +108,39 @@ def test_a_hot_point_that_the_layer_never_reaches_is_warned_of(criterion: str, r
     warned = [check for check in found.warnings if check.output == "hot_point_margin"]
     assert bool(warned) is not reached
     assert all("never" in check.origin and "softened_stiffness" in check.origin for check in warned)
+
+
+HOT = 'require: {joint_stiffness@hot: [">= 2 N.m/rad", "<= 3 N.m/rad"]'
+
+
+@pytest.mark.parametrize(
+    ("module", "more", "outputs"),
+    [
+        ("", "", ["joint_stiffness@hot"] * 2),  # the far face waits for 100 degC, which is the hot point
+        ("target_temperature: 90 degC", "", ["joint_stiffness@hot", "softened_stiffness"] * 2),
+        ("response_criterion: softening", "", ["joint_stiffness@hot", "softened_stiffness"] * 2),
+        ("response_criterion: softening", ', softened_stiffness: "<= 4 N.m/rad"',
+         ["joint_stiffness@hot", "softened_stiffness", "joint_stiffness@hot", "softened_stiffness"]),
+    ],
+)  # fmt: skip
+def test_a_limit_at_an_unreached_hot_point_is_also_put_on_the_end(module: str, more: str, outputs: list[str]) -> None:
+    study = read_study_text(f"mode: shear\nmodule: {{{module}}}\n{HOT}{more}}}\n", "test")
+    limits = [limit for limit in constraints_of(study, study.table) if limit.origin == "require"]
+    assert [limit.output for limit in limits] == outputs
+    ends = {limit.sense: limit.limit for limit in limits if limit.output == "softened_stiffness"}
+    assert ends == ({} if "softened_stiffness" not in outputs else {">=": 2.0, "<=": 4.0 if more else 3.0})
+
+
+def test_a_limit_that_means_nothing_where_heating_ends_is_refused() -> None:
+    text = 'mode: shear\nmodule: {{{}}}\nrequire: {{natural_frequency@hot: ">= 1 Hz"}}\n'
+    with pytest.raises(InputError) as caught:
+        refuse_impossible(read_study_text(text.format("response_criterion: softening"), "test"))
+    assert str(caught.value) == (
+        "require.natural_frequency@hot: heating may end before the layer is at 'hot', 100 °C; write `module: "
+        "{response_criterion: far_face, target_temperature: 100 °C}`, or limit joint_impedance@hot or "
+        "joint_stiffness@hot or joint_damping@hot, which count where heating ends, too"
+    )
+    refuse_impossible(read_study_text(text.format(""), "test"))
 
 
 @pytest.mark.gate

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from tvimdesign.api.study import Study
     from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
 
 
@@ -94,6 +95,22 @@ class Result:
         if not answered.result.found:
             raise NoDesignError(complaint(answered.result, answered.study.table), result)
         return result
+
+    @property
+    def study(self) -> Study:
+        """The study that it answers, to be changed and run again."""
+        from tvimdesign.api.study import Study
+
+        return Study._of(self._answered.tree)
+
+    @property
+    def verdict(self) -> str:
+        """The first line of the screen, such as `Build it`; yield and intervals are computed for it."""
+        from tvimdesign.report.run.first_screen import verdict_of
+
+        if self._answered.result.found:
+            self.uncertainty()
+        return verdict_of(self._answered).text
 
     @property
     def name(self) -> str:

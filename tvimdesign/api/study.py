@@ -38,6 +38,49 @@ def example(name: str) -> Study:
     return Study._of(tree_of_text(example_text(name), f"{name}.yaml", name, Path()))
 
 
+def size(
+    *, torque: str, stiffness: str, diameter: str, time: str, supply: str, name: str = "joint", progress: bool = True
+) -> Result:
+    """Size a joint from five numbers, as `tvimdesign size` does.
+
+    Parameters
+    ----------
+    torque : str
+        Torque that the frozen joint holds, such as ``"8 N.m"``.
+    stiffness : str
+        Stiffness of the soft joint: ``"1.5 N.m/rad"`` means 20 % to either side, ``"1 to 2 N.m/rad"`` a range.
+    diameter : str
+        Largest outer diameter, 20 to 200 mm.
+    time : str
+        Time within which the joint gets soft.
+    supply : str
+        Voltage and current, such as ``"24 V, 3 A"``.
+    name : str
+        Name of the study.
+    progress : bool
+        Show what is being done.
+
+    Returns
+    -------
+    Result
+        The optimum; its `study` can be changed and run again.
+
+    Raises
+    ------
+    InputError
+        For a quantity that is none.
+    InfeasibleError
+        For limits that conflict before the search.
+    NoDesignError
+        If the search finds no design.
+    """
+    from tvimdesign.report.size_study import sized_text
+    from tvimdesign.study.sizing import JointTask
+
+    text = sized_text(JointTask.read(torque, stiffness, diameter, time, supply), name)
+    return Study._of(tree_of_text(text, f"{name}.yaml", name, Path())).run(progress=progress)
+
+
 class Study:
     """Study: a module, its variables, its requirements and its objective.
 

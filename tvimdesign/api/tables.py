@@ -89,9 +89,8 @@ def _stands(answered: AnsweredStudy) -> dict[str, str]:
 
 
 def _all_of(name: str, study: Study) -> list[str]:
-    base, at, point = name.partition("@")
-    row = study.table.output(base)
-    return [f"{part}{at}{point}" for part in row.least_of or ((base, *row.also_limited) if row.also_limited else ())]
+    also = study.limited_with(name)
+    return [*(study.table.output(name).least_of or ((name, *also) if also else ()))]
 
 
 def _status(name: str, design: Design, study: Study) -> str:

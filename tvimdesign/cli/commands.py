@@ -147,6 +147,34 @@ def new(
 
 
 @app.command()
+def size(
+    torque: Annotated[str, typer.Option("--torque", help="Torque that the frozen joint holds, such as '8 N.m'.")],
+    stiffness: Annotated[
+        str,
+        typer.Option(
+            "--stiffness", help="Of the soft joint: '1.5 N.m/rad' (20 % to either side), or '1 to 2 N.m/rad'."
+        ),
+    ],
+    diameter: Annotated[str, typer.Option("--diameter", help="Largest outer diameter, 20 to 200 mm.")],
+    time: Annotated[str, typer.Option("--time", help="Time within which it gets soft, such as '60 s'.")],
+    supply: Annotated[str, typer.Option("--supply", help="Voltage and current, such as '24 V, 3 A'.")],
+    file: Annotated[Path, typer.Option("--study", help="Study file to write, and to edit afterwards.")] = Path(
+        "joint.yaml"
+    ),
+    out: Out = None,
+    overwrite: Overwrite = False,
+    cad: Annotated[bool, typer.Option("--cad/--no-cad", help="Make the parts: STEP, 3MF, drawings, assembly.")] = True,
+    plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
+    json: AsJson = False,
+) -> None:
+    """Size a joint from five numbers: write a study with its hardware and ranges, run it, give its verdict."""
+    from tvimdesign.report.size_study import size_study
+
+    numbers = {"torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply}
+    size_study(file, numbers, out or default_folder(file), overwrite=overwrite, cad=cad, plots=plots, as_json=json)
+
+
+@app.command()
 def schema() -> None:
     """Print the JSON Schema of studies. An editor then knows names, units and descriptions."""
     from tvimdesign.report.study_files import print_schema

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from rich.console import Console
@@ -16,13 +14,12 @@ from rich.text import Text
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
 from tvimdesign.report.output.progress import wide_console
 from tvimdesign.report.output.tables import number
 from tvimdesign.study.resolve import words_of
-from tvimdesign.study.text.mistakes import did_you_mean
+from tvimdesign.study.text.mistakes import did_you_mean, synonyms
 
 _SHOWN = 8
 """Names of a group in the list of groups."""
@@ -34,7 +31,7 @@ def print_rows(mode: str, word: str, as_json: bool) -> None:
     matches = matching(rows, word)
     if not matches:
         names = [row.name for row in rows]
-        hint = did_you_mean(word, [*names, *_words()]) or "`tvimdesign rows` lists the groups"
+        hint = did_you_mean(word, [*names, *synonyms()]) or "`tvimdesign rows` lists the groups"
         raise InputError(f"no row of {mode} mode has {word!r} in its name or description; {hint}")
     if as_json:
         print(json.dumps([_plain(row) for row in matches], indent=2))
@@ -69,20 +66,13 @@ def matching(rows: Sequence[Quantity], word: str) -> list[Quantity]:
     """Return the group of that name and the row so called; else rows with the word, or what engineers mean by it."""
     word = " ".join(word.lower().split())
     named = [row for row in rows if word in (row.group.lower(), row.name)]
-    terms = (word, *_words().get(word, ()))
+    terms = (word, *synonyms().get(word.replace("_", " "), ()))
     in_group = any(row.group.lower() == word for row in named)
     return named if in_group else [row for row in rows if any(term in _text(row) for term in terms)]
 
 
 def _text(row: Quantity) -> str:
     return f"{row.name} {row.name.replace('_', ' ')} {row.description}".lower()
-
-
-@cache
-def _words() -> dict[str, tuple[str, ...]]:
-    """Return what people look for, with what the table says instead."""
-    text = files("tvimdesign.report").joinpath("row_words.yaml").read_text(encoding="utf-8")
-    return {word: tuple(terms) for word, terms in plain_data(text).items()}
 
 
 def _print_groups(rows: Sequence[Quantity], mode: str, console: Console) -> None:
@@ -116,7 +106,7 @@ def _asked_for(row: Quantity) -> bool:
 
 def _print_found(rows: Sequence[Quantity], word: str, console: Console) -> None:
     """Print those asked for most, then the others by group: a name with its facts, below it its description."""
-    also = _words().get(word.lower())
+    also = synonyms().get(word.lower().replace("_", " "))
     if also:
         console.print(f"{word}: rows with {', '.join(also)}\n", style="dim", markup=False)
     heading = ""

@@ -198,11 +198,36 @@ class Study(_Part):
         state = super().__getstate__()
         return {**state, "__dict__": {name: value for name, value in state["__dict__"].items() if name not in _CACHED}}
 
+    def reaches(self, point: str) -> bool:
+        """Return whether heating cannot end before the whole layer is as warm as at an operating point."""
+        rows, varied = self.table.by_name, self.vary.get("target_temperature")
+        if "response_criterion" not in rows or "response_criterion" in self.vary:
+            return "response_criterion" not in rows
+        criterion, target = (
+            self.module.get(name, getattr(rows[name], "default", None))
+            for name in ("response_criterion", "target_temperature")
+        )
+        if varied is not None:
+            target = varied.lower if isinstance(varied, Range) else min(map(float, varied.values))
+        temperature = self.operating_points[point]["temperature"]
+        return criterion == "far_face" and float(target or 0.0) >= temperature - _SAME_TEMPERATURE
+
+    def limited_with(self, name: str) -> tuple[str, ...]:
+        """Return the outputs on which a limit on another is put as well.
+
+        Heating may end colder than the hot point. Then a limit there is put on the state in which heating ends, too.
+        """
+        row = self.table.output(name)
+        at_end = row.at_end if name.endswith("@hot") else ""
+        return (at_end,) if at_end and not self.reaches("hot") else row.also_limited
+
     @property
     def task(self) -> Literal["evaluate", "optimize"]:
         """The study's task."""
         return "optimize" if self.vary else "evaluate"
 
 
+_SAME_TEMPERATURE = 1e-6
+"""Kelvin by which two temperatures may differ by rounding."""
 _CACHED = {"catalog": "catalog_folder", "table": "mode"}
 """What a study keeps once it is asked for, by the field it follows from."""

@@ -17,9 +17,7 @@ SURE = {
 }  # fmt: skip
 GRAVE = RunWarning("pin fillet safety is 0.93: pins may crack at their fillet", "", "grave")
 HOT = {"output": "joint_stiffness@hot", "sense": "<=", "limit": 1.5}
-COOL = {
-    "hot_point_margin": -33.0, "softened_temperature": 340.15, "temperature@hot": 373.15, "softened_stiffness": 2.5,
-}  # fmt: skip
+COOL = {"softened_temperature": 340.15, "temperature@hot": 373.15, "softened_stiffness": 2.5, "softened_range": 50.0}
 
 
 def check(text: str, margin: float) -> ConstraintCheck:
@@ -60,6 +58,10 @@ def sides(*texts: str) -> ConflictSet:
         (answer(above=("structure_temperature_margin",)), SURE, [], "Above a rating: structure heat margin below 0"),
         (answer(status="below_yield"), SURE, [], "Margins not reached: the time limit ended the search"),
         (answer(COOL, (HOT,)), SURE, [], "Not at the temperature you asked for: 67 of 100 °C"),
+        (answer(COOL, ({"output": "impedance_range", "sense": ">=", "limit": 60.0},)), SURE, [],
+         "Not at the temperature you asked for: 67 of 100 °C"),
+        (answer(COOL | {"temperature@warm": 350.15}, (HOT | {"output": "pcl_stiffness@warm"},)), SURE, [],
+         "Not at the temperature you asked for: 67 of 77 °C"),
         (answer(), SURE | {"parts_yield": {"share": 0.005}}, [GRAVE], "Nominal optimum: add margins (yield 0.5 %)"),
         (answer(), SURE, [GRAVE], "Not yet: pin fillet safety is 0.93"),
         (answer(), SURE | {"held": {"retainer_thread_margin >=": 0.2}}, [],
@@ -79,7 +81,9 @@ def test_each_rule_decides(
     [
         (COOL, ()),  # nothing is required at the hot point
         (COOL | {"softened_stiffness": 1.4}, (HOT,)),  # the joint is as soft as required before
-        (COOL | {"hot_point_margin": -0.1}, (HOT,)),  # rounding
+        (COOL | {"softened_temperature": 373.05}, (HOT,)),  # rounding
+        (COOL, ({"output": "impedance_range", "sense": ">=", "limit": 40.0},)),
+        (COOL | {"temperature@cold": 303.15}, (HOT | {"output": "joint_stiffness@cold"},)),
     ],
 )
 def test_a_hot_point_that_is_not_needed_is_no_matter(values: dict[str, float], require: tuple[Any, ...]) -> None:

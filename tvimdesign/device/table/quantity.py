@@ -159,6 +159,8 @@ class Output:
     """The quantities this one is the least of; a lower limit on it is put on each of them, which have no kinks."""
     also_limited: tuple[str, ...] = ()
     """The quantities on which each limit on this one is put as well, from whichever side."""
+    at_end: str = ""
+    """The quantity that this one, at the hot point if it has points, is when heating ends."""
     parts_differ_with: Feature | None = None
     """Feature without which those, or the quantities it is the least of, are equal."""
     rules: tuple[Rule, ...] = ()

@@ -152,6 +152,7 @@ class QuantityGroup:
         headline: bool = False,
         least_of: tuple[str, ...] = (),
         also_limited: tuple[str, ...] = (),
+        at_end: str = "",
         parts_differ_with: Feature | None = None,
         requires: tuple[Feature, ...] | None = None,
         default: Any = 0.0,
@@ -160,7 +161,7 @@ class QuantityGroup:
 
         return self._add(
             Output, unit, rules=rules, advice=advice, ratings=ratings, per_point=per_point, instant=instant,
-            hidden=hidden, headline=headline, least_of=least_of, also_limited=also_limited,
+            hidden=hidden, headline=headline, least_of=least_of, also_limited=also_limited, at_end=at_end,
             parts_differ_with=parts_differ_with, requires=self.requires if requires is None else requires,
             default=default,
         )  # fmt: skip

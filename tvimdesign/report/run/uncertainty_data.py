@@ -29,7 +29,8 @@ _LEAST = 5e-3
 """Change of an output, as a share of it, below which it does not depend on an unmeasured input."""
 FIRST_SCREEN = (
     "module_mass", "envelope_diameter", "envelope_height", "envelope_volume", "softening_time", "stiffening_time",
-    "frozen_time", "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
+    "softened_stiffness", "softened_damping", "frozen_time",
+    "peak_voltage", "stiffening_peak_voltage", "peak_current", "stiffening_peak_current", "peak_power",
     "switch_energy", "cycle_energy",
 )  # fmt: skip
 """Outputs that the first screen shows of every module."""
@@ -48,7 +49,7 @@ class Uncertainty:
         required = [
             name
             for requirement in study.require
-            for name in (requirement.output, *self.table.output(requirement.output).also_limited)
+            for name in (requirement.output, *study.limited_with(requirement.output))
         ]
         self.asked = list(dict.fromkeys([*required, *study.minimize, *FIRST_SCREEN]))
         self._start = self._tolerant(resolve_study(study))

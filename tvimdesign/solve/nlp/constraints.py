@@ -58,10 +58,12 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     """
     words = study.module if chosen is None else chosen
     options = {row.name: words.get(row.name, row.default) for row in table.choices if row.name not in study.vary}
+    stated = {(r.output, r.sense) for r in study.require}
     required = [
-        replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(table, r.output))
+        replace(make_constraint(table, output, r.sense, r.limit, "require"), part_of=_part_of(study, r.output))
         for r in study.require
-        for output in _behind(table, r.output, r.sense, options)
+        for output in _behind(study, r.output, r.sense, options)
+        if output != table.output(r.output).at_end or (output, r.sense) not in stated
     ]
     own = list(dict.fromkeys(required))
     taken = {(limit.output, limit.sense) for limit in own}
@@ -72,19 +74,18 @@ def constraints_of(study: Study, table: Table, chosen: Mapping[str, Any] | None 
     return own
 
 
-def _behind(table: Table, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
+def _behind(study: Study, name: str, sense: str, options: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the rows of a limit: the named one, those limited with it, or those whose least it is."""
-    row = table.output(name)
+    table, row = study.table, study.table.output(name)
     parts = tuple(part for part in row.least_of if table.output(part).exists(options))
-    rows = parts if parts and sense == ">=" else (name, *row.also_limited)
+    rows = parts if parts and sense == ">=" else (name, *study.limited_with(name))
     apart = row.parts_differ_with
     alike = apart is not None and options.get(apart.choice) == apart.without
     return rows[:1] if alike else rows
 
 
-def _part_of(table: Table, name: str) -> str:
-    row = table.output(name)
-    return name if row.also_limited or row.least_of else ""
+def _part_of(study: Study, name: str) -> str:
+    return name if study.limited_with(name) or study.table.output(name).least_of else ""
 
 
 def on_cycle(table: Table, output: str) -> bool:
@@ -126,6 +127,7 @@ def refuse_impossible(study: Study) -> None:
 def refuse_contradictory(study: Study, start: Mapping[str, Any]) -> None:
     """Raise InputError for what a study sets to no effect, and for targets beyond what the joint can have."""
     _refuse_idle(study, study.table, start)
+    _refuse_unreached(study)
     if not study.vary:
         _refuse_unreachable(start, study.table)
 
@@ -143,6 +145,24 @@ def _refuse_idle(study: Study, table: Table, start: Mapping[str, Any]) -> None:
         others = [word for word in choice.options if word != lacking.without]
         way = "name one of its records" if choice.category else f"add `{choice.name}: {others[0]}`"
         raise InputError(f"{', '.join(idle)}: no effect, as {choice.name} is {lacking.without}; {way} under `module`")
+
+
+def _refuse_unreached(study: Study) -> None:
+    """Raise InputError for limits at a molten point that the layer may never reach."""
+    table, points = study.table, study.operating_points
+    for name in dict.fromkeys(limit.output for limit in study.require):
+        base, _, point = name.partition("@")
+        if not point or study.reaches(point) or "temperature" not in table.ancestors(base):
+            continue
+        molten = points[point]["temperature"] >= points["hot"]["temperature"]
+        if molten and not (table.output(base).at_end and point == "hot"):
+            others = " or ".join(f"{row.name}@hot" for row in table.outputs if row.per_point and row.at_end)
+            kelvin = format_quantity(points[point]["temperature"], "degC")
+            raise InputError(
+                f"require.{name}: heating may end before the layer is at {point!r}, {kelvin}; write `module: "
+                f"{{response_criterion: far_face, target_temperature: {kelvin}}}`, or limit {others}, which count "
+                "where heating ends, too"
+            )
 
 
 def _refuse_unreachable(start: Mapping[str, Any], table: Table) -> None:

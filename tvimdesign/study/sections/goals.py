@@ -36,6 +36,7 @@ from tvimdesign.study.text.yaml_text import Node, Sequence, Text
 
 MOST_LIMITS = 10
 _INSTEAD = "limit `backlash` or `relaxation_loss`"
+_BETWEEN = re.compile(r"(?P<low>[0-9][^\s]*)(?: (?P<unit>\S+))? (?:to|-) (?P<high>[0-9].*)")
 _LIMIT = re.compile(r"(?P<sense><=|>=)\s*(?P<quantity>[^\s<>=].*)")
 
 
@@ -129,7 +130,7 @@ def named_output(reading: Reading, key: Text, path: str, name: str) -> Output | 
     add = reading.problems.add
     if row is None or (isinstance(row, Output) and row.hidden):
         names = [name.partition("@")[0] for name in reading.table.names(list(points)[:1])]
-        reading.unknown_quantity(key, path, "output", base, names)
+        reading.unknown_quantity(key, path, "output", base, names, point if point in points else "")
     elif not isinstance(row, Output):
         add(key, path, "is something the study sets, no output", "the name of an output", f"limit {base} under `vary`")
     elif row.instant:
@@ -166,6 +167,10 @@ def read_limit(reading: Reading, node: Node, path: str, name: str, row: Output) 
     if word is None:
         return None
     parts = _LIMIT.fullmatch(word)
+    if several := _several(word):
+        listed = ", ".join(f'"{limit}"' for limit in several)
+        reading.problems.add(node, path, f"{len(several)} limits in one text", f"a list: [{listed}]")
+        return None
     if parts is None:
         misfit(reading.problems, node, path, expected)
         return None
@@ -173,6 +178,16 @@ def read_limit(reading: Reading, node: Node, path: str, name: str, row: Output) 
     if limit is None:
         return None
     return Requirement(output=name, sense="<=" if parts["sense"] == "<=" else ">=", limit=limit, text=word)
+
+
+def _several(word: str) -> list[str]:
+    """Return the limits of a text that holds several, `>= 1 mm, <= 2 mm` or `1 to 2 mm`; none if it does not."""
+    if between := _BETWEEN.fullmatch(word):
+        unit = between["unit"] or between["high"].partition(" ")[2]
+        return [f">= {between['low']} {unit}".rstrip(), f"<= {between['high']}"]
+    limits = [limit.strip(" ,;&") for limit in re.split(r"(?=[<>]=)|\band\b", word)]
+    limits = [limit for limit in limits if limit]
+    return limits if len(limits) > 1 and all(map(_LIMIT.fullmatch, limits)) else []
 
 
 def _contradictions(reading: Reading, node: Node, path: str, row: Output, read: list[Requirement]) -> None:

@@ -6,14 +6,19 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import cache
+from importlib.resources import files
 from typing import Protocol
 
 from tvimdesign.base.errors import InputError
+from tvimdesign.base.yaml_data import plain_data
 
 MOST_SHOWN = 50
 """How many problems an error prints; the rest is counted."""
 _MOST_NAMES = 12
 _LONGEST_WORD = 64
+_CLOSE, _NEAR = 0.8, 0.6
+"""Likeness of a misspelt name, and the least of one that is proposed if nothing else is."""
 
 
 class Place(Protocol):
@@ -93,7 +98,8 @@ class Mistakes:
         """Note a word that is none of the known ones, with the nearest of them."""
         names = list(known)
         hint = did_you_mean(word, names) if len(self.items) < MOST_SHOWN else ""
-        self.add(place, path, f"no such {what}", one_of(names), hint)
+        shown = often_first(names) if len(names) > _MOST_NAMES else names
+        self.add(place, path, f"no such {what}", one_of(shown), hint)
 
     def stop(self) -> None:
         """Raise what was found, if anything was."""
@@ -102,14 +108,40 @@ class Mistakes:
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """Return `did you mean 'x'?` for the known name nearest to the word, or nothing where none is near."""
+    """Return `did you mean 'x'?` for the known name that a word means, or nothing where none is near."""
+    name = nearest(word, known)
+    return f"did you mean {name!r}?" if name else ""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return the known name that a word means; empty if none is near.
+
+    A synonym comes first, then a misspelt name, a misspelt synonym, and a name with the word in it.
+    """
     if len(word) > _LONGEST_WORD:
         return ""
     names, spelt = list(known), word.lower().replace(" ", "_").replace("-", "_")
-    near = get_close_matches(spelt, names, n=1, cutoff=0.6)
+    meant = {key.replace(" ", "_"): [term for term in terms if term in names] for key, terms in synonyms().items()}
+    meant = {key: terms for key, terms in meant.items() if terms and key not in names}
+    near = meant.get(spelt) or get_close_matches(spelt, names, n=1, cutoff=_CLOSE)
+    near = near or [meant[key][0] for key in get_close_matches(spelt, meant, n=1, cutoff=_CLOSE)]
     if not near and len(spelt) > 2:
-        near = [name for name in names if spelt in name][:1]
-    return f"did you mean {near[0]!r}?" if near else ""
+        near = often_first(name for name in names if spelt in name)
+    return (near or get_close_matches(spelt, names, n=1, cutoff=_NEAR) or [""])[0]
+
+
+def often_first(names: Iterable[str]) -> list[str]:
+    """Return names with those first that synonyms name."""
+    often = dict.fromkeys(term for terms in synonyms().values() for term in terms)
+    listed = list(names)
+    return [*(name for name in often if name in listed), *(name for name in listed if name not in often)]
+
+
+@cache
+def synonyms() -> dict[str, tuple[str, ...]]:
+    """Return words that people write, each with the quantities and terms that it means."""
+    text = files("tvimdesign.study.text").joinpath("synonyms.yaml").read_text(encoding="utf-8")
+    return {word: tuple(terms) for word, terms in plain_data(text).items()}
 
 
 def one_of(names: list[str]) -> str:

@@ -15,7 +15,7 @@ from tvimdesign.base.record import Record
 from tvimdesign.base.units import format_quantity, from_si, parse_quantity, si_unit
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import MODES, Choice, Input, Output, Table, table_for
-from tvimdesign.study.text.mistakes import Mistakes, Place, one_of, quoted, step
+from tvimdesign.study.text.mistakes import Mistakes, Place, nearest, often_first, one_of, quoted, step, synonyms
 from tvimdesign.study.text.yaml_text import Broken, Mapping, Node, Sequence, Text
 
 LONGEST_VALUE = 200
@@ -59,13 +59,28 @@ class Reading:
         empty = (isinstance(node, Text) and node.empty) or (isinstance(node, Mapping) and not node.entries)
         return node is not None and not empty
 
-    def unknown_quantity(self, place: Place, path: str, what: str, name: str, known: Iterable[str]) -> None:
-        """Note a name that is no such row; of a row that only another mode has, which one."""
+    def unknown_quantity(
+        self, place: Place, path: str, what: str, name: str, known: Iterable[str], point: str = ""
+    ) -> None:  # fmt: skip
+        """Note a name that is no such quantity; of one that only another mode has, which one.
+
+        A quantity that is meant instead is named with its operating point, `point` or else the hot one.
+        """
         others = [mode for mode in MODES if mode != self.mode and _has(mode, name)]
         if others and not _has(self.mode, name):
             self.problems.add(place, path, f"{name} is of {others[0]} mode, this study is {self.mode} mode")
+            return
+        names = list(known)
+        meant = next(iter(synonyms().get(name.lower().replace("_", " "), ())), nearest(name, names))
+        row, hint = self.table.by_name.get(meant), ""
+        if isinstance(row, Output) and meant not in names:
+            hint = f"limit {meant!r} under `require`"
+        elif isinstance(row, Output) and row.per_point:
+            hint = f"did you mean '{meant}@{point or 'hot'}'?"
+        if hint:
+            self.problems.add(place, path, f"no such {what}", one_of(often_first(names)), hint)
         else:
-            self.problems.unknown(place, path, what, name, known)
+            self.problems.unknown(place, path, what, name, names)
 
 
 def _has(mode: str, name: str) -> bool:

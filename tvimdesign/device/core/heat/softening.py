@@ -85,10 +85,16 @@ def softening_margin(m: Module) -> Scalar:
 # --- what the joint is when the switch ends ---------------------------------------------------------------------------
 
 
-@quantities.path(SOFTENING, "N*m/rad", "end")
+@quantities.path(SOFTENING, "N*m/rad", "end", headline=True)
 def softened_stiffness(m: Module) -> Scalar:
     """Stiffness of the joint when the switch ends, at the hot point's frequency."""
     return m.stiffness_now
+
+
+@quantities.path(SOFTENING, "N*m*s/rad", "end", headline=True)
+def softened_damping(m: Module) -> Scalar:
+    """Damping of the joint when the switch ends, at the hot point's frequency."""
+    return m.damping_now
 
 
 @quantities.path(SOFTENING, "N*m/rad", "end")
@@ -97,7 +103,13 @@ def softened_impedance(m: Module) -> Scalar:
     return m.impedance_now
 
 
-@quantities.path(SOFTENING, "degC", "end")
+@quantities.output("1", headline=True)
+def softened_range(m: Module) -> Scalar:
+    """Stiffness of the joint cold over that when the switch ends."""
+    return m.joint_stiffness_at_cold / m.softened_stiffness
+
+
+@quantities.path(SOFTENING, "degC", "end", headline=True)
 def softened_temperature(m: Module) -> Scalar:
     """Temperature of the layer's coldest face, at the rotor, when the switch ends."""
     return m.stack_profile.far

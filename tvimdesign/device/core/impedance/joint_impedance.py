@@ -173,7 +173,7 @@ def branch_stiffness(m: Module) -> tuple[Scalar, Scalar]:
     return layer.series_stiffness(m.pcl_stiffness, loss, *m.warm_structure)
 
 
-@quantities.output("N*m/rad", per_point=True)
+@quantities.output("N*m/rad", per_point=True, at_end="softened_impedance")
 def joint_impedance(m: Module) -> Scalar:
     """Magnitude of the joint's dynamic stiffness, springs and damping together."""
     return impedance_beside(m.spring_stiffness, m.branch_stiffness)
@@ -184,13 +184,13 @@ def impedance_beside(springs: Scalar, branch: tuple[Scalar, Scalar]) -> Scalar:
     return np.sqrt((springs + branch[0]) ** 2 + branch[1] ** 2)
 
 
-@quantities.output("N*m/rad", per_point=True, headline=True)
+@quantities.output("N*m/rad", per_point=True, headline=True, at_end="softened_stiffness")
 def joint_stiffness(m: Module) -> Scalar:
     """Stiffness of the joint: springs, parallel to the layer in series with the structure."""
     return m.spring_stiffness + m.branch_stiffness[0]
 
 
-@quantities.output("N*m*s/rad", per_point=True, headline=True)
+@quantities.output("N*m*s/rad", per_point=True, headline=True, at_end="softened_damping")
 def joint_damping(m: Module) -> Scalar:
     """Damping of the joint: the losses of layer and structure in series."""
     return m.branch_stiffness[1] / (2.0 * np.pi * m.frequency)
@@ -220,7 +220,7 @@ def critical_damping(m: Module) -> Scalar:
     return motion.critical_damping(m.spring_stiffness, m.moving_inertia)
 
 
-@quantities.output("1", headline=True)
+@quantities.output("1", headline=True, at_end="softened_range")
 def impedance_range(m: Module) -> Scalar:
     """Stiffness of the joint cold over hot."""
     return m.joint_stiffness_at_cold / m.joint_stiffness_at_hot

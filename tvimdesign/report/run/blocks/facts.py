@@ -81,6 +81,7 @@ def main_facts(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Fact
     facts = [
         Fact("Size and mass", [size, value("module_mass")]),
         Fact("Times", list(_times(value))),
+        *_impedance(value),
         Fact("Energy", [f"{value('switch_energy')} to soften", peaks]),
     ]
     doubts = (*_manufacturing(uncertainty), *_model(uncertainty))
@@ -116,6 +117,15 @@ def _lost_motion(value: _Values) -> list[Fact]:
             parts.append(f"{words}{numbers} {pretty(unit)} ({100.0 * lost / of:.0f} %)")
             most.append(label(max(sources, key=lambda source: value.values[source])))
     return [Fact("Lost motion", parts, f"most by {' and '.join(most)}")] if parts else []
+
+
+def _impedance(value: _Values) -> list[Fact]:
+    """Return stiffness and damping when heating stops, and the stiffness when frozen; none if heating never stops."""
+    if math.isinf(value.values["softened_stiffness"]):
+        return []
+    reached = f"{from_si(value.values['softened_temperature'], 'degC'):.0f} {pretty('degC')}"
+    soft = f"{value('softened_stiffness')}, {value('softened_damping')} as heating stops, {reached}"
+    return [Fact("Impedance", [soft, f"frozen {value('joint_stiffness@cold')}"])]
 
 
 def _active_constraints(answer: StudyResult) -> list[Fact]:

@@ -44,10 +44,14 @@ class Requirement:
     depends_on: str = ""
     """`pcl_bond_strength 2 MPa (1 to 5)`, the assumed input that matters most; empty if none does."""
 
+    state: str = ""
+    """`51 to 80 °C` if the limit is also on the state in which heating ends; it stands for the point's name."""
+
     @property
     def cells(self) -> tuple[str, ...]:
         """The row under `HEADS`."""
-        return label(self.name), self.asked, self.got, self.range, self.stands
+        title = f"{label(self.name.partition('@')[0])}, {self.state}" if self.state else label(self.name)
+        return title, self.asked, self.got, self.range, self.stands
 
 
 def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Requirement]:
@@ -58,12 +62,14 @@ def requirements(answer: StudyResult, uncertainty: Mapping[str, Any]) -> list[Re
         limits_by_output.setdefault(limit["output"], []).append(limit)
     rows = []
     for name, limits in limits_by_output.items():
-        behind = {name, *table.output(name).least_of, *table.output(name).also_limited}
-        checks = [check for check in answer.checks if check.origin == "require" and check.output in behind]
+        checks = [
+            check for check in answer.checks if check.origin == "require" and name in (check.output, check.part_of)
+        ]
         assumed = next(iter(uncertainty.get("assumptions", {}).get(name, ())), None)
         row = _requirement(answer, table, name, _limit_text(limits, table.unit(name)), checks)
-        depends_on = assumption(assumed) if assumed else ""
-        rows.append(replace(row, range=range_text(_interval(name, table, intervals)), depends_on=depends_on))
+        spread = range_text(_interval(_limited(checks, name, table), intervals))
+        state = _hot_states(answer) if table.output(name).at_end in {check.output for check in checks} else ""
+        rows.append(replace(row, range=spread, depends_on=assumption(assumed) if assumed else "", state=state))
     violated = [check for check in answer.checks if check.origin != "require" and not check.kept]
     for check in sorted(violated, key=lambda check: check.worst):
         rows.append(_requirement(answer, table, check.output, check.text.removeprefix(check.output).strip(), [check]))
@@ -94,13 +100,26 @@ def _limit_text(limits: Sequence[Mapping[str, Any]], unit: str) -> str:
     return f"{text} {pretty(unit)}".rstrip()
 
 
-def _interval(name: str, table: Table, intervals: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Any] | None:
-    """Return the range of an output, and with it of all that a limit on it limits: the stiffness over the stroke."""
-    every = [intervals[output] for output in (name, *table.output(name).also_limited) if output in intervals]
-    if name not in intervals or len(every) == 1:
-        return intervals.get(name)
+def _limited(checks: Sequence[ConstraintCheck], name: str, table: Table) -> list[str]:
+    """Return an output and those that a limit on it limits as well: the stiffness over the stroke."""
+    parts = table.output(name).least_of
+    return list(dict.fromkeys([name, *(check.output for check in checks if check.output not in parts)]))
+
+
+def _hot_states(answer: StudyResult) -> str:
+    """Return from which temperature of the layer to which a limit at the hot point is met."""
+    values = answer.design.values
+    ends = sorted(from_si(values[name], "degC") for name in ("softened_temperature", "temperature@hot"))
+    return f"{ends[0]:.0f} to {ends[1]:.0f} {pretty('degC')}"
+
+
+def _interval(names: Sequence[str], intervals: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Any] | None:
+    """Return the range of the first output, and with it of the others."""
+    every = [intervals[name] for name in names if name in intervals]
+    if names[0] not in intervals or len(every) == 1:
+        return intervals.get(names[0])
     lows, highs = ([interval[end] for interval in every] for end in ("low", "high"))
-    return {"value": None, "low": min(lows), "high": max(highs)} if None not in lows + highs else intervals[name]
+    return {"value": None, "low": min(lows), "high": max(highs)} if None not in lows + highs else intervals[names[0]]
 
 
 def _requirement(
@@ -108,18 +127,19 @@ def _requirement(
 ) -> Requirement:
     check = min(checks, key=lambda check: check.worst)
     stands, tone = _stands(answer, check, table)
-    return Requirement(name, limit_text, _got(answer, table, name, check), "", stands, tone, check.worst)
+    got = _got(answer, _limited(checks, name, table), table.unit(name), check)
+    return Requirement(name, limit_text, got, "", stands, tone, check.worst)
 
 
-def _got(answer: StudyResult, table: Table, name: str, check: ConstraintCheck) -> str:
-    """Return the value; over the stroke `5.2 to 5.8`, if the limit holds there too."""
-    unit, also = table.unit(name), table.output(name).also_limited
+def _got(answer: StudyResult, names: Sequence[str], unit: str, check: ConstraintCheck) -> str:
+    """Return the value of the first output; `5.2 to 5.8` if the limit is on the others too."""
+    name, table = names[0], table_for(answer.design.mode)
     if name in answer.intervals:
         text = value_text(answer, name, table, rounded=True)
     elif check.absolute and abs(check.margin) <= NOTHING and check.output == name:
         text = number(on_limit(check, unit))
-    elif also:
-        values = [from_si(answer.design.value(output), unit) for output in (name, *also)]
+    elif len(names) > 1:
+        values = [from_si(answer.design.value(output), unit) for output in names]
         text = " to ".join(dict.fromkeys(number(end) for end in (min(values), max(values))))
     else:
         text = value_text(answer, name, table, rounded=True)

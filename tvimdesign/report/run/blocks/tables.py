@@ -13,6 +13,7 @@ from tvimdesign.report.output.choices_tables import best_rows
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import NOTHING, ends_text, margin_text, mark, number, range_text, value_text
 from tvimdesign.report.output.thresholds import meaning
+from tvimdesign.report.run.blocks.verdict import unreached_points
 from tvimdesign.report.run.why import binding
 from tvimdesign.solve.nlp.solution import Choosing
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
@@ -53,22 +54,27 @@ def points_grid(answer: StudyResult) -> Grid:
     table, points = table_for(answer.design.mode), list(answer.design.study["operating_points"])
     shown: list[Input | Output] = [row for row in table.inputs if row.per_point]
     shown += [row for row in table.outputs if row.per_point and row.headline]
-    rows = [
-        (f"{row.name}{mark(f'{row.name}@{points[0]}', answer)}",
-         *(value_text(answer, f"{row.name}@{point}", table) for point in points), pretty(row.unit), row.description)
-        for row in shown
-    ]  # fmt: skip
-    heads = ("", *points, "unit", "meaning")
-    return grid("At the operating points", heads, rows, right=range(1, len(points) + 1))
+    at_end = {"temperature": "softened_temperature", "frequency": "frequency@hot"}
+    rows = []
+    for row in shown:
+        named = [f"{row.name}@{point}" for point in points]
+        values = [value_text(answer, name, table) for name in named]
+        name = at_end.get(row.name) or getattr(row, "at_end", "")
+        end = value_text(answer, name, table) if name else ""
+        rows.append((f"{row.name}{mark(named[0], answer)}", end, *values, pretty(row.unit), row.description))
+    unreached = unreached_points(answer.design.values)
+    heads = ("", "heating ends", *(f"{point} (not reached)" if point in unreached else point for point in points))
+    return grid("At the operating points", (*heads, "unit", "meaning"), rows, right=range(1, len(heads)))
 
 
 def module_grid(answer: StudyResult) -> Grid:
-    """Return the headline quantities that have one value."""
+    """Return the headline quantities that have one value; none at the hot point if heating does not get there."""
     table = table_for(answer.design.mode)
+    hot_unreached = "hot" in unreached_points(answer.design.values)
     rows = [
         (row.group, f"{row.name}{mark(row.name, answer)}", value_text(answer, row.name, table), pretty(row.unit),
          meaning(row.name, answer.design, table))
-        for row in table.outputs if row.headline and not row.per_point
+        for row in table.outputs if row.headline and not row.per_point and not (hot_unreached and row.at_end)
     ]  # fmt: skip
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
 

@@ -4,8 +4,8 @@
 2. The joint never softens or never stiffens, or an evaluated module violates a limit: *Do not build it*.
 3. A material or bought part is beyond its rating, and the study does not accept it: *Above a rating*.
 4. The study asks for a yield, and the search did not reach it: *Margins not reached*.
-5. The study requires something at the hot point, heating stops more than `TEMPERATURE` below it, and the joint does
-   not meet that requirement when heating stops: *Not at the temperature you asked for*.
+5. The study requires something at an operating point, heating stops more than `TEMPERATURE` below it, and the joint
+   does not meet that requirement when heating stops: *Not at the temperature you asked for*.
 6. Fewer than `TARGET` of the built modules meet every limit: *Nominal optimum: add margins*.
 7. A warning is grave, such as a part that may break: *Not yet*.
 8. The limit most in doubt is met in less than `DOUBT` of the cases in which unmeasured inputs take any value in their
@@ -36,8 +36,6 @@ TEMPERATURE = 0.5
 """Kelvin by which heating may stop below the hot point."""
 DOUBT = 0.25
 """Share of the plausible cases in which the limit most in doubt must be met."""
-_AT_THE_END = {"joint_stiffness@hot": "softened_stiffness", "joint_impedance@hot": "softened_impedance"}
-"""What the joint is when heating stops, by the quantity that is required at the hot point."""
 
 Kind = Literal[
     "infeasible", "unfit", "rating", "margins_missed", "temperature", "add_margins", "not_yet", "measure", "build",
@@ -150,28 +148,33 @@ def _margins_missed(answer: StudyResult) -> Verdict | None:
 
 
 def _temperature(answer: StudyResult) -> Verdict | None:
-    """Compare the hot point with where heating stops, if a requirement at the hot point depends on it."""
+    """Compare each operating point with where heating stops, if a requirement there is not met then."""
     values, table = answer.design.values, table_for(answer.design.mode)
-    if values.get("hot_point_margin", 0.0) >= -TEMPERATURE:
+    points = unreached_points(values)
+    limits = answer.design.study["require"]
+    missed = [point for point in points if any(_misses(limit, point, values, table) for limit in limits)]
+    if not missed:
         return None
-    hot_limits = [limit for limit in answer.design.study["require"] if limit["output"].endswith("@hot")]
-    if all(_is_met_at_the_end(limit, values) for limit in hot_limits):
-        return None
-    reached, wanted = (values[name] for name in ("softened_temperature", "temperature@hot"))
-    unit = table.unit("temperature@hot")
-    return Verdict(
-        "temperature",
-        f"Not at the temperature you asked for: {from_si(reached, unit):.0f} of {from_si(wanted, unit):.0f} "
-        f"{pretty(unit)}",
-    )
+    ends = (values["softened_temperature"], max(values[f"temperature@{point}"] for point in missed))
+    reached, wanted = (f"{from_si(end, 'degC'):.0f}" for end in ends)
+    return Verdict("temperature", f"Not at the temperature you asked for: {reached} of {wanted} {pretty('degC')}")
 
 
-def _is_met_at_the_end(limit: Mapping[str, Any], values: Mapping[str, float]) -> bool:
-    """Return whether the joint meets a requirement when heating stops; False if that is not known."""
-    name = _AT_THE_END.get(limit["output"])
-    if name is None:
+def unreached_points(values: Mapping[str, float]) -> list[str]:
+    """Return the operating points that are warmer than the layer's coldest face ever is."""
+    reached = values.get("softened_temperature", math.inf)
+    temperatures = {name.partition("@")[2]: value for name, value in values.items() if name.startswith("temperature@")}
+    return [point for point, temperature in temperatures.items() if temperature > reached + TEMPERATURE]
+
+
+def _misses(limit: Mapping[str, Any], point: str, values: Mapping[str, float], table: Table) -> bool:
+    """Return whether a requirement at a point is not met when heating stops; True if that is not known."""
+    name, at_end = limit["output"], table.output(limit["output"]).at_end
+    if (name.partition("@")[2] or (at_end and "hot")) != point:
         return False
-    return bool(values[name] >= limit["limit"] if limit["sense"] == ">=" else values[name] <= limit["limit"])
+    if not at_end or point != "hot":
+        return True
+    return not (values[at_end] >= limit["limit"] if limit["sense"] == ">=" else values[at_end] <= limit["limit"])
 
 
 def _add_margins(answer: StudyResult, uncertainty: Mapping[str, Any]) -> Verdict | None:

@@ -1,0 +1,79 @@
+"""`size`: a study from five numbers, for a joint of 20 to 200 mm, and what it reports if none fits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support import Command
+
+from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.report.run.check_study import refuse_what_cannot_be
+from tvimdesign.report.size_study import sized_text
+from tvimdesign.study import Study, read_study_text
+from tvimdesign.study.sizing import JointTask
+
+WRIST = {"torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A"}
+
+
+def sized(**numbers: str) -> Study:
+    """Return the study of the wrist with other numbers."""
+    return read_study_text(sized_text(JointTask.read(**WRIST | numbers), "joint"), "joint.yaml")
+
+
+@pytest.mark.parametrize(
+    ("diameter", "torque", "stiffness"),
+    [
+        (58, 1.2, 0.5), (70, 8, 1.5), (200, 150, 40),
+        *(pytest.param(*row, marks=pytest.mark.gate)
+          for row in ((60, 3, 1), (80, 10, 2), (90, 15, 2.5), (110, 35, 5), (140, 60, 12), (170, 90, 20))),
+    ],
+)  # fmt: skip
+def test_a_joint_of_each_size_has_hardware_that_fits(diameter: float, torque: float, stiffness: float) -> None:
+    study = sized(diameter=f"{diameter} mm", torque=f"{torque} N.m", stiffness=f"{stiffness} N.m/rad")
+    refuse_what_cannot_be(study)
+    vary = study.vary["placement_radius"]
+    assert vary.lower < vary.start < 0.5 * diameter / 1000.0  # type: ignore[operator, union-attr]
+    limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
+    assert limits["holding_torque", ">="] == torque
+    assert limits["joint_stiffness@hot", "<="] == pytest.approx(1.2 * stiffness)
+
+
+def test_a_range_of_stiffness_and_the_supply_are_taken_as_written() -> None:
+    study = sized(stiffness="1 to 1.5 N.m/rad", supply="12 V, 2 A", diameter="76 mm")
+    limits = {(limit.output, limit.sense): limit.limit for limit in study.require}
+    assert [limits["joint_stiffness@hot", sense] for sense in (">=", "<=")] == [1.0, 1.5]
+    assert (limits["peak_voltage", "<="], limits["peak_current", "<="]) == (12.0, 2.0)
+    assert study.module["peltier_module"] == "polyimide_foil_12v"
+
+
+@pytest.mark.gate
+def test_a_joint_that_is_too_small_names_a_diameter_that_is_not() -> None:
+    with pytest.raises(InfeasibleError, match=r"cannot hold(.|\n)*The limits can hold at a diameter of \d+ mm\.$"):
+        sized(diameter="40 mm", torque="0.6 N.m", stiffness="0.3 N.m/rad")
+
+
+@pytest.mark.parametrize(
+    ("numbers", "message"),
+    [
+        ({"torque": "8"}, "torque: .* write for instance '8 N.m'"),
+        ({"torque": "-8 N.m"}, "torque: -8 N.m is not above zero"),
+        ({"diameter": "300 mm"}, "diameter: 300 mm is not from 20 mm to 200 mm"),
+        ({"supply": "24 V"}, "supply: .* write for instance '24 V, 3 A'"),
+        ({"stiffness": "2 to 1 N.m/rad"}, "stiffness: .* is upside down"),
+    ],
+)
+def test_a_number_that_is_none_is_named(numbers: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        JointTask.read(**WRIST | numbers)
+
+
+def test_a_study_that_is_there_is_left_alone(tvimdesign: Command, tmp_path: Path) -> None:
+    file = tmp_path / "joint.yaml"
+    file.write_text("mine")
+    options = [part for name, value in WRIST.items() for part in (f"--{name}", value)]
+    done = tvimdesign("size", *options, "--study", file)
+    assert done.returncode == 2
+    assert "exists already" in done.stderr
+    assert file.read_text() == "mine"

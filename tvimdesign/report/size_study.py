@@ -1,0 +1,67 @@
+"""Writes the study of a joint from five numbers, with the hardware whose limits can hold together, and runs it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from tvimdesign.base.atomic_files import atomic_write
+from tvimdesign.base.errors import InfeasibleError, InputError
+from tvimdesign.base.units import format_quantity
+from tvimdesign.report.run.check_study import refuse_what_cannot_be
+from tvimdesign.study import read_study_text
+from tvimdesign.study.sizing import LARGEST, JointTask, hardware_by_fit, study_text
+
+_CANDIDATES = 3
+"""Sets of hardware that are tried, the best fit first."""
+_WIDER = (1.1, 1.25, 1.5, 2.0)
+"""Factors on the diameter that are tried if none fits."""
+
+
+def size_study(file: Path, numbers: Mapping[str, str], out: Path, *, overwrite: bool, **run: Any) -> None:
+    """Write the study of a joint and run it into a folder; `run` are options of `run_study`.
+
+    Raises InputError for a quantity that is none and a file that is there, InfeasibleError for a joint that no hardware
+    fits, and what `run_study` raises.
+    """
+    from tvimdesign.report.run.run_study import run_study
+
+    task = JointTask.read(**numbers)
+    if file.exists() and not overwrite:
+        raise InputError(f"{file}: exists already; name another file, or say --overwrite")
+    atomic_write(file, sized_text(task, file.stem).encode())
+    run_study(file, out, overwrite=overwrite, **run)
+
+
+def sized_text(task: JointTask, name: str) -> str:
+    """Return the study of a joint, with the first hardware whose limits can hold together.
+
+    Raises InfeasibleError, naming the limits that conflict and the next diameter without a conflict, if there is none.
+    """
+    refusals = []
+    for hardware in hardware_by_fit(task)[:_CANDIDATES]:
+        text = study_text(task, hardware, name)
+        refusal = _refusal(text, name)
+        if not refusal:
+            return text
+        refusals.append(refusal)
+    diameters = [factor * task.diameter for factor in _WIDER if factor * task.diameter <= LARGEST]
+    wider = (diameter for diameter in diameters if _fits(replace(task, diameter=diameter)))
+    enough = next(wider, None)
+    ways = f"\nThe limits can hold at a diameter of {format_quantity(enough, 'mm', 3)}." if enough else ""
+    raise InfeasibleError(f"{refusals[0]}{ways}")
+
+
+def _fits(task: JointTask) -> bool:
+    return not _refusal(study_text(task, hardware_by_fit(task)[0]), "joint")
+
+
+def _refusal(text: str, name: str) -> str:
+    """Return why a study cannot be answered; empty if no conflict is seen before the search."""
+    try:
+        refuse_what_cannot_be(read_study_text(text, name))
+    except (InputError, InfeasibleError) as error:
+        return str(error)
+    return ""

@@ -1,0 +1,194 @@
+"""A study from five numbers of a joint: its ranges follow the diameter, its hardware and heater are chosen."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from tvimdesign.base.errors import InputError, UnitError
+from tvimdesign.base.units import from_si, parse_quantity
+from tvimdesign.base.yaml_data import plain_data
+from tvimdesign.device import table_for
+from tvimdesign.study.written_studies import SCHEMA_FILE
+
+SMALLEST, LARGEST = 0.02, 0.2
+"""Diameters [m] that a study is made for."""
+_BAND = 0.2
+"""Share by which the stiffness may lie to either side of the one that is required."""
+_SCALED = {
+    "coil_diameter": (0.04, 0.09, 0.25), "placement_radius": (0.25, 0.39, 0.48), "core_radius": (0.07, 0.11, 0.2),
+    "link_thickness": (0.03, 0.045, 0.09), "pcl_inner_radius": (0.1, 0.16, 0.35),
+    "pcl_outer_radius": (0.18, 0.29, 0.44),
+}  # fmt: skip
+"""Least value, start and largest value of what scales with a module, over its diameter."""
+_WIRE = 0.0011 / (2.28 * 0.0894) ** 0.25
+"""Wire [m] of the shipped elbow over the fourth root of its springs' stiffness [N m/rad] times its diameter [m]: the
+rate of a spring is E d^4 / (64 D n)."""
+_WIRE_RANGE = (0.72, 1.4)
+_EXAMPLES = {
+    "torque": "8 N.m", "stiffness": "1.5 N.m/rad", "diameter": "70 mm", "time": "60 s", "supply": "24 V, 3 A",
+}  # fmt: skip
+_RANGE = re.compile(r"(?P<low>\S+)(?: (?P<unit>\S+))? (?:to|-) (?P<high>.+)")
+
+
+@dataclass(frozen=True)
+class JointTask:
+    """Requirements on a joint, in SI."""
+
+    torque: float
+    stiffness: tuple[float, float]
+    diameter: float
+    time: float
+    voltage: float
+    current: float
+
+    @classmethod
+    def read(cls, torque: str, stiffness: str, diameter: str, time: str, supply: str) -> JointTask:
+        """Read quantities with their units.
+
+        Parameters
+        ----------
+        torque : str
+            Torque that the frozen joint holds, such as ``8 N.m``.
+        stiffness : str
+            Stiffness of the soft joint: ``1.5 N.m/rad`` means 20 % to either side, ``1 to 1.5 N.m/rad`` a range.
+        diameter : str
+            Largest outer diameter, 20 to 200 mm.
+        time : str
+            Time within which the joint gets soft.
+        supply : str
+            Voltage and current, such as ``24 V, 3 A``.
+
+        Raises
+        ------
+        InputError
+            If one of them is no such quantity, or out of range.
+        """
+        voltage, _, current = supply.partition(",")
+        task = cls(
+            _positive("torque", torque, "N*m"), _stiffness(stiffness), _positive("diameter", diameter, "mm"),
+            _positive("time", time, "s"), _positive("supply", voltage.strip(), "V"),
+            _positive("supply", current.strip(), "A"),
+        )  # fmt: skip
+        if not SMALLEST <= task.diameter <= LARGEST:
+            raise InputError(f"diameter: {diameter} is not from 20 mm to 200 mm, which `size` is made for")
+        return task
+
+
+def _positive(name: str, text: str, unit: str) -> float:
+    """Return the SI value of an option. Raises InputError if it is none, or not above zero."""
+    try:
+        value = parse_quantity(text, unit)
+    except UnitError as error:
+        raise InputError(f"{name}: {error}; write for instance '{_EXAMPLES[name]}'") from error
+    if value <= 0.0:
+        raise InputError(f"{name}: {text} is not above zero; write for instance '{_EXAMPLES[name]}'")
+    return value
+
+
+def _stiffness(text: str) -> tuple[float, float]:
+    between = _RANGE.fullmatch(text.strip())
+    if between is None:
+        value = _positive("stiffness", text, "N*m/rad")
+        return (1.0 - _BAND) * value, (1.0 + _BAND) * value
+    unit = between["unit"] or between["high"].partition(" ")[2]
+    low, high = (_positive("stiffness", end, "N*m/rad") for end in (f"{between['low']} {unit}", between["high"]))
+    if low >= high:
+        raise InputError(f"stiffness: {text} is upside down; write for instance '1 to 1.5 N.m/rad'")
+    return low, high
+
+
+@cache
+def _sizes() -> dict[str, Any]:
+    return dict(plain_data(files("tvimdesign.study").joinpath("sizes.yaml").read_text(encoding="utf-8")))
+
+
+def hardware_by_fit(task: JointTask) -> list[str]:
+    """Return the names of the sets of hardware, the one for the nearest diameter first."""
+    sizes = {name: parse_quantity(entry["diameter"], "mm") for name, entry in _sizes().items() if name != "common"}
+    return sorted(sizes, key=lambda name: abs(math.log(task.diameter / sizes[name])))
+
+
+def study_text(task: JointTask, hardware: str, name: str = "Joint") -> str:
+    """Return a commented study of a joint with one set of hardware."""
+    entry = _sizes()[hardware]
+    low, high = task.stiffness
+    heater = f"peltier_module: {_heater(task)}   # made to the layer's outline; the air cools\n"
+    module = _indented(f"{_sizes()['common']}{heater}")
+    title = f"A joint of {_mm(task.diameter)} that holds {task.torque:.4g} N.m and is soft after {task.time:.4g} s"
+    return f"""# {title}. Written by `tvimdesign size`.
+#   tvimdesign run FILE        optimises it again after a change
+#   tvimdesign explore FILE    shows it in a browser, with sliders
+# yaml-language-server: $schema={SCHEMA_FILE}
+tvimdesign: 1
+name: {name}
+mode: shear
+
+module:
+{module}{_indented(entry["module"])}
+vary:                                  # ranges that follow the diameter
+{_vary(task)}
+require:
+  joint_stiffness@hot: [">= {low:.4g} N.m/rad", "<= {high:.4g} N.m/rad"]   # as heating stops, too
+  holding_torque: ">= {task.torque:.4g} N.m"
+  envelope_diameter: "<= {_mm(task.diameter)}"
+  response_time: "<= {task.time:.4g} s"
+  peak_voltage: "<= {task.voltage:.4g} V"
+  peak_current: "<= {task.current:.4g} A"
+  current_margin: ">= 0 A"             # of the heater
+  peltier_temperature_margin: ">= 5 K"
+  structure_temperature_margin: ">= 0 K"
+  spring_fatigue_safety: ">= 1.2"      # for 1e6 full strokes
+  layer_edge_safety: ">= 1"            # the bond at the layer's edges
+  pin_foot_safety: ">= 1"              # the pins' fillets
+
+minimize: module_mass
+
+operating_points:
+  cold: {{temperature: 30 degC, frequency: 1 Hz}}
+  hot: {{temperature: 80 degC, frequency: 1 Hz}}
+
+tolerances:
+  standard: true
+  preload_angle: {entry["preload"]}
+
+robust: {{yield: 95 %}}
+
+solver: {{starts: 1, seed: 1}}
+"""
+
+
+def _indented(lines: str) -> str:
+    return "".join(f"  {line}\n" for line in lines.splitlines())
+
+
+def _vary(task: JointTask) -> str:
+    """Return the variables with ranges for a diameter and a stiffness."""
+    wire = _WIRE * (math.sqrt(task.stiffness[0] * task.stiffness[1]) * task.diameter) ** 0.25
+    rows = {row.name: row for row in table_for("shear").inputs}
+    thinnest = rows["wire_diameter"].lower
+    thin, thick = (_mm(max(factor * wire, thinnest)) for factor in _WIRE_RANGE)
+    lines = [f"wire_diameter: {{catalog: metric, from: {thin}, to: {thick}}}"]
+    for name, factors in _SCALED.items():
+        least, start, most = (_mm(max(factor * task.diameter, rows[name].lower)) for factor in factors)
+        lines.append(f"{name}: {{from: {least}, to: {most}, start: {start}}}")
+    weakest = max(0.02 * task.current, rows["current"].lower)
+    lines += [
+        "coil_count: [3, 10]", "arc_span: {from: 20 deg, to: 75 deg, start: 65 deg}", "pcl_thickness: [0.5 mm, 2 mm]",
+        f"current: {{from: {weakest:.3g} A, to: {task.current:.4g} A, start: {0.4 * task.current:.3g} A}}",
+        "preload_angle: {from: 0.12 rad, to: 0.6 rad, start: 0.32 rad}",
+        "pin_radius_ratio: {from: 0.3, to: 0.8, start: 0.65}",
+    ]  # fmt: skip
+    return _indented("\n".join(lines))
+
+
+def _heater(task: JointTask) -> str:
+    return "polyimide_foil_24v" if task.voltage >= 23.9 else "polyimide_foil_12v"
+
+
+def _mm(length: float) -> str:
+    return f"{from_si(length, 'mm'):.3g} mm"
