@@ -42,6 +42,17 @@ def test_dragging_a_requirement_moves_the_optimum(explorer: Explorer) -> None:
     assert explorer.complaints == []
 
 
+@pytest.mark.gate
+def test_an_input_is_found_by_a_word_and_its_group_opens(explorer: Explorer) -> None:
+    page = explorer.page
+    page.get_by_role("searchbox", name="Search inputs and choices").fill("ambient")
+    rows = page.locator(".inputs .knob:visible")
+    assert 0 < rows.count() < 20
+    assert "ambient" in " ".join(rows.all_inner_texts())
+    page.get_by_role("searchbox", name="Search inputs and choices").fill("")
+    assert rows.count() == 0
+
+
 @pytest.mark.slow
 def test_a_dragged_slider_is_answered_quickly_then_exactly(explorer: Explorer) -> None:
     page, power = explorer.page, explorer.knob("peak_power <=")

@@ -65,8 +65,9 @@ def test_the_parts_come_apart_by_their_lifts(solids: Solids) -> None:
     assert solids.part("rotor", at) == pytest.approx(before["rotor"] + 0.5 * 90.0)
 
 
-@pytest.mark.parametrize("view", ["corner", "top", "front"])
-def test_the_module_fills_its_picture_and_is_whole_in_it(solids: Solids, view: str) -> None:
+@pytest.mark.parametrize(("view", "apart"), [("corner", 0), ("corner", 1), ("top", 0), ("front", 0)])
+def test_the_module_fills_its_picture_and_is_whole_in_it(solids: Solids, view: str, apart: int) -> None:
+    solids.slide("Apart", apart)
     solids.figure.get_by_role("combobox", name="View").select_option("below")
     solids.figure.get_by_role("combobox", name="View").select_option(view)
     data = base64.b64decode(solids.picture().partition(",")[2])

@@ -235,7 +235,7 @@ class Result:
         from tvimdesign.report.command import noting
         from tvimdesign.report.figures.plot_process import PlotProcess
         from tvimdesign.report.run.first_screen import write_summary
-        from tvimdesign.report.run.run_page import write_run_page
+        from tvimdesign.report.run.run_page import summary_sheet, write_run_page
         from tvimdesign.report.run.write_answer import finish, write_answer
 
         failures: list[TvimError] = []
@@ -246,6 +246,7 @@ class Result:
             if figures:
                 with PlotProcess() as drawing, noting(failures):
                     drawing.begin(written.path / "plots", figures, self.name)
+                    drawing.add(written.path, summary_sheet(written, self._answered), self.name, "pdf")
                     drawing.finish("save again with overwrite=True")
             write_run_page(written, self._answered)
             finish(written, self._answered)
