@@ -55,8 +55,8 @@ export function numberKnob({ label, name: key, means, unit, text, value, low, hi
 
 /** A label in words, with the name that a study has for it. */
 function named(id, label, name, means) {
-  const words = label === name ? [] : [`${label} `];
-  return make("label", { for: id, title: means }, ...words, make("code", {}, name));
+  const words = label === name ? [name] : [`${label} `, make("code", {}, name)];
+  return make("label", { for: id, title: means }, ...words);
 }
 
 /** A text with its number in as many digits as a field shows; what stands is exact, and goes nowhere unless it is changed. */
