@@ -204,6 +204,7 @@ def test_a_process_that_reports_no_progress_is_an_error(
         job(limit=0.05)
 
 
+@pytest.mark.gate
 def test_a_child_that_reports_progress_gets_more_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
