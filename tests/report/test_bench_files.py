@@ -29,7 +29,7 @@ RECORDED = {
 
 @pytest.fixture
 def design(tmp_path: Path) -> Path:
-    return write_design(shipped_answer("paper_as_published").design, tmp_path / "design.json")
+    return write_design(shipped_answer("paper_reconstructed").design, tmp_path / "design.json")
 
 
 def module_of(design: Path) -> ResolvedModule:
