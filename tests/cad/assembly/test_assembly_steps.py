@@ -139,3 +139,13 @@ def test_screws_of_the_motor_have_their_size_and_key() -> None:
     torque = design.values["motor_screw_torque"]
     assert f"x {size:.3g}, key {key:.3g}, {torque:.2g} N·m): the hub" in texts
     assert f"key {mount:.3g}, {design.values['mount_screw_torque']:.2g} N·m each." in texts
+
+
+def test_each_step_says_who_holds_what_with_which_tool() -> None:
+    for step in all_steps():
+        needs = step["needs"]
+        assert needs["hands"] in (1, 2), step["text"]
+        assert all(needs[name] for name in ("fixture", "tools", "access", "checked")), step["text"]
+        # Whoever holds a part with a screwdriver while another tool turns its screw is not alone.
+        if "to hold the adjuster" in step["text"]:
+            assert needs["hands"] == 2

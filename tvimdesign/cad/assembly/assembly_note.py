@@ -48,7 +48,8 @@ def assembly_note(design: Design, dims: Dimensions, items: Sequence[Item], extra
     lines += [*_making(design, dims, [one.kind for one in items if one.made]), "## Steps", ""]
     for number, step in enumerate(written_steps(design, dims, items), start=1):
         picture = f"\n   ![Step {number}]({cad_report.step_picture(number)})" if step.place else ""
-        lines.append(f"{number}. {step.text}{picture}")
+        needs = f"\n   *{step.needs}*  " if step.needs else ""
+        lines.append(f"{number}. {step.text}  {needs}{picture}")
     lines += ["", "## Wiring", "", f"![Supply, driver, heaters, cut-out and thermistors]({cad_report.WIRING})", ""]
     lines += [f"![Cut through the axis]({cad_report.SECTION})", ""]
     return "\n".join(lines).encode()
@@ -127,6 +128,8 @@ class WrittenStep(NamedTuple):
     text: str
     place: Sequence[Mapping[str, str]] = ()
     """What comes into its place: `part`, a kind or one part of a kind, and the side it comes `from`."""
+    needs: str = ""
+    """Hands, fixture, tools, access, and what is checked at its end."""
 
 
 def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> list[WrittenStep]:
@@ -135,10 +138,22 @@ def written_steps(design: Design, dims: Dimensions, items: Sequence[Item]) -> li
     counts |= {f"grams_of_{one.kind}": f"{one.mass:.2f}" for one in items}
     wanted = [step for step in steps_of({one.kind for one in items}) if _is_for(step, design, dims)]
     known = Figures(design, dims, counts)
-    steps = [WrittenStep(str(step["text"]).format_map(known), step.get("place", ())) for step in wanted]
+    steps = [
+        WrittenStep(str(step["text"]).format_map(known), step.get("place", ()), _needs(step["needs"]).format_map(known))
+        for step in wanted
+    ]
     taken = {kind for step in wanted for kind in step["kinds"]}
     left = [one for one in items if one.kind not in taken]
     return steps + [WrittenStep(f"Fit the {_words(one.kind)} ({one.quantity}).") for one in left]
+
+
+def _needs(needs: Mapping[str, Any]) -> str:
+    """Return what a step takes, in a line."""
+    people = "one person" if needs["hands"] == 1 else f"{needs['hands']} persons, or a clamp"
+    return (
+        f"{people} · held by: {needs['fixture']} · tools: {needs['tools']} · access: {needs['access']} · "
+        f"checked: {needs['checked']}"
+    )
 
 
 def _is_for(step: Mapping[str, Any], design: Design, dims: Dimensions) -> bool:
