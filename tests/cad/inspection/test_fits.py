@@ -6,11 +6,12 @@ from typing import Any
 import cadquery as cq
 import pytest
 from cad_designs import BLOCKS, TILES, VANE_TILES, broken_rules, design_of
+from placed_solids import placed_solids
 
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.solids import turned
-from tvimdesign.cad.inspection.inspect import fit_checks
+from tvimdesign.cad.inspection.inspect import bought_checks, fit_checks
 from tvimdesign.cad.parts import shear_parts
 from tvimdesign.study.design import Design
 
@@ -70,3 +71,15 @@ def test_a_pad_that_stands_an_eighth_of_a_millimetre_aside_is_found() -> None:
 )
 def test_pockets_that_leave_too_little_floor_break_a_rule(rule: str, changes: dict[str, float]) -> None:
     assert rule in broken_rules(design_of("near", changes))
+
+
+def test_bought_parts_with_wires_have_room_and_a_lead_in_the_floor_is_found() -> None:
+    dims = dimensions(design_of("tiles", TILES))
+    kinds = ("housing", "peltier_pad", "heater_lead", "spreader", "pcl_arc", "thermal_cutout")
+    solids = placed_solids(dims, kinds)
+    checks = {check.part: check for check in bought_checks(solids)}
+    assert set(checks) == {"heater_lead", "thermal_cutout"}
+    assert all(check.ok for check in checks.values()), [check.text for check in checks.values()]
+    aside = solids["heater_lead_1"].moved(cq.Location(cq.Vector(0.0, 0.0, 2.0)))
+    moved = {check.part: check for check in bought_checks({**solids, "heater_lead_1": aside})}
+    assert not moved["heater_lead"].ok

@@ -142,7 +142,7 @@ def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[Sol
 
 _WIRES = {
     "heater_lead": ("peltier_pad",),
-    "thermal_cutout": ("peltier_pad",),
+    "thermal_cutout": ("peltier_pad", "housing"),  # wrapped in film, it may lie on the floor
     "thermistor": ("peltier_pad", "spreader", "pcl_arc", "pcl_block"),
 }
 """Bought parts with wires, drawn with these, and what they touch on purpose."""
