@@ -167,7 +167,7 @@ def size(
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the plots.")] = True,
     json: AsJson = False,
 ) -> None:
-    """Size a joint from five numbers: write a study with its hardware and ranges, run it, give its verdict."""
+    """Size a joint from five numbers; give a verdict. Writes a study with its hardware and ranges, and runs it."""
     from tvimdesign.report.size_study import size_study
 
     numbers = {"torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply}

@@ -58,7 +58,7 @@ def bench(
     plots: Annotated[bool, typer.Option("--plots/--no-plots", help="Draw the figure.")] = True,
     json: AsJson = False,
 ) -> None:
-    """Write tests of the module for a laboratory: protocols, blank tables, predictions, into results/<name>-bench."""
+    """Write tests of a module for a laboratory. Protocols, blank tables and predictions go to results/<name>-bench."""
     from tvimdesign.report.bench.bench_files import write_bench
 
     folder = out or Path("results") / f"{name_of(result)}-{'measured' if measured else 'bench'}"

@@ -16,12 +16,12 @@ const WORDS = { broken: "violated", binds: "binds", kept: "met" };
 
 /** The study's requirements, then the machine's rules that bind or are violated; what is violated stands first. */
 export function limitsTable(place) {
-  const fill = liveTable(place, "Requirements, then rules that bind or are violated", ["limit", "got", "margin", ""]);
+  const fill = liveTable(place, "Requirements, then active and violated rules", ["limit", "got", "margin", ""]);
   return (shown) => {
     const row = ({ stands, text, got, margin }) => [[text, got, margin, WORDS[stands]], stands === "kept" ? "" : stands];
     const own = shown.limits.filter(({ origin }) => origin === "require");
     fill([
-      ...shown.warnings.filter(({ accepted }) => !accepted).map(({ text }) => [[text, "", "", "above its rating"], "broken"]),
+      ...shown.warnings.filter(({ accepted }) => !accepted).map(({ text }) => [[text, "", "", "rating"], "broken"]),
       ...own.map(row), ...shown.limits.filter((one) => !own.includes(one)).map(row),
     ]);
   };
