@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fit_coverage import MADE, Found, code, counted, fit_of, kept_in, table, width_over_scatter
+from made_measurements.faults import FAULTS
 from scipy.stats import chi2, norm
 
 from tvimdesign.simulation.measurement.measure_files import kind_sheet, kind_sheets, measure_of
@@ -83,3 +84,12 @@ def test_the_width_is_held_against_the_scatter() -> None:
     assert width_over_scatter(exact) == pytest.approx(1.0, abs=0.03)
     assert sum(one.held for one in exact) / len(exact) == pytest.approx(0.95, abs=0.01)
     assert Found(7.0, 9.0, None, None).held
+
+
+@pytest.mark.gate
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("kind", ["flow_curve", "frozen_torque", "relaxation"])
+def test_records_of_faulty_data_hold_the_truth(kind: str, fault: str) -> None:
+    fits = [fit_of(f"{kind}+{fault}", seed) for seed in range(4)]
+    for name in {name for fit in fits for name in fit}:
+        assert sum(fit[name].held for fit in fits if name in fit) >= sum(name in fit for fit in fits) - 1, name

@@ -57,16 +57,16 @@ def test_calorimeters(tmp_path: Path, made: Callable[[], bytes]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("head", "row", "said"),
+    ("head", "row", "message"),
     [
         ("time [s];gadget [V2];strain [1]", "{0};{0};0.{0}", r"(?s)--set stress=...: needed.*not used: 'gadget"),
         ("depth [mm];width [mm]", "{0};{0}", r"(?s)of no kind there is .*The nearest: .* needs .*not used: 'depth"),
     ],
 )
-def test_a_refusal_says_what_was_not_used(tmp_path: Path, head: str, row: str, said: str) -> None:
+def test_a_refusal_says_what_was_not_used(tmp_path: Path, head: str, row: str, message: str) -> None:
     path = tmp_path / "x.csv"
     path.write_text("\n".join([head, *(row.format(i) for i in range(1, 9))]) + "\n")
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         measured(path)
 
 
