@@ -15,7 +15,7 @@ from tvimdesign.report.compare.children import Asked, answers
 PICTURES = {f"{name}.{ending}" for name in ("fronts", "release", "heat") for ending in ("png", "pdf", "svg")}
 
 
-def _told(folder: Path) -> dict[str, Any]:
+def _report(folder: Path) -> dict[str, Any]:
     reported: dict[str, Any] = json.loads((folder / "compare.json").read_text())
     return reported
 
@@ -50,7 +50,7 @@ def test_folder_is_whole(pair: Path) -> None:
 def test_pictures_are_not_blank(pair: Path) -> None:
     import matplotlib.image as mpimg
 
-    for name in [one for one in PICTURES if one.endswith(".png")]:
+    for name in [each for each in PICTURES if each.endswith(".png")]:
         picture = mpimg.imread(pair / name)
         assert picture.shape[0] > 300, name
         assert picture[..., :3].std() > 0.02, f"{name} is blank"
@@ -58,7 +58,7 @@ def test_pictures_are_not_blank(pair: Path) -> None:
 
 @pytest.mark.slow
 def test_ratios_are_those_of_the_written_designs(pair: Path) -> None:
-    reported = _told(pair)
+    reported = _report(pair)
     for which in ("drawn", "optimised"):
         values = [
             json.loads((pair / f"{mode}/{which}.json").read_text())["values"] for mode in ("shear", "compression")
@@ -76,7 +76,7 @@ def test_ratios_are_those_of_the_written_designs(pair: Path) -> None:
 
 @pytest.mark.slow
 def test_optimum_is_no_worse_than_the_drawn_module(pair: Path) -> None:
-    reported = _told(pair)
+    reported = _report(pair)
     rows = {
         which: {row["name"]: row["values"] for row in reported["comparisons"][which]}
         for which in ("drawn", "optimised")
@@ -103,7 +103,7 @@ def test_studies_minimise_over_the_mean_of_the_drawn_modules(pair: Path) -> None
 
 @pytest.mark.slow
 def test_lost_contact_and_warnings_are_reported(pair: Path) -> None:
-    reported = _told(pair)
+    reported = _report(pair)
     rows = {row["name"]: row for row in reported["comparisons"]["optimised"]}
     lost = rows["contact_lost@hot"]
     assert lost["values"]["shear"] == 0.0
@@ -123,22 +123,22 @@ def test_lost_contact_and_warnings_are_reported(pair: Path) -> None:
 
 @pytest.mark.slow
 def test_active_constraints_are_reported_with_reasons(pair: Path) -> None:
-    reported = _told(pair)
+    reported = _report(pair)
     for mode in ("shear", "compression"):
         held = reported["studies"][mode]["optimised"]["active_constraints"]
-        prices = [one["shadow_price"] for one in held]
+        prices = [limit["shadow_price"] for limit in held]
         assert 1 <= len(held) <= 3
         assert prices == sorted(prices, reverse=True)
         (sentence,) = (text for text in reported["conclusions"] if f"{mode} is held back most by" in text)
-        for one in held:
-            assert one["limit"] in sentence
-            assert one["because"] in sentence or one["because"] in {"require", "vary", "module"}
+        for limit in held:
+            assert limit["limit"] in sentence
+            assert limit["because"] in sentence or limit["because"] in {"require", "vary", "module"}
         assert reported["studies"][mode]["drawn"]["active_constraints"] == []
 
 
 @pytest.mark.slow
 def test_leads_follow_from_the_fronts(pair: Path) -> None:
-    reported = _told(pair)
+    reported = _report(pair)
     fronts = [front for front in reported["fronts"]["fronts"] if front["second"] == "module_mass"]
     lightest = {front["study"]: min(p["values"]["module_mass"] for p in front["points"]) for front in fronts}
     by_mass = next(lead for lead in reported["leads"] if lead["limited"] == "module_mass")
@@ -154,7 +154,7 @@ def test_leads_follow_from_the_fronts(pair: Path) -> None:
 
 @pytest.mark.slow
 def test_csv_and_summary_agree_with_the_json(pair: Path) -> None:
-    reported = _told(pair)
+    reported = _report(pair)
     with (pair / "compare.csv").open(encoding="utf-8-sig") as stream:
         lines = {(line["comparison"], line["output"]): line for line in csv.DictReader(stream)}
     for which, rows in reported["comparisons"].items():
@@ -273,7 +273,7 @@ def test_problems_of_all_studies_are_listed_at_once(tvimdesign: Command, tmp_pat
     paths = written(tmp_path, a=worse, b=wrong)
     done = tvimdesign("compare", *paths, "--out", tmp_path / "out", "--json")
     assert done.returncode == 2
-    assert "a.yaml:9:3: vary.pcl_thikness" in done.stderr
+    assert "a.yaml:10:3: vary.pcl_thikness" in done.stderr
     assert "layer_strain is of shear mode, this study is compression mode" in done.stderr
     assert {Path(problem["file"]).name for problem in json.loads(done.stdout)["problems"]} == {"a.yaml", "b.yaml"}
     assert not (tmp_path / "out").exists()
@@ -293,6 +293,6 @@ def test_shipped_pair_converges(tvimdesign: Command, tmp_path: Path) -> None:
         assert search["broken"] == []
         assert reported["studies"][mode]["seconds"]["optimised"] > 0.0
     assert reported["fronts"] == {}
-    found = {row["name"]: row["values"] for row in reported["comparisons"]["optimised"]}
+    rows = {row["name"]: row["values"] for row in reported["comparisons"]["optimised"]}
     for name in ("response_time", "module_mass"):
-        assert found[name]["shear"] < found[name]["compression"]
+        assert rows[name]["shear"] < rows[name]["compression"]

@@ -64,12 +64,12 @@ def another_cycle(model: DeviceFunctions) -> AnotherCycle:
             return gap(y)
 
         ends.terminal = True
-        found = solve_ivp(
+        solution = solve_ivp(
             lambda _, y: phase.rates(y, current), (0.0, 3600.0), begin, method="BDF", rtol=1e-6, atol=1e-5,
             jac_sparsity=phase.neighbours(), events=[ends],
         )  # fmt: skip
-        time = float(found.t_events[0][0]) if found.t_events[0].size else np.inf
-        return found.y_events[0][0] if np.isfinite(time) else found.y[:, -1], time
+        time = float(solution.t_events[0][0]) if solution.t_events[0].size else np.inf
+        return solution.y_events[0][0] if np.isfinite(time) else solution.y[:, -1], time
 
     begin = stack.everywhere(value("ambient_temperature") - 273.15)
     hot, heated = run(stack, begin, value("current"), lambda y: stack.faces(y)[2] - target)
