@@ -73,7 +73,7 @@ def test_pockets_that_leave_too_little_floor_break_a_rule(rule: str, changes: di
     assert rule in broken_rules(design_of("near", changes))
 
 
-def test_bought_parts_with_wires_have_room_and_a_lead_in_the_floor_is_found() -> None:
+def test_bought_parts_have_room_and_a_lead_in_the_floor_is_reported() -> None:
     dims = dimensions(design_of("tiles", TILES))
     kinds = ("housing", "peltier_pad", "heater_lead", "spreader", "pcl_arc", "thermal_cutout")
     solids = placed_solids(dims, kinds)
