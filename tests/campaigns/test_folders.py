@@ -14,7 +14,7 @@ import random_studies
 from attack import Attack
 
 from tvimdesign.base import atomic_files
-from tvimdesign.report.output import replace_results
+from tvimdesign.report.output import manifest
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study_text
 
@@ -48,11 +48,11 @@ def test_the_campaign_sees_what_is_lost(tmp_path: Path, monkeypatch: pytest.Monk
     if broken == "digest":  # as if a file's name were enough to make it ours
         usual = atomic_files.is_as_written
         ours = {atomic_files.ANY}
-        monkeypatch.setattr(replace_results, "is_as_written", lambda folder, name, _: usual(folder, name, ours))
+        monkeypatch.setattr(manifest, "is_as_written", lambda folder, name, _: usual(folder, name, ours))
     elif broken == "rename":
         monkeypatch.setattr(Path, "rename", lambda self, _: self.unlink() if self.is_file() else None)
     else:
-        for module in (atomic_files, replace_results):
+        for module in (atomic_files, manifest):
             monkeypatch.setattr(module, "link_on_the_way", lambda *_: None)
     assert next(losses(tmp_path, 200), "")
 

@@ -12,7 +12,7 @@ from support import Command
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.report.bench.bench_files import protocols
-from tvimdesign.report.fit.fit_data import from_si_array
+from tvimdesign.report.fit.fit_files import from_si_array
 from tvimdesign.simulation.measurement import bench_tests
 from tvimdesign.simulation.measurement.reading.headings import heading
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design

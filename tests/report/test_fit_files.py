@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support import Command
 
-from tvimdesign.report.fit.fit_data import figure_data
+from tvimdesign.report.fit.fit_files import figure_data
 from tvimdesign.simulation.measurement.fitting.problem import Channel
 
 WEIGHTS = "mass [g]; angle [deg]\n0; 0.9\n100; 5.1\n200; 9.3\n300; 13.4\n200; 9.8\n100; 5.6\n0; 1.4\n"

@@ -81,7 +81,7 @@ def test_a_design_that_is_found_is_kept_until_it_is_written(tmp_path: Path, monk
     def interrupted(*_: object) -> None:
         os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr("tvimdesign.report.run.write_answer.write_answer", interrupted)
+    monkeypatch.setattr("tvimdesign.report.run.run_page.write_answer", interrupted)
     with pytest.raises(KeyboardInterrupt):
         run_study(path, out, overwrite=False, cad=False, plots=False, as_json=False)
     assert answer(drawn(read_study(out / "best_so_far.yaml"))).feasible

@@ -12,7 +12,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TimeOverError
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.blocks.warnings import warnings_of
-from tvimdesign.report.run.yield_words import below_yield
+from tvimdesign.report.run.uncertainty_data import below_yield
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.nlp.solver_run import ALTERNATIVES, BELOW_YIELD, MARGINS, OPTIMAL
 from tvimdesign.solve.optimizer.optimizer import Optimizer

@@ -19,7 +19,7 @@ from support import ROOT, Command, environment
 
 import tvimdesign as tvim
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.sweep.shared_folder import joined
+from tvimdesign.report.sweep.sweep_study import joined
 from tvimdesign.study.tree import tree_of_file
 from tvimdesign.sweep.gather import write_parquet
 from tvimdesign.sweep.plan import Cell, SweptStudy, plan_of

@@ -66,7 +66,7 @@ class Fitted:
     @property
     def data(self) -> dict[str, Any]:
         """All of it as plain data, as in `fit.json`."""
-        from tvimdesign.report.fit.fit_data import fit_data
+        from tvimdesign.report.fit.fit_files import fit_data
 
         return fit_data(self._measured)
 
@@ -91,7 +91,7 @@ class Fitted:
     def plot(self) -> Figure:
         """Plot values, fitted curves and residuals."""
         from tvimdesign.report.figures.plot_process import Drawing
-        from tvimdesign.report.fit.fit_data import figure_data
+        from tvimdesign.report.fit.fit_files import figure_data
 
         names = ", ".join(file.path.name for file in self._measured.files)
         return drawn(Drawing("fit", "analysis_figures.fit", figure_data(self._measured)), names)

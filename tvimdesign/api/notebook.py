@@ -11,7 +11,7 @@ from html import escape
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from tvimdesign.report.output.progress import Progress, progress_output
+from tvimdesign.report.output.terminal import Progress, progress_output
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

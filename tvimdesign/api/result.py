@@ -220,7 +220,7 @@ class Result:
 
     def show(self) -> None:
         """Print the first screen of `tvimdesign run`, without what it says of spread."""
-        from tvimdesign.report.output.progress import wide_console
+        from tvimdesign.report.output.terminal import wide_console
         from tvimdesign.report.run.first_screen import print_first_screen
 
         print_first_screen(self._answered, wide_console())
@@ -235,8 +235,7 @@ class Result:
         from tvimdesign.report.command import noting
         from tvimdesign.report.figures.plot_process import PlotProcess
         from tvimdesign.report.run.first_screen import write_summary
-        from tvimdesign.report.run.run_page import summary_sheet, write_run_page
-        from tvimdesign.report.run.write_answer import finish, write_answer
+        from tvimdesign.report.run.run_page import finish, summary_sheet, write_answer, write_run_page
 
         failures: list[TvimError] = []
         with ResultsFolder(Path(folder), overwrite) as written:

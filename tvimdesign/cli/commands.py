@@ -107,7 +107,7 @@ def check(
 ) -> None:
     """Check a study: every mistake, and limits that conflict."""
     if deep:
-        from tvimdesign.report.run.diagnostics import check_deep
+        from tvimdesign.report.run.check_study import check_deep
         from tvimdesign.study import read_tree
         from tvimdesign.study.tree import tree_of_file
 

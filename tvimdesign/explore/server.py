@@ -26,7 +26,7 @@ from tvimdesign.explore.session import Session
 from tvimdesign.explore.states.history import PARTS, open_history
 from tvimdesign.explore.states.messages import MOST_BYTES
 from tvimdesign.explore.states.source import open_source
-from tvimdesign.report.output.progress import wide_console
+from tvimdesign.report.output.terminal import wide_console
 
 STATIC = {
     "page": Path(str(resources.files(tvimdesign.page))) / "static",

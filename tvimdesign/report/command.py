@@ -15,8 +15,8 @@ from rich.markup import escape
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.page.blocks import Page
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
+from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
 
 PARTLY_DONE = "partly done"
 """Status in a manifest."""

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from tvimdesign.report.paper.published_module import published_model, published_values
+from tvimdesign.report.paper.paper_case import published_model, published_values
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study

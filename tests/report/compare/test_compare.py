@@ -10,7 +10,7 @@ import pytest
 from comparable import COARSE, COMPRESSION, SHEAR, written
 from support import ROOT, Command
 
-from tvimdesign.report.compare.children import Asked, answers
+from tvimdesign.report.compare.compare_studies import Asked, answers
 
 PICTURES = {f"{name}.{ending}" for name in ("fronts", "release", "heat") for ending in ("png", "pdf", "svg")}
 

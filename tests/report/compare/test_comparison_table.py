@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from tvimdesign.device import MODES, Output, table_for
 from tvimdesign.device.table.quantity_group import directions
-from tvimdesign.report.compare.comparison_table import Row, compare_csv
-from tvimdesign.report.compare.sentence import against
+from tvimdesign.report.compare.comparison_table import Row, against, compare_csv
 from tvimdesign.solve.pareto.front_shape import ALIKE
 
 

@@ -7,8 +7,7 @@ from comparable import COARSE, COMPRESSION, entrants, written
 
 from tvimdesign.report.compare.comparison import Outcome
 from tvimdesign.report.compare.comparison_job import ComparisonJob
-from tvimdesign.report.compare.comparison_page import drawings
-from tvimdesign.report.compare.comparison_summary import summary_text
+from tvimdesign.report.compare.comparison_page import drawings, summary_text
 from tvimdesign.study.tree import tree_of_file
 
 FIXED = COMPRESSION[: COMPRESSION.index("vary:")] + COMPRESSION[COMPRESSION.index("operating_points:") :]

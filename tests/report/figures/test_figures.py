@@ -92,7 +92,7 @@ def test_margins_stand_in_their_limit_s_own_unit(found: StudyResult, data: dict[
 
 
 def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[str, Any]) -> None:
-    figure = drawn("module_figures.torque", data["torque"])
+    figure = drawn("design_figures.torque", data["torque"])
     picture = Image.open(io.BytesIO(png(figure)))
     assert picture.size == (2130, 780)  # 7.1 by 2.6 inches of 300 dots
     assert picture.mode == "RGB"
@@ -101,7 +101,7 @@ def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[st
 
 @pytest.mark.parametrize("found", ["optimised"], indirect=True)
 def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, Any]) -> None:
-    pdf, svg = ([as_file(signed(drawn("module_figures.torque", data["torque"])), ending) for _ in range(2)]
+    pdf, svg = ([as_file(signed(drawn("design_figures.torque", data["torque"])), ending) for _ in range(2)]
                 for ending in ("pdf", "svg"))  # fmt: skip
     assert pdf[0] == pdf[1]
     assert svg[0] == svg[1]
@@ -155,7 +155,7 @@ def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: StudyResu
 
 
 def test_bars_are_the_parts_the_module_has_and_add_up_to_its_mass(found: StudyResult, data: dict[str, Any]) -> None:
-    (axes,) = drawn("module_figures.mass", data["mass"]).axes
+    (axes,) = drawn("design_figures.mass", data["mass"]).axes
     bars = [bar.get_width() for bar in axes.patches]
     assert min(bars) > 0.0
     assert sum(bars) == pytest.approx(1e3 * found.design.value("module_mass"), rel=1e-9)

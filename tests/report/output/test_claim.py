@@ -16,7 +16,7 @@ from tvimdesign.base.atomic_files import RUN, UNFINISHED, atomic_write
 from tvimdesign.base.errors import FolderInUseError
 from tvimdesign.report.output.claim import FORMAT
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.sweep.shared_folder import joined
+from tvimdesign.report.sweep.sweep_study import joined
 from tvimdesign.sweep.shards import SHARDS
 
 

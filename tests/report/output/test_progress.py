@@ -14,9 +14,8 @@ from rich.table import Table
 from support import wait_until
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.output import progress
-from tvimdesign.report.output.progress import RemainingTime, clock, duration
-from tvimdesign.report.output.terminal import OwnMarkupConsole
+from tvimdesign.report.output import terminal
+from tvimdesign.report.output.terminal import OwnMarkupConsole, RemainingTime, clock, duration
 
 
 def test_what_is_left_is_the_mean_of_the_steps_that_are_done() -> None:
@@ -57,8 +56,8 @@ def read_on(capsys: pytest.CaptureFixture[str], lines: list[str]) -> list[str]:
 def test_plain_lines_come_every_few_seconds(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(progress, "PLAIN_EVERY", 1.2)
-    with progress.progress_output() as say:
+    monkeypatch.setattr(terminal, "PLAIN_EVERY", 1.2)
+    with terminal.progress_output() as say:
         for i in range(10):
             say(f"start {i + 1} of 40")
         lines = list[str]()
@@ -71,8 +70,8 @@ def test_plain_lines_come_every_few_seconds(
 
 
 def test_no_message_is_printed_twice(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(progress, "PLAIN_EVERY", 0.0)
-    with progress.progress_output() as say:
+    monkeypatch.setattr(terminal, "PLAIN_EVERY", 0.0)
+    with terminal.progress_output() as say:
         for _ in range(3):
             say("adding margins")
             say("searching")
@@ -82,7 +81,7 @@ def test_no_message_is_printed_twice(capsys: pytest.CaptureFixture[str], monkeyp
 
 def test_silence_never_lasts_three_seconds(capsys: pytest.CaptureFixture[str]) -> None:
     lines, times = list[str](), [time.monotonic()]
-    with progress.progress_output() as say:
+    with terminal.progress_output() as say:
         say("searching")
         for _ in range(2):
             before = len(lines)
@@ -95,7 +94,7 @@ def test_silence_never_lasts_three_seconds(capsys: pytest.CaptureFixture[str]) -
 @pytest.mark.parametrize("error", [SystemError, RuntimeError, InputError])
 def test_what_a_library_raises_after_an_interrupt_is_the_interrupt(error: type[Exception]) -> None:
     def fail(*, interrupted: bool) -> None:
-        with progress.progress_output():
+        with terminal.progress_output():
             if interrupted:
                 with suppress(KeyboardInterrupt):
                     os.kill(os.getpid(), signal.SIGINT)

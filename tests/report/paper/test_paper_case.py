@@ -8,7 +8,7 @@ import pytest
 from support import ROOT
 
 from tvimdesign.report.paper import paper_case
-from tvimdesign.report.paper.published_module import claims
+from tvimdesign.report.paper.paper_case import claims
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study, given, read_study, read_study_text

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from tvimdesign.catalog import Catalog
-from tvimdesign.report.paper import paper_case, paper_check, published_module
+from tvimdesign.report.paper import paper_case, paper_check
+from tvimdesign.report.paper.paper_case import claims, published_values
 from tvimdesign.report.paper.paper_check import findings
-from tvimdesign.report.paper.published_module import claims, published_values
 
 
 @cache
@@ -124,7 +124,7 @@ def test_the_melt_s_torque_at_a_ten_thousandth_of_strain_is_not_resolved() -> No
     said = computed("small_strain")
     assert float(said.split("answers with ")[1].split(" µN·m")[0]) * 1e-6 == pytest.approx(torque, rel=0.02)
     assert "8 µrad" in said  # 0.01 % of 1 mm over 12.5 mm
-    assert torque < published_module.instrument("least_torque").value
+    assert torque < paper_case.instrument("least_torque").value
     first = float(said.split("from about ")[1].split(" rad/s")[0])
     assert 1.0 < first * torque / 0.1 / 1e-6 < 1.5  # a Newtonian liquid would reach it a little sooner
 
@@ -133,7 +133,7 @@ def test_a_solid_specimen_is_stiffer_than_any_rheometer_assumed() -> None:
     specimen = math.pi * 12.5e-3**4 * solid_modulus(30.0) / 2e-3
     said = computed("stiff_specimen")
     assert float(said.split("spring of ")[1].split(" N·m/rad")[0]) == pytest.approx(specimen, rel=5e-3)
-    frame = published_module.instrument("torsional_stiffness")
+    frame = paper_case.instrument("torsional_stiffness")
     assert specimen > 5.0 * frame.high
     read = [float(part) / 100 for part in said.split("uncorrected, ")[1].replace("(", "").split("%")[0].split()]
     assert read[0] == pytest.approx(1 / (1 + specimen / frame.value), abs=1e-3)
@@ -167,18 +167,18 @@ def test_every_claim_has_a_place_a_computation_and_a_verdict() -> None:
 
 def test_what_is_assumed_of_the_instrument_has_a_range_and_a_reason() -> None:
     for name in claims()["instrument"]:
-        one = published_module.instrument(name)
+        one = paper_case.instrument(name)
         assert one.low < one.value < one.high
         assert one.source.startswith("assumed: ")
 
 
 def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -> None:
     thicker = {**claims(), "numbers": {**claims()["numbers"], "wire_diameter": {"value": 4.826, "unit": "mm"}}}
-    monkeypatch.setattr(published_module, "claims", lambda: thicker)
+    monkeypatch.setattr(paper_case, "claims", lambda: thicker)
     rate = float(paper_check._COMPUTED["torsion_rate"]().split("= ")[1].split()[0])
     assert rate == pytest.approx(16 * RATE, rel=1e-4)
     narrower = {**claims(), "numbers": {**claims()["numbers"], "plate_diameter": {"value": 8, "unit": "mm"}}}
-    monkeypatch.setattr(published_module, "claims", lambda: narrower)
+    monkeypatch.setattr(paper_case, "claims", lambda: narrower)
     specimen = float(paper_check._COMPUTED["stiff_specimen"]().split("spring of ")[1].split()[0])
     assert specimen == pytest.approx(np.pi * 4e-3**4 * solid_modulus(30.0) / 2e-3, rel=0.01)
 

@@ -9,10 +9,8 @@ import pytest
 from robot_models import model_of, module_of
 
 from tvimdesign.physics.motions.motion import Modes
-from tvimdesign.report.robot.joint_model import JointModel
-from tvimdesign.report.robot.joint_state import JointState
-from tvimdesign.report.robot.maxwell_hinges import held_angles, maxwell_hinges, without_spring
-from tvimdesign.report.robot.model_files import mjcf
+from tvimdesign.report.robot.joint_model import JointModel, JointState
+from tvimdesign.report.robot.model_files import held_angles, maxwell_hinges, mjcf, without_spring
 from tvimdesign.simulation.joint_tests.release import release
 from tvimdesign.simulation.trial import Trial
 

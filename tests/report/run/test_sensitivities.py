@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from support import Command
 
-from tvimdesign.report.run.sensitivities import heat_map, sensitivities, sensitivities_csv
+from tvimdesign.report.run.answered_study import heat_map, sensitivities, sensitivities_csv
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.result import answer
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputSensitivities

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tvimdesign.report.paper.published_module import published_model
+from tvimdesign.report.paper.paper_case import published_model
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.response_times import PLACES, LevelSet, _root, level_set

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tvimdesign.report.run.blocks.verdict import verdict
 from tvimdesign.report.run.front_report import kept_at
 from tvimdesign.report.run.infeasible_report import complaint
-from tvimdesign.report.run.yield_words import below_yield, cost_of_margins, yield_of
+from tvimdesign.report.run.uncertainty_data import below_yield, cost_of_margins, yield_of
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve.nlp.constraints import Constraint
 from tvimdesign.solve.nlp.solver_run import Run

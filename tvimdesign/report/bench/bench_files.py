@@ -19,7 +19,7 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.report.command import Command, design_file
 from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.fit.fit_data import fit_data, from_si_array
+from tvimdesign.report.fit.fit_files import fit_data, from_si_array
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import print_grid

@@ -10,8 +10,19 @@ from functools import cached_property
 from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.compare.comparison_table import Row, common_rows, lone_values, plain
-from tvimdesign.report.compare.sentence import ParetoComparison, against, ahead, conditions, held_back, standing, wins
+from tvimdesign.report.compare.comparison_table import (
+    ParetoComparison,
+    Row,
+    against,
+    ahead,
+    common_rows,
+    conditions,
+    held_back,
+    lone_values,
+    plain,
+    standing,
+    wins,
+)
 from tvimdesign.report.output.number_format import head
 from tvimdesign.solve.pareto.front_shape import leads
 from tvimdesign.study.conditions import Case

@@ -26,7 +26,7 @@ from tvimdesign.device import Table
 from tvimdesign.report.compare.compared_design import compared_design, nothing_found
 from tvimdesign.report.output.tables import results
 from tvimdesign.report.run.infeasible_report import above_rating, complaint, starts_reported
-from tvimdesign.report.run.yield_words import below_yield
+from tvimdesign.report.run.uncertainty_data import below_yield
 from tvimdesign.report.simulate_study import figure_data, findings
 from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL

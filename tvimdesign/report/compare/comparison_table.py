@@ -1,4 +1,7 @@
-"""The table of a comparison: every output that all studies have, side by side, with ratio and verdict."""
+"""The table of a comparison: every output that all studies have, side by side, with ratio and verdict.
+
+Conclusions of a comparison, in sentences with their conditions; every number in them is computed.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from tvimdesign.base.units import from_si, pretty, si_unit
+from tvimdesign.base.units import format_quantity, from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
 from tvimdesign.report.output.number_format import finite
-from tvimdesign.solve.pareto.front_shape import ALIKE
+from tvimdesign.report.output.tables import number
+from tvimdesign.solve.pareto.front_shape import ALIKE, Lead
+from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design
 
 Verdict = Literal["better", "worse", "same", "open", ""]
@@ -137,3 +142,152 @@ def compare_csv(rows: Mapping[str, Sequence[Row]], alone: Mapping[str, Sequence[
             entry |= {f"verdict {label}": verdict for label, verdict in reported["verdict"].items()}
             writer.writerow(entry)
     return stream.getvalue()
+
+
+_TIMES_FROM = 1.5
+"""Ratio from which on people say `times` and not `%`."""
+_WORDS = {
+    "s": ("faster", "slower"), "g": ("lighter", "heavier"), "mm": ("smaller", "larger"), "cm³": ("smaller", "larger"),
+    "J": ("thriftier", "thirstier"), "W": ("thriftier", "thirstier"),
+}  # fmt: skip
+"""By unit, what less and more of an output are called."""
+
+
+@dataclass(frozen=True)
+class ParetoComparison:
+    """Two outputs that every study trades: who leads in `gained`, by limits on `limited`."""
+
+    gained: str
+    limited: str
+    gained_unit: str
+    limited_unit: str
+    leads: tuple[Lead, ...]
+
+    def plain(self) -> dict[str, Any]:
+        """Return plain data, limits in the unit; null as an upper limit is no end."""
+        return {
+            "gained": self.gained, "limited": self.limited, "unit": pretty(self.limited_unit),
+            "leads": [
+                {"from": from_si(lead.lower, self.limited_unit),
+                 "to": from_si(lead.upper, self.limited_unit) if math.isfinite(lead.upper) else None,
+                 "best": lead.best, "alone": lead.alone, "least_ratio": lead.least, "most_ratio": lead.most}
+                for lead in self.leads
+            ],
+        }  # fmt: skip
+
+
+def conditions(entrants: Mapping[str, Case]) -> list[str]:
+    """Describe what holds for every study: shared requirements, temperatures, current, materials, surroundings."""
+    first = next(iter(entrants.values()))
+    study, table, values = first.study, first.study.table, first.values
+    everywhere = [
+        r for r in study.require if all(r.output.partition("@")[0] in e.study.table.by_name for e in entrants.values())
+    ]
+    required = [f"{r.output} {r.sense} {format_quantity(r.limit, table.unit(r.output))}" for r in everywhere]
+    points = [
+        f"{name} {format_quantity(point['temperature'], 'degC')} at {format_quantity(point['frequency'], 'Hz')}"
+        for name, point in study.operating_points.items()
+    ]
+    current = study.vary.get("current")
+    lower, upper = getattr(current, "lower", None), getattr(current, "upper", None)
+    ends = [values["current"]] if lower is None else [lower, upper]
+    clauses = [f"at {' to '.join(format_quantity(end, 'A') for end in ends)}"]
+    clauses += [f"{values['peltier_module'].name} pads", values["structure_material"].name, values["pcl_grade"].name]
+    clauses.append(f"ambient {format_quantity(values['ambient_temperature'], 'degC')}, cold side {values['cold_side']}")
+    clauses.append(f"response_time by {values['response_criterion']}")
+    return [*required, *points, *clauses]
+
+
+def against(label: str, first: str, rows: Sequence[Row], names: Sequence[str]) -> str:
+    """Return how a study stands against the first: `compression is 2.1 times slower (...) than shear`."""
+    differences = [text for row in rows if row.name in names for text in [_difference(row, label)] if text]
+    return f"{label} is {_listed(differences)} than {first}" if differences else f"{label} and {first} do not differ"
+
+
+def _difference(row: Row, label: str) -> str:
+    mine, theirs = row.values[label], row.values[row.first]
+    shown = [format_quantity(v, row.unit) if math.isfinite(v) else "never" for v in (mine, theirs)]
+    less, more = _WORDS.get(pretty(row.unit), (f"lower in {row.name}", f"higher in {row.name}"))
+    if row.verdict(label) in {"", "same"}:
+        return ""
+    factor = max(mine, theirs) / min(mine, theirs) if math.isfinite(mine) and math.isfinite(theirs) else math.inf
+    word = less if mine < theirs else more
+    return f"{_factor(factor, mine < theirs)}{word} ({row.name} {shown[0]} against {shown[1]})"
+
+
+def _factor(factor: float, less: bool) -> str:
+    """Return `2.1 times `, or as a share of the first one's: `8 % `."""
+    if math.isinf(factor):
+        return ""
+    if factor >= _TIMES_FROM:
+        return f"{number(factor, 2)} times "
+    return f"{number(100.0 * (1.0 - 1.0 / factor if less else factor - 1.0), 2)} % "
+
+
+def _listed(words: Sequence[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def standing(contest: ParetoComparison) -> str:
+    """Say in one sentence who leads where."""
+    word = _WORDS.get(pretty(contest.gained_unit), ("better", ""))[0]
+    parts = []
+    for lead in contest.leads:
+        where = _range(lead, contest.limited_unit)
+        if lead.alone:
+            parts.append(f"{where} only {lead.best} has a design")
+        elif lead.best is None:
+            parts.append(f"{where} the best two are alike")
+        else:
+            parts.append(f"{where} {lead.best} is {word}, by {_span(lead)}")
+    return f"With {contest.limited} limited, {'; '.join(parts)} ({contest.gained})."
+
+
+def _range(lead: Lead, unit: str) -> str:
+    lower = format_quantity(lead.lower, unit)
+    return f"from {lower} to {format_quantity(lead.upper, unit)}" if math.isfinite(lead.upper) else f"from {lower} on"
+
+
+def _span(lead: Lead) -> str:
+    least, most = (number(100.0 * (ratio - 1.0), 2) for ratio in (lead.least, lead.most))
+    return f"{least} %" if least == most else f"{least} to {most} %"
+
+
+def wins(label: str, contests: Sequence[ParetoComparison]) -> str:
+    """Say for which requirements a study wins, from the fronts."""
+    every = [(contest, lead) for contest in contests for lead in contest.leads]
+    mine = [(contest, lead) for contest, lead in every if lead.best == label]
+    if len(mine) == len(every):
+        return f"{label} wins everywhere on the fronts computed"
+    if not mine:
+        return f"{label} wins nowhere on the fronts computed"
+    won = [
+        f"{'has the only designs' if lead.alone else f'does best in {contest.gained}'} "
+        f"with {contest.limited} limited {_range(lead, contest.limited_unit)}"
+        for contest, lead in mine
+    ]
+    return f"{label} wins where it {', '.join(dict.fromkeys(won))}"
+
+
+def ahead(label: str, first: str, rows: Sequence[Row]) -> str:
+    """Say in which outputs of a summary either does better, with the ratio."""
+    clauses = []
+    for verdict, who in (("better", label), ("worse", first)):
+        leads = [
+            f"{row.name} ({number(ratio, 3)})" if (ratio := row.ratio(label)) is not None else row.name
+            for row in rows if row.headline and row.verdict(label) == verdict
+        ]  # fmt: skip
+        if leads:
+            clauses.append(f"{who} does better in {', '.join(leads)}")
+    return f"{'; '.join(clauses)}; in brackets {label} over {first}" if clauses else ""
+
+
+def held_back(label: str, held: Sequence[Mapping[str, Any]]) -> str:
+    """Return a design's main active constraints, the machine's own with their reasons; nothing where there are none."""
+    reported = [
+        limit["limit"]
+        if limit["because"] in {"require", "vary", "module"}
+        else f"{limit['limit']} ({limit['because']})"
+        for limit in held
+    ]
+    return f"{label} is held back most by {'; '.join(reported)}" if reported else ""

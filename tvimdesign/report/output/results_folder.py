@@ -28,9 +28,12 @@ from tvimdesign.base.atomic_files import (
 from tvimdesign.base.errors import InputError, OutputError
 from tvimdesign.base.interrupts import raise_pending
 from tvimdesign.report.output.claim import FORMAT, RUNNING, Claim, is_run
-from tvimdesign.report.output.manifest import MANIFEST, Manifest, manifest_text, read_manifest
-from tvimdesign.report.output.replace_results import (
+from tvimdesign.report.output.manifest import (
+    MANIFEST,
+    Manifest,
     discard_unfinished,
+    manifest_text,
+    read_manifest,
     refuse_links,
     remove_own,
     replace_results,

@@ -1,18 +1,27 @@
-"""Blocks as lines of text of so many columns: what the terminal prints and summary.txt holds."""
+"""Blocks as lines of text of so many columns: what the terminal prints and summary.txt holds.
+
+Terminal output while a run works: results on standard output, progress on standard error.
+"""
 
 from __future__ import annotations
 
+import os
 import re
 import textwrap
-from collections.abc import Iterable, Sequence
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from rich.console import Console
 from rich.errors import MarkupError
 from rich.markup import escape
+from rich.status import Status
 from rich.table import Table
 from rich.text import Text
 
+from tvimdesign.base.interrupts import interrupt_handler, raise_pending
 from tvimdesign.page.blocks import Block, Facts, Folded, Grid, Points, Section, Warned, Words
 
 LABEL = 20
@@ -122,3 +131,156 @@ class OwnMarkupConsole(Console):
             return super().render_str(_OTHER_TAG.sub(r"\1\\[", text), markup=True, **options)
         except MarkupError:
             return super().render_str(text, markup=False, **options)
+
+
+Progress = Callable[[str], None]
+WIDTH = 132
+PLAIN_EVERY = 2.2  # s
+"""Time between plain lines: the next new message, or how long the last one goes on; others are left out."""
+_TICK = 0.25  # s
+
+
+def wide_console() -> Console:
+    """Return standard output: as wide as the terminal, and wide enough for a table where there is none."""
+    console = OwnMarkupConsole(highlight=False)
+    wide = not console.is_terminal and "COLUMNS" not in os.environ
+    return OwnMarkupConsole(highlight=False, width=WIDTH) if wide else console
+
+
+@contextmanager
+def progress_output() -> Iterator[Progress]:
+    """Say on standard error what is going on, for how long, and what is left where that is known.
+
+    One moving line on a terminal; plain lines, one every few seconds, elsewhere. No message is printed twice: what goes
+    on, or comes again, is a line of time, with a bar where the end is known. An interrupt that a library swallows
+    is raised again at the next thing said; CasADi swallows some. An empty text ends the line, to print something else.
+    """
+    shown = _Shown(Console(stderr=True, highlight=False, markup=False))
+
+    def say(text: str) -> None:
+        raise_pending()
+        shown.say(text)
+
+    with interrupt_handler():
+        try:
+            yield say
+        finally:
+            shown.end()
+
+
+class _Shown:
+    """The progress line, shown with the time by a thread that ticks, as work reports only now and then."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._status = Status("", console=console) if console.is_terminal else None
+        self._text, self._remaining = "", RemainingTime()
+        self._shown: set[str] = set()
+        self._began = time.monotonic()
+        self._printed = self._began - PLAIN_EVERY
+        self._lock, self._ended = threading.Lock(), threading.Event()
+        self._thread = threading.Thread(target=self._tick, daemon=True)
+        self._thread.start()
+
+    def say(self, text: str) -> None:
+        """Show a text from now on; an empty one ends the line."""
+        with self._lock:
+            self._text = text
+            self._remaining.heard(text, time.monotonic())
+            if self._status is not None and not text:
+                self._status.stop()
+            self._show()
+
+    def end(self) -> None:
+        """Show nothing more."""
+        self._ended.set()
+        self._thread.join()
+        if self._status is not None:
+            self._status.stop()
+
+    def _tick(self) -> None:
+        while not self._ended.wait(_TICK):
+            with self._lock:
+                self._show()
+
+    def _show(self) -> None:
+        now = time.monotonic()
+        if not self._text or (self._status is None and now - self._printed < PLAIN_EVERY):
+            return
+        elapsed, part = now - self._began, share_done(self._text)
+        times = clock(elapsed, self._remaining.left(now))
+        if self._status is not None:
+            self._status.update(" · ".join(filter(None, [self._text, part, times])))
+            self._status.start()
+            return
+        text = "" if self._text in self._shown else self._text
+        self._console.print(f"... {' · '.join(filter(None, [text, part, times]))}", soft_wrap=True)
+        self._shown.add(self._text)
+        self._printed = now
+
+
+_CELLS = 20
+"""Cells of a bar."""
+
+
+def share_done(text: str) -> str:
+    """Return a bar with its percentage for `3 of 12`, the step that runs now; empty for a text without an end."""
+    match = _COUNTED.match(text)
+    if match is None or int(match["all"]) < 2:
+        return ""
+    share = max(int(match["done"]) - 1, 0) / int(match["all"])
+    cells = round(_CELLS * min(share, 1.0))
+    return f"{'█' * cells}{'░' * (_CELLS - cells)} {min(share, 1.0):.0%}"
+
+
+_COUNTED = re.compile(r"(?P<of>.*?)(?P<done>\d+) of (?:about )?(?P<all>\d+)")
+
+
+class RemainingTime:
+    """The remaining time of a series, by the mean time of its steps so far; unknown before the first is done.
+
+    A message between two steps belongs to the one before it; after the last step it is something else.
+    """
+
+    def __init__(self) -> None:
+        """Start without a series."""
+        self._series: tuple[str, str] | None = None
+        self._first, self._began = 0, 0.0
+        self._end: float | None = None
+        self._last = False
+
+    def heard(self, text: str, now: float) -> None:
+        """Take a message at a time [s]: a step that starts says its number."""
+        match = _COUNTED.match(text)
+        if match is None:
+            self._end = None if self._last else self._end
+            return
+        number, last = int(match["done"]), int(match["all"])
+        self._last = number >= last
+        if self._series != (match["of"], match["all"]) or number < self._first:
+            self._series = (match["of"], match["all"])
+            self._first, self._began, self._end = number, now, None
+        elif self._first < number <= last:
+            each = (now - self._began) / (number - self._first)
+            self._end = now + each * (last - number + 1)
+
+    def left(self, now: float) -> float | None:
+        """Return seconds that are left; None where nothing can be said of it."""
+        return None if self._end is None else max(self._end - now, 0.0)
+
+
+def clock(elapsed: float, left: float | None) -> str:
+    """Return `12 s, about 30 s left`; nothing within the first second."""
+    if elapsed < 1.0:
+        return ""
+    return duration(elapsed) + ("" if left is None or left < 1.0 else f", about {duration(left)} left")
+
+
+def duration(seconds: float) -> str:
+    """Return `8 s`, `2 min 05 s`, `1 h 12 min`."""
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02d} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"

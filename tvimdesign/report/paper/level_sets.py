@@ -20,10 +20,10 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.report.command import PARTLY_DONE, done_in_part, noting
 from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
-from tvimdesign.report.output.progress import progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.terminal import progress_output, wide_console
 from tvimdesign.report.paper import paper_case
-from tvimdesign.report.paper.published_module import from_paper, published_model
+from tvimdesign.report.paper.paper_case import from_paper, published_model
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.sensitivity.response_times import PLACES, LevelSet, level_set
 

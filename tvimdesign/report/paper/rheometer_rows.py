@@ -13,7 +13,7 @@ import numpy as np
 
 from tvimdesign.base.units import from_si
 from tvimdesign.physics.polymers import polymer, viscoelasticity
-from tvimdesign.report.paper.published_module import Instrument, from_paper, instrument, published_module
+from tvimdesign.report.paper.paper_case import Instrument, from_paper, instrument, published_module
 from tvimdesign.simulation.working_cycle.melt_history import fractions_at
 
 _EACH_DECADE = 5

@@ -9,7 +9,7 @@ from tvimdesign.base.units import from_si, to_si
 from tvimdesign.physics.layers import layer
 from tvimdesign.physics.motions import motion
 from tvimdesign.physics.springs import spring
-from tvimdesign.report.paper.published_module import (
+from tvimdesign.report.paper.paper_case import (
     from_paper,
     published_module,
     published_rate,

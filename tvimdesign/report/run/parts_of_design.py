@@ -11,8 +11,8 @@ from tvimdesign.base.atomic_files import atomic_write, make_folder
 from tvimdesign.base.errors import GeometryError
 from tvimdesign.base.processes import Niceness, set_low_priority
 from tvimdesign.cad.cad_report import CadReport, SolidCheck
-from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_format import Parts
+from tvimdesign.report.output.terminal import Progress
 from tvimdesign.study.design import Design, write_design
 
 _DESIGN_COPY = ".design.json.part"

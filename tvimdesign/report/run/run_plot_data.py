@@ -29,7 +29,7 @@ def drawings(answer: StudyResult, table: Table) -> list[Drawing]:
     data = plot_data(answer, table)
     rooms = {
         "cycle": "cycle_figures", "stiffness_and_damping": "cycle_figures", "power_and_energy": "cycle_figures",
-        "impedance": "module_figures", "torque": "module_figures", "mass": "module_figures", "bounds": "design_figures",
+        "impedance": "design_figures", "torque": "design_figures", "mass": "design_figures", "bounds": "design_figures",
     }  # fmt: skip
     return [Drawing(name, f"{room}.{name}", data[name]) for name, room in rooms.items()]
 

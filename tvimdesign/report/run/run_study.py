@@ -1,11 +1,15 @@
-"""The commands `run` and `cad`, from a file to a finished folder: the order of things, and what the terminal says."""
+"""The commands `run` and `cad`, from a file to a finished folder: the order of things, and what the terminal says.
+
+Backup of a run that is interrupted before it is written: a study that goes on from the best design so far.
+"""
 
 from __future__ import annotations
 
 import json
+import sys
 import time
-from collections.abc import Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -19,16 +23,20 @@ from tvimdesign.base.errors import (
     AboveRatingError,
     BelowYieldError,
     InfeasibleError,
+    OutputError,
     TimeOverError,
     TvimError,
 )
 from tvimdesign.report.command import done_in_part, noting
-from tvimdesign.report.output.progress import Progress, progress_output, wide_console
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
 from tvimdesign.report.run.check_study import refuse_what_cannot_be
+from tvimdesign.solve.best_so_far import SearchInterrupted
+from tvimdesign.solve.result import StudyResult
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import read_design, write_design
 from tvimdesign.study.tree import tree_of_file
+from tvimdesign.study.written_studies import started_at, study_text
 
 if TYPE_CHECKING:
     from tvimdesign.report.figures.plot_process import PlotProcess
@@ -65,10 +73,15 @@ def run_study(
         drawing = stack.enter_context(_plots_ahead()) if plots and study.write.plots else None
         from tvimdesign.report.run.answered_study import answer_study, drawings
         from tvimdesign.report.run.first_screen import print_result, write_summary
-        from tvimdesign.report.run.keep_best import keeping_best
-        from tvimdesign.report.run.run_page import summary_sheet, write_run_page
+        from tvimdesign.report.run.run_page import (
+            finish,
+            summary_sheet,
+            write_answer,
+            write_failure,
+            write_results,
+            write_run_page,
+        )
         from tvimdesign.report.run.uncertainty_process import uncertainty_process
-        from tvimdesign.report.run.write_answer import finish, write_answer, write_failure, write_results
         from tvimdesign.solve.search import optimize
 
         best = stack.enter_context(keeping_best(folder))
@@ -123,7 +136,7 @@ def _check(study: Study, deadline: Deadline, *, as_json: bool) -> None:
             refuse_what_cannot_be(study, deadline=deadline)
     except InfeasibleError as error:
         if as_json:
-            from tvimdesign.report.run.write_answer import refused_run
+            from tvimdesign.report.run.run_page import refused_run
 
             print(json.dumps(refused_run(study, error), indent=2))
         raise
@@ -180,7 +193,7 @@ def _wait_for_uncertainty(
 def _end_as(answered: AnsweredStudy) -> None:
     """Raise what a run that is written ends with, where it is no plain success."""
     from tvimdesign.report.run.infeasible_report import above_rating, complaint
-    from tvimdesign.report.run.yield_words import below_yield
+    from tvimdesign.report.run.uncertainty_data import below_yield
 
     result, table = answered.result, answered.study.table
     if not result.found:
@@ -250,3 +263,37 @@ def _parts(making: BackgroundPartsJob, progress: Progress, as_json: bool, *, in_
         print_lines(wrapped(f"Parts: {in_short(report.checks)}", console.width, indent="  "), console)
     refuse_failed(report)
     return plain_report(report)
+
+
+DESIGN = "design.json"
+BEST = "best_so_far.yaml"
+_TITLE = "The run was interrupted: this study begins at the best design so far, which was not checked any further"
+
+
+class Best:
+    """The answer of a run, once there is one."""
+
+    study: Study | None = None
+    """The study started at it."""
+
+    def note(self, result: StudyResult) -> None:
+        """Note an answer where it is a design that was searched."""
+        if result.found and result.solution:
+            design = result.design
+            self.study = started_at(Study.model_validate(design.study), design.values, design.choices)
+
+
+@contextmanager
+def keeping_best(folder: ResultsFolder) -> Iterator[Best]:
+    """Write that study, and say where, where a run is interrupted before its design is written."""
+    best = Best()
+    try:
+        yield best
+    except KeyboardInterrupt as interrupt:
+        study = interrupt.best if isinstance(interrupt, SearchInterrupted) else best.study
+        if study is not None and not (folder.path / DESIGN).exists():
+            with suppress(OutputError, OSError):  # no room, or nobody to tell: the interrupt is what counts
+                path = folder.where_if_stopped(BEST)
+                folder.write_at_the_end(BEST, study_text(study, _TITLE, path.parent))
+                sys.stderr.write(f"the best design so far is where {path} begins\n")
+        raise

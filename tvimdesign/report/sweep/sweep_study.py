@@ -1,32 +1,39 @@
-"""The command sweep, from a study file to a finished folder: the order of things, what is written and shown."""
+"""The command sweep, from a study file to a finished folder: the order of things, what is written and shown.
+
+The folder of a sweep that the jobs of an array share: the job after which every cell is there gathers them.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
+import os
 import time
-from collections.abc import Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign import __version__
-from tvimdesign.base.errors import InputError
+from tvimdesign.base.atomic_files import recorded
+from tvimdesign.base.errors import FolderInUseError, InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.command import Command, not_done
 from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.claim import IN_PARTS, Claim
+from tvimdesign.report.output.manifest import seed
 from tvimdesign.report.output.number_format import head
-from tvimdesign.report.output.progress import Progress, duration, progress_output, wide_console
+from tvimdesign.report.output.results_folder import prepare, recovered, say
 from tvimdesign.report.output.tables import number
-from tvimdesign.report.sweep.cell_table import CellTable
-from tvimdesign.report.sweep.shared_folder import joined, say_part
+from tvimdesign.report.output.terminal import Progress, duration, progress_output, wide_console
 from tvimdesign.report.sweep.sweep_figures import figure_data
 from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
+from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
 from tvimdesign.sweep.plan import SweepPlan, plan_of
@@ -200,3 +207,54 @@ def _draw(plan: SweepPlan, command: Command, data: dict[str, Any], earlier: Kept
     folder.look_up_versions()
     command.finish_plots(again="repeat the command with --resume")
     return mark
+
+
+@contextmanager
+def joined(out: Path, *, overwrite: bool = False) -> Iterator[Path]:
+    """Write into a folder together with other jobs; yields where. Raises InputError where it is not theirs.
+
+    Cells of earlier results are used again.
+    """
+    if overwrite:
+        raise InputError("--overwrite and --shard: the parts share a folder; name another one with --out")
+    try:
+        prepare(out)
+        with suppress(FolderInUseError):  # another job prepares it, or has
+            _prepare_jobs(out)
+        claim = Claim(out, shared=True)
+    except OSError as error:
+        raise InputError(f"{out}: cannot be used as a results folder: {error.strerror or error}") from error
+    try:
+        yield claim.folder
+    finally:
+        claim.release(remove=False)
+
+
+def _prepare_jobs(out: Path) -> None:
+    """Make the folder that jobs write into, with the cells of earlier results. Raises FolderInUseError, OSError."""
+    claim = Claim(out)
+    try:
+        earlier = recovered(out, claim)
+        if not recorded(claim.folder):
+            own = {name: digest for name, digest in earlier.files.items() if PurePosixPath(name).parts[0] == SHARDS}
+            seed(out, claim.folder, own, say)
+        claim.write(IN_PARTS, "")
+    finally:
+        claim.release(remove=False)
+
+
+def say_part(done: SweepDone, executor: Executor, out: Path, console: Console, *, as_json: bool) -> None:
+    """Print what one job of an array has done."""
+    counts = {"cells": done.cells, "reused": done.reused, "computed": done.computed, "missing": done.missing}
+    if as_json:
+        print(
+            json.dumps({**counts, "shard": list(executor.part), "process": os.getpid(), "folder": str(out)}, indent=2)
+        )
+        return
+    others = f"{done.missing} of {done.cells} cells are still with other parts"
+    console.print(
+        f"Part {executor.part[0]} of {executor.part[1]}: {done.reused} cells reused, {done.computed} computed; "
+        f"{others if done.missing else 'all cells are there'}. The part that ends last gathers them in "
+        f"[bold]{escape(str(out))}[/bold]",
+        soft_wrap=True,
+    )

@@ -1,10 +1,15 @@
-"""A tolerance analysis on the terminal and as a page: what varies from part to part, then unmeasured inputs."""
+"""A tolerance analysis on the terminal and as a page: what varies from part to part, then unmeasured inputs.
+
+The spread of a module in sentences: how many modules are good, what to tighten first, what the free angle does.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
 from rich.console import Console
 from rich.markup import escape
 
@@ -15,9 +20,9 @@ from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.report.tolerate.tolerance_data import spreads, unknown_rows
-from tvimdesign.report.tolerate.words import of_concern
 from tvimdesign.solve.nlp.constraints import in_words
-from tvimdesign.solve.uncertainty.tolerance import Spread
+from tvimdesign.solve.nlp.spread import Yield
+from tvimdesign.solve.uncertainty.tolerance import Kept, Preload, Spread
 
 
 def print_tolerances(spread: Spread, data: Mapping[str, Any], table: Table, console: Console) -> None:
@@ -142,3 +147,132 @@ def _contributors(data: Mapping[str, Any]) -> Block:
     ]  # fmt: skip
     heads = ("output", "contributor", "tolerance", "distribution", "status", "source")
     return grid("Contributors", heads, rows, code=(0, 1))
+
+
+_GOOD = 0.9973
+"""Yield from which a limit is no concern: three standard deviations to either side."""
+_ON_THE_LIMIT = 0.1
+"""C_pk below which no tolerance helps, only another design."""
+_BENT = 0.1
+"""Difference of the two standard deviations from which an output is not linear within the tolerances."""
+_NAMED = 3
+_CARRIED = 0.2
+"""Share of a limit's variance from which a contributor counts as carrying it."""
+
+
+def sentences(spread: Spread, preload: Preload | None, table: Table) -> list[str]:
+    """Return what people should know, the most important first."""
+    worst = [limit_yield for limit_yield in spread.kept if _broken_at_worst(spread, limit_yield)]
+    corners = "no limit is broken" if not worst else f"{len(worst)} of {len(spread.kept)} limits are broken"
+    lines = [
+        f"What varies from part to part: {_percent(spread.together)} of the modules satisfy every limit; in the worst "
+        f"case {corners}."
+    ]
+    lines += _what_first(spread, table)
+    if preload is not None:
+        lines.append(free_angle(preload))
+    lines += _caveats(spread)
+    return lines
+
+
+def _percent(share: Yield) -> str:
+    return f"{100 * share.share:.3g} % ({100 * share.low:.3g} to {100 * share.high:.3g} %)"
+
+
+def _broken_at_worst(spread: Spread, limit_yield: Kept) -> bool:
+    i = spread.outputs.index(limit_yield.limit.output)
+    end = spread.worst.high[i] if limit_yield.limit.sense == "<=" else spread.worst.low[i]
+    return not float(limit_yield.limit.residual(end)) <= 1e-9
+
+
+def of_concern(spread: Spread) -> list[Kept]:
+    """Return limits that too many modules violate, the worst first."""
+    return sorted(
+        (limit_yield for limit_yield in spread.kept if limit_yield.share.share < _GOOD),
+        key=lambda limit_yield: limit_yield.share.share,
+    )
+
+
+def _what_first(spread: Spread, table: Table) -> Iterator[str]:
+    """Yield what to tighten, limit by limit; where the mean stands on the limit, that tightening does not help."""
+    concern = of_concern(spread)
+    if not concern:
+        yield f"Every limit is kept by {100 * _GOOD:g} % of the modules and more: nothing needs to be tightened."
+        return
+    on_limit = [limit_yield for limit_yield in concern if limit_yield.capability < _ON_THE_LIMIT]
+    if on_limit:
+        names = ", ".join(in_words(limit_yield.limit, table) for limit_yield in on_limit[:_NAMED])
+        more = f" and {len(on_limit) - _NAMED} more" if len(on_limit) > _NAMED else ""
+        yield (
+            f"The mean stands on or beyond {names}{more}: no tolerance mends that. Move the design away from the "
+            "limit, as a study with `robust: {sigma: 3}` does."
+        )
+    mendable = [limit_yield for limit_yield in concern if limit_yield not in on_limit] or concern
+    lost = {contributor.name: 0.0 for contributor in spread.contributors}
+    for limit_yield in mendable:
+        i = spread.outputs.index(limit_yield.limit.output)
+        for j, name in enumerate(lost):
+            lost[name] += (1.0 - limit_yield.share.share) * float(spread.shares[i, j])
+    first = max(lost, key=lambda name: lost[name])
+    j = list(lost).index(first)
+    led = _led_by(spread, mendable, j)
+    yield f"Tighten {first} first: {'; '.join(_halved(spread, limit_yield, j, table) for limit_yield in led)}."
+
+
+def _led_by(spread: Spread, concern: list[Kept], j: int) -> list[Kept]:
+    """Return the limits of concern that one contributor carries most of."""
+    shares = {
+        limit_yield.limit.name: float(spread.shares[spread.outputs.index(limit_yield.limit.output), j])
+        for limit_yield in concern
+    }
+    carried = [limit_yield for limit_yield in concern if shares[limit_yield.limit.name] >= _CARRIED] or concern[:1]
+    return sorted(carried, key=lambda limit_yield: -shares[limit_yield.limit.name])[:2]
+
+
+def _halved(spread: Spread, limit_yield: Kept, j: int, table: Table) -> str:
+    """Return what a contributor carries of a limit's spread, and what half its tolerance would do."""
+    i = spread.outputs.index(limit_yield.limit.output)
+    share = float(spread.shares[i, j])
+    carried = (
+        f"it carries {100 * share:.0f} % of the variance behind {in_words(limit_yield.limit, table)}, which "
+        f"{100 * limit_yield.share.share:.3g} % keep"
+    )
+    if limit_yield.capability < _ON_THE_LIMIT:
+        return carried
+    able = limit_yield.capability / math.sqrt(1.0 - 0.75 * share)
+    return f"{carried}; with half its tolerance C_pk would be {able:.2f} instead of {limit_yield.capability:.2f}"
+
+
+def free_angle(preload: Preload) -> str:
+    """Return what the springs' free angle does to the joint, and what adjusting the preload does about it."""
+    by = " by DIN 2194, grade 2" if preload.by_row else ""
+    left = math.degrees(preload.adjusted)
+    adjusted = f"to within ±{left:.2g}°" if left > 0.0 else "out"
+    return (
+        f"The free-angle tolerance of these springs (±{math.degrees(preload.as_bought):.1f}°{by}) is "
+        f"{preload.over_stroke:.1f} times the stroke: as bought, {100 * preload.yield_as_bought.share:.3g} % of the "
+        f"modules keep all limits that hang on the preload; with the preload adjusted {adjusted}, "
+        f"{100 * preload.yield_adjusted.share:.3g} % do."
+    )
+
+
+def _caveats(result: Spread) -> Iterator[str]:
+    rss, drawn = result.deviation, result.drawn.deviation
+    spread = rss > 1e-9 * np.abs(result.nominal)
+    bent = [
+        name for i, name in enumerate(result.outputs)
+        if spread[i] and abs(drawn[i] - rss[i]) > _BENT * rss[i]
+    ]  # fmt: skip
+    if bent:
+        yield f"Not linear within the tolerances, so trust Monte Carlo rather than root-sum-square: {', '.join(bent)}."
+    turned = [name for i, name in enumerate(result.outputs) if spread[i] and not result.worst.by_sign[i]]
+    if turned:
+        names = ", ".join(turned)
+        yield f"Not monotonic within the tolerances, so the worst corner is not where derivatives point: {names}."
+    never = [
+        f"{name} {100 * result.drawn.never[i]:.2g} %" for i, name in enumerate(result.outputs) if result.drawn.never[i]
+    ]
+    if never:
+        yield f"Share of the modules in which it never happens: {', '.join(never)}; means leave these out."
+    if result.left_out:
+        yield f"Not in this, as they never happen or hang on a current profile: {', '.join(result.left_out)}."

@@ -12,8 +12,8 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
 from tvimdesign.report.command import Command, design_file
 from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.progress import Progress
 from tvimdesign.report.output.results_folder import ResultsFolder
+from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.output.thresholds import soft_of_module
 from tvimdesign.report.run.infeasible_report import complaint
 from tvimdesign.report.tolerate.tolerance_data import (
@@ -28,8 +28,7 @@ from tvimdesign.report.tolerate.tolerance_data import (
     unknown_rows,
     unknown_sentences,
 )
-from tvimdesign.report.tolerate.tolerance_report import print_tolerances, tolerance_page
-from tvimdesign.report.tolerate.words import sentences
+from tvimdesign.report.tolerate.tolerance_report import print_tolerances, sentences, tolerance_page
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.spread import power_of_two
 from tvimdesign.solve.result import answer

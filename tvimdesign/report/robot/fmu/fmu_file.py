@@ -19,8 +19,16 @@ from tempfile import TemporaryDirectory
 from tvimdesign.base.atomic_files import whole_file
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.processes import CommandGroup, ProcessorTimeError
-from tvimdesign.report.robot.fmu.joint_equations import JointEquations, joint_equations, listed, sizes
-from tvimdesign.report.robot.fmu.model_description import IDENTIFIER, Variable, fmu_variables, model_description
+from tvimdesign.report.robot.fmu.joint_equations import (
+    IDENTIFIER,
+    JointEquations,
+    Variable,
+    fmu_variables,
+    joint_equations,
+    listed,
+    model_description,
+    sizes,
+)
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 
 COMPILERS = ("cc", "gcc", "clang")

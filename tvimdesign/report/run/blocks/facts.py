@@ -15,8 +15,8 @@ from tvimdesign.report.output.tables import ends_text, number, percent, range_te
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.blocks.verdict import measure_first, most_in_doubt
+from tvimdesign.report.run.uncertainty_data import cost_of_margins, gain_without_margins, reached_in_words, yield_of
 from tvimdesign.report.run.why import binding
-from tvimdesign.report.run.yield_words import cost_of_margins, gain_without_margins, reached_in_words, yield_of
 from tvimdesign.simulation.working_cycle.curves import Curves
 from tvimdesign.solve.result import StudyResult
 

@@ -16,8 +16,8 @@ from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.blocks.verdict import objective_in_words
 from tvimdesign.report.run.infeasible_report import complaint
+from tvimdesign.report.run.uncertainty_data import lost_in_words, yield_of
 from tvimdesign.report.run.why import sentences, slack_in_words
-from tvimdesign.report.run.yield_words import lost_in_words, yield_of
 from tvimdesign.solve.nlp.solution import Solution
 from tvimdesign.solve.result import StudyResult
 

@@ -26,7 +26,7 @@ from tvimdesign.page.blocks import Tone
 from tvimdesign.report.output.axis_labels import in_labels, label
 from tvimdesign.report.output.tables import margin_text, number, percent
 from tvimdesign.report.run.blocks.warnings import RunWarning
-from tvimdesign.report.run.yield_words import yield_of
+from tvimdesign.report.run.uncertainty_data import yield_of
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 

@@ -14,7 +14,7 @@ from tvimdesign.base.units import format_quantity
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Table, table_for
 from tvimdesign.report.output.axis_labels import label
-from tvimdesign.report.output.progress import duration
+from tvimdesign.report.output.terminal import duration
 from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.solve.nlp.constraints import advice_of, ratings_of
 from tvimdesign.solve.optimizer.verify_optimum import CYCLE_TOLERANCE
