@@ -19,8 +19,8 @@ from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import number
-from tvimdesign.report.sweep.sweep_figures import figure_data, figures
 from tvimdesign.report.sweep.cell_table import CellTable
+from tvimdesign.report.sweep.sweep_figures import figure_data, figures
 from tvimdesign.study import given
 from tvimdesign.study.tree import study_file
 from tvimdesign.sweep.gather import Column, Value, columns

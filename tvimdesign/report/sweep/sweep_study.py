@@ -31,9 +31,9 @@ from tvimdesign.report.output.number_format import head
 from tvimdesign.report.output.results_folder import prepare, recovered, say
 from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import Progress, duration, progress_output, wide_console
+from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.report.sweep.sweep_figures import figure_data
 from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
-from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables
 from tvimdesign.sweep.plan import SweepPlan, plan_of
