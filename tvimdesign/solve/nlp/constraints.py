@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
+
+import numpy as np
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import format_quantity, from_si, pretty, to_si
 from tvimdesign.device import Choice, Input, Output, Table
 from tvimdesign.device.table.quantity import Feature, Rule
-from tvimdesign.study import Study, brought_along_by, given
+from tvimdesign.study import Range, Study, brought_along_by, given
 
 ALGEBRAIC_TOLERANCE = 1e-6
 """Share of its scale by which a limit on what needs no simulation may be broken: IPOPT's tolerance with a margin."""
@@ -118,10 +121,54 @@ def refuse_impossible(study: Study) -> None:
     table = study.table
     rows = [row.name for row in table.outputs if any(rule.exists_above is not None for rule in row.rules)]
     start = given(study)
-    reasons = impossible(table.evaluate(start, rows), table)
+    reasons = impossible(_geometry(start, rows, table), table)
     if reasons:
-        raise InputError("there is no such module:\n  " + "\n  ".join(reasons) + "\nChange what is under `module`.")
+        cures = _cures(study, start, rows)
+        ways = f"One of these is enough: {', '.join(cures)}." if cures else "No single input cures it: change several."
+        listed = "".join(f"\n  {reason}" for reason in reasons)
+        raise InputError(f"there is no such module:{listed}\n{_clashing(study, start, rows)}{ways}")
     refuse_contradictory(study, start)
+
+
+def _geometry(start: Mapping[str, Any], rows: Sequence[str], table: Table) -> dict[str, Any]:
+    """Return the outputs that say whether a module exists; not a number for what follows from no geometry."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return table.evaluate(start, rows)
+
+
+def _behind_geometry(study: Study, start: Mapping[str, Any], rows: Sequence[str]) -> list[Input]:
+    """Return the lengths, angles and counts behind violated geometry, those that the study sets first."""
+    table = study.table
+    values = _geometry(start, rows, table)
+    bad = [name for name in rows if impossible({**dict.fromkeys(rows, math.inf), name: values[name]}, table)]
+    names = set().union(*(table.ancestors(name) for name in bad))
+    inputs = [row for row in table.inputs if row.name in names and row.variable and not row.per_point]
+    return sorted(inputs, key=lambda row: not (row.name in study.module or row.name in study.vary))
+
+
+def _clashing(study: Study, start: Mapping[str, Any], rows: Sequence[str]) -> str:
+    """Return the values that clash, defaults included."""
+    shown = [
+        f"{row.name} {format_quantity(start[row.name], row.unit)}"
+        + ("" if row.name in study.module or row.name in study.vary else " (default)")
+        for row in _behind_geometry(study, start, rows)[:_CLASHING]
+    ]
+    return f"It follows from {', '.join(shown)}.\n" if shown else ""
+
+
+def _cures(study: Study, start: Mapping[str, Any], rows: Sequence[str]) -> list[str]:
+    """Return changes of one input each after which the module exists; each was tried."""
+    cures = []
+    for row in _behind_geometry(study, start, rows):
+        value = float(start[row.name])
+        allowed = study.vary.get(row.name)
+        low, high = (allowed.lower, allowed.upper) if isinstance(allowed, Range) else (row.lower, row.upper)
+        tries = [factor * value for factor in _FACTORS if low <= factor * value <= high]
+        for tried in sorted(tries, key=lambda number: abs(number - value)):
+            if not impossible(_geometry({**start, row.name: tried}, rows, study.table), study.table):
+                cures.append(f"{row.name} {format_quantity(tried, row.unit, 3)}")
+                break
+    return cures[:_CLASHING]
 
 
 def refuse_contradictory(study: Study, start: Mapping[str, Any]) -> None:
@@ -215,6 +262,10 @@ def _reported(table: Table, rules: Callable[[Output], tuple[Rule, ...]]) -> list
 
 
 _INPUTS_NAMED = 6
+_CLASHING = 8
+"""Inputs that are named where a module is no geometry."""
+_FACTORS = (0.9, 1.1, 0.75, 1.35, 0.5, 2.0, 0.3, 3.0)
+"""Factors on an input that are tried as a cure."""
 _STEPS = {"mm": 0.1, "K": 1.0, "degC": 1.0, "s": 1.0}
 """What people relax a limit by that has no size of its own, in its unit; a hundredth of the unit elsewhere."""
 
