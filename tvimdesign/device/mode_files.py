@@ -8,6 +8,7 @@ from tvimdesign.device.components import (
     cover,
     dowels,
     hard_stops,
+    heater_adhesive,
     liner,
     preload_adjuster,
     process,
@@ -47,17 +48,19 @@ from tvimdesign.device.shear import (
     leads,
     melt_lip,
     pad_layout,
+    spreader_seat,
 )
 
 SHARED_FILES = (
     materials, layout, torsion_springs, spring_as_drawn, joint_impedance, lost_motion, structure_stiffness,
     warm_structure, large_motion, thermal_stack, softening, stiffening, mass_properties, clearances, axial_preload,
-    process, heater_form, screws, tang, dowels, hard_stops, liner, bearing, preload_adjuster, cover, sensor_flange,
-    motor_choice, motor_layout, motor_mass_properties, motor_clearances,
+    process, heater_form, screws, tang, dowels, hard_stops, heater_adhesive, liner, bearing, preload_adjuster, cover,
+    sensor_flange, motor_choice, motor_layout, motor_mass_properties, motor_clearances,
 )  # fmt: skip
 FILES_OF_MODE = {
     "shear": (
         pad_layout, layer_impedance, arc_laps, layer_heat, layer_end, melt_lip, floor_heat, arcs, leads, keys,
+        spreader_seat,
     ),
     "compression": (
         vane_layout, block_impedance, vane_stiffness, block_heat, ring_heat, vane_heat, vane_clearances, vane_tiles,

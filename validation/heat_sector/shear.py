@@ -2,8 +2,8 @@
 
 A strip of half the width `half_width` (area of the arcs over the length of their edges) with plate and floor beside it,
 as drawn: the pads lie in pockets of the floor, on a ledge around their window; the layer's free side meets the air of
-the gap. The contact of the pads' edges and their pockets' walls is a slot of still air as wide as conducts alike.
-Nothing passes the middle of the arc. Everything for one metre of edge.
+the gap. The contact of the pads' edges and their pockets' walls is a slot of still air as wide as conducts alike;
+beside a spreader adhesive fills it. Nothing passes the middle of the arc. Everything for one metre of edge.
 
 Rigid modules cover the middle of the strip, as much of its width as of the arcs' area; a spreader of its whole width
 lies on them, and beside them is still air over the floor. So each metre of edge has its share of modules, windows,
@@ -79,6 +79,8 @@ class Case:
     spreader_conductivity: float = 0.0
     spreader_heat_capacity: float = 0.0
     """Per volume."""
+    seat_contact: float = 0.0
+    """Of the spreader's edges and the floor, a mean of adhesive along its rims and slots at its ends."""
     spreader_contact: float = 0.0
     """Of modules and spreader; layer and spreader have `hot_contact`."""
     sink_conductance: float = 0.0
@@ -113,6 +115,7 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
             "spreader_depth": found["spreader_depth"], "spreader_conductivity": v["spreader_conductivity"],
             "spreader_heat_capacity": v["spreader_density"] * v["spreader_specific_heat"],
             "spreader_contact": v["spreader_contact"],
+            "seat_contact": _seat_contact(v, found["edge_length"]),
         }  # fmt: skip
     lip = {}
     if v["melt_lip"] != "none":
@@ -157,6 +160,13 @@ def case_of(table: Table, values: Mapping[str, Any]) -> Case:
     )  # fmt: skip
 
 
+def _seat_contact(v: dict[str, Any], edges: float) -> float:
+    """Return the mean conductance from a spreader's edges to the floor: adhesive along rims, slots of air at ends."""
+    rims = v["arc_count"] * v["arc_span"] * (v["pcl_inner_radius"] + v["pcl_outer_radius"])
+    adhesive = v["heater_adhesive_conductivity"] / v["spreader_gap"]
+    return float((rims * adhesive + (edges - rims) * v["pad_edge_contact"]) / edges)
+
+
 def plane(case: Case, fine: float = 1.0) -> Plane:
     """Draw the strip of a case; `fine` divides each cell along either side, twice as often with a liner."""
     c, w, fine = case, case.half_width, fine * (2.0 if case.liner_depth else 1.0)
@@ -171,7 +181,8 @@ def plane(case: Case, fine: float = 1.0) -> Plane:
         if b > 0.0:
             return "layer" if a < w else beside(a, b)
         if a > w:
-            return "slot" if b > cold and a < w + slot else "floor"
+            within = b > cold and a < w + slot
+            return ("seat" if b > hot and c.spreader_depth else "slot") if within else "floor"
         if b < cold:
             return "ledge" if a > inside else None
         return "beside tiles" if a > tile and b < hot else upright(b)
@@ -249,7 +260,8 @@ def _materials(c: Case) -> dict[str, Material]:
     if c.spreader_depth:
         sheet = Material(c.spreader_conductivity, c.spreader_conductivity, c.spreader_heat_capacity)
         still = Material(c.air_conductivity, c.air_conductivity, 0.0, c.pad_depth * shine)
-        found |= {"spreader": sheet, "beside tiles": still}
+        seat = c.seat_contact * c.air_conductivity / c.pad_edge_contact
+        found |= {"spreader": sheet, "beside tiles": still, "seat": Material(seat, seat, 0.0)}
     return found
 
 

@@ -147,7 +147,7 @@ def _resistance(design: Design) -> float:
 def beside(design: Design, titles: Mapping[str, str]) -> list[Item]:
     """Return what is bought beside the parts and drawn in no file: the tangs' adhesive, grease, and what feeds the
     pads."""
-    items = [_polymer(design, titles), *_under_pads(design), *_with_spreaders(design)]
+    items = [_polymer(design, titles), *_under_pads(design, titles), *_with_spreaders(design)]
     items += [*_of_the_heater(design), *_supply(design), *_glues(design), *_beside_the_module(design, titles)]
     if (inlay := design.values.get("liner_depth", 0.0)) > 0.0:
         record = str(design.choices["liner_adhesive"])
@@ -225,21 +225,30 @@ def _beside_the_module(design: Design, titles: Mapping[str, str]) -> list[Item]:
     return [*items, Item("mount_screw", count, False, record, title, 0.0, ())]
 
 
-def _under_pads(design: Design) -> list[Item]:
-    """Return what lies between pads and housing: adhesive on the ledges that a freezing layer pulls at, grease in
-    vanes.
+def _under_pads(design: Design, titles: Mapping[str, str]) -> list[Item]:
+    """Return what lies between heaters and housing: adhesive that carries the torque, and grease where they slide.
 
     Pads and spreaders in vanes are glued at their ends, and the block presses them in.
     """
-    if design.mode == "compression":
+    if design.mode == "compression" or design.choices.get("heater_form", "flexible") != "flexible":
         grease = f"Thermal grease for {_hottest(design)}, a film behind each pad"
-        return [Item("thermal_grease", 1, False, "", grease, 0.0, ())]
-    if design.choices.get("heater_form", "flexible") != "flexible":
-        return []
+        items = [Item("thermal_grease", 1, False, "", grease, 0.0, ())]
+        if design.mode == "shear":
+            gap, deep = 1e3 * design.value("spreader_gap"), 1e3 * design.value("spreader_depth")
+            where = f"along both rims of each spreader, {gap:.2g} mm wide and {deep:.2g} mm deep"
+            items.append(_adhesive(design, titles, where))
+        elif design.choices.get("heater_form", "flexible") != "flexible":
+            items.append(_adhesive(design, titles, "below the lower edge of each spreader"))
+        return items
     tension = design.values.get("ledge_tension", math.nan)
     bears = f", which bears {1e-6 * tension:.2g} MPa in tension" if math.isfinite(tension) else ""
-    words = f"Heat-conducting adhesive for {_hottest(design)}, a thin film on the pads' ledges{bears}"
-    return [Item("heat_conducting_adhesive", 1, False, "", words, 0.0, ())]
+    return [_adhesive(design, titles, f"a thin film on the pads' ledges{bears}")]
+
+
+def _adhesive(design: Design, titles: Mapping[str, str], where: str) -> Item:
+    """Return the heaters' adhesive, which carries the torque of the joint."""
+    record = str(design.choices["heater_adhesive"])
+    return Item("heater_adhesive", 1, False, record, f"{titles.get('heater_adhesive', record)}, {where}", 0.0, ())
 
 
 def _hottest(design: Design) -> str:

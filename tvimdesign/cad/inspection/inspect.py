@@ -129,7 +129,7 @@ _ROUNDING = 1e-3
 
 def fit_checks(dims: Dimensions, placed: Mapping[str, cq.Solid]) -> Iterator[SolidCheck]:
     """Compare the first of each kind with its pocket's walls, lifted off what it lies on by twice the clearance."""
-    wanted = dims.slip_clearance
+    wanted = dims.slip_clearance  # a spreader has it at its ends, and a wider gap along its rims
     for kind, host in _IN.items():
         name = f"{kind}_1"
         if name not in placed:

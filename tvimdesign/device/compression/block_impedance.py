@@ -186,18 +186,20 @@ def housing_vane_holding_torque(m: Module) -> Scalar:
 
 
 _PARTS = (
-    "block_holding_torque", "heater_holding_torque", "rotor_vane_holding_torque", "housing_vane_holding_torque",
-    *CORE_PARTS, *LINK_PARTS, "bearing_holding_torque",
+    "block_holding_torque", "heater_holding_torque", "heater_shear_holding_torque", "lower_seat_holding_torque",
+    "rotor_vane_holding_torque", "housing_vane_holding_torque", *CORE_PARTS, *LINK_PARTS, "bearing_holding_torque",
 )  # fmt: skip
 
 
 @quantities.output("N*m", headline=True, least_of=_PARTS)
 def holding_torque(m: Module) -> Scalar:
-    """Torque the frozen joint holds: the least of what blocks, rigid modules, vanes, core, link and bearings bear."""
+    """Torque the frozen joint holds: the least of what blocks, heaters, vanes, core, link and bearings bear."""
     vanes = np.fmin(m.rotor_vane_holding_torque, m.housing_vane_holding_torque)
-    pressed = (
-        m.block_holding_torque if m.heater_form == CUT else np.fmin(m.block_holding_torque, m.heater_holding_torque)
-    )
+    if m.heater_form == CUT:
+        heaters = m.heater_shear_holding_torque
+    else:
+        heaters = np.fmin(m.heater_holding_torque, m.lower_seat_holding_torque)
+    pressed = np.fmin(m.block_holding_torque, heaters)
     held = np.fmin(np.fmin(pressed, vanes), np.fmin(m.core_holding_torque, m.link_holding_torque))
     return with_bearings(m.bearing, held, m.bearing_holding_torque)
 

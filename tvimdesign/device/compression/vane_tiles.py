@@ -9,7 +9,8 @@ and above. Below the tiles the slot reaches under their middle, for the leads.
 
 A block presses on its pad, or on a spreader and the tiles behind it, and these on the vane beside the slot. A module
 is strong where it is pressed and weak where it is sheared: it carries the joint's torque in this mode as it is meant
-to be mounted.
+to be mounted. As a block is a wedge, its force leans along the pocket. Adhesive between the spreader's lower edge and
+what it stands on takes that part, and the tiles slide on grease; a pad takes it in shear, up to what its record allows.
 
 The thermistor by the layer: its bead stands at the outer end of the first pad or spreader, beside the block.
 
@@ -22,6 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.components.heater_adhesive import WITH_PADS
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
@@ -164,6 +166,25 @@ def heater_holding_torque(m: Module) -> Scalar:
     """Torque at which the blocks press on the rigid Peltier modules as hard as these bear, at their upper edges."""
     seats = m.tiles_per_block * m.tile_seat_area / m.tile_edge_rise
     return block.torque_at_stress(m.heater_pressure_limit, m.vane_count, seats, m.pcl_mean_radius)
+
+
+@loads.helper()
+def heater_shear_share(m: Module) -> Scalar:
+    """Part of a block's force along the face of its heater over the whole [1]: sin of the angle between them."""
+    return np.sin(0.5 * m.rotor_vane_angle + m.block_angle - m.block_lean_out)
+
+
+@loads.output("N*m", requires=WITH_PADS)
+def heater_shear_holding_torque(m: Module) -> Scalar:
+    """Torque at which the blocks shear the pads in the vanes as hard as the pads' record allows."""
+    return m.vane_count * m.heater_shear_limit * m.block_area / m.heater_shear_share * m.pcl_mean_radius
+
+
+@loads.output("N*m", requires=WITH_TILES)
+def lower_seat_holding_torque(m: Module) -> Scalar:
+    """Torque that the adhesive below the spreaders bears along them, by `holding_safety` below its strength."""
+    each = m.seat_strength * m.block_width * m.spreader_depth / m.heater_shear_share
+    return m.vane_count * each * m.pcl_mean_radius
 
 
 @loads.output("MPa", per_point=True, requires=WITH_TILES)

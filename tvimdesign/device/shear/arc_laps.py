@@ -1,8 +1,8 @@
 """Transfer of the torque along the frozen arcs: compliance of plate and floor there, and traction at the edges.
 
-Pads cut to the PCL lie on the floor's ledges, so that plate and floor are the two sheets of the lap. On rigid modules
-lies a spreader of metal, stiffer than a printed plate, which is the lower sheet; the modules hand over to the ledges of
-their windows what the spreader has taken.
+Pads cut to the PCL lie on the floor's ledges, so that plate and floor are the two sheets of the lap. Above rigid
+modules lies a spreader of metal, stiffer than a printed plate, which is the lower sheet; its seat of adhesive hands
+over to the floor what it has taken (`spreader_seat`).
 """
 
 from __future__ import annotations
@@ -44,30 +44,19 @@ def lap_of_arcs(m: Module) -> tuple[Scalar, Scalar, Scalar]:
 
 
 @quantities.helper(requires=WITH_TILES)
-def tiled_share(m: Module) -> Scalar:
-    """Share of the circle through their middles that rigid modules take up [1]."""
-    return m.heater_count * m.peltier_length / (2.0 * np.pi * m.tile_radius)
-
-
-@quantities.helper(requires=WITH_TILES)
 def windowed_share(m: Module) -> Scalar:
-    """Share of the same circle that the windows below rigid modules take up [1]."""
+    """Share of the circle through their middles that the windows below rigid modules take up [1]."""
     return m.heater_count * (m.cold_plate_length - 2.0 * m.window_ledge) / (2.0 * np.pi * m.tile_radius)
 
 
 @quantities.helper(requires=WITH_TILES, default=None)
 def lap_on_spreader(m: Module) -> shear_lag.AnnularLap:
-    """Frozen layer between the plate and a spreader with its modules, which are sheared between that and the floor."""
+    """Frozen layer between the plate and a spreader, whose inner rim takes a share of the torque."""
     plate = np.sqrt(m.driven_share) * m.structure_shear_modulus * m.backing_depth
     metal = m.driven_share * m.spreader_shear_modulus * m.spreader_depth
-    modules = m.tiled_share * m.peltier_shear_modulus * m.peltier_thickness
-    floor = (1.0 - m.windowed_share) * m.structure_shear_modulus * m.floor_web
     layer = m.driven_share / (m.pcl_thickness / m.frozen_shear_modulus + m.liner_areal_compliance)
-    below, radii = (
-        m.tiled_share * m.peltier_shear_modulus / m.peltier_thickness,
-        (m.pcl_inner_radius, m.pcl_outer_radius),
-    )
-    return shear_lag.lap_of_three((layer, below), (1.0 / plate, 1.0 / (metal + modules), 1.0 / floor), radii)
+    radii = m.pcl_inner_radius, m.pcl_outer_radius
+    return shear_lag.annular_lap(layer, 1.0 / plate, 1.0 / metal, radii, m.seat_path.inward)
 
 
 @quantities.helper()
@@ -82,27 +71,6 @@ def over_arcs_compliance(m: Module) -> Scalar:
     if m.lap_on_spreader is None:
         return structure.evenly_relieved(*radii) / whole + over_thickness
     return shear_lag.upper_share(m.lap_on_spreader) / whole + shear_lag.unevenness(m.lap_on_spreader) * over_thickness
-
-
-def _ledge_radii(m: Module) -> tuple[Scalar, Scalar]:
-    """Return the radii of the middles of the ledges that a rigid module lies on, inner and outer [m]."""
-    reach = 0.5 * (m.peltier_width - m.window_ledge)
-    return m.tile_radius - reach, m.tile_radius + reach
-
-
-def _under_tiles_compliance(m: Module) -> Scalar:
-    """Return the compliance of the floor between the ledges of rigid modules, and up to the arcs' rim [rad/(N*m)]."""
-    inner, outer = _ledge_radii(m)
-    on_ledge = m.heater_count * m.cold_plate_length * m.window_ledge * m.peltier_shear_modulus / m.peltier_thickness
-    seats = 1.0 / (on_ledge * inner**2), 1.0 / (on_ledge * outer**2)
-    ribs = structure.ring_stiffness(m.structure_shear_modulus, (1.0 - m.windowed_share) * m.floor_web, inner, outer)
-    opened = m.cold_plate_length - 2.0 * m.window_ledge
-    hoop = structure.hoop_compliance(
-        m.structure_youngs_modulus, m.floor_web * m.window_ledge, opened, m.heater_count, inner
-    )
-    rims = outer - 0.5 * m.window_ledge, m.pcl_outer_radius
-    beyond = structure.ring_stiffness(m.structure_shear_modulus, m.tiled_share * m.floor_web, *rims)
-    return structure.under_ledges_compliance(seats, 1.0 / ribs + hoop, 1.0 / beyond)
 
 
 def _under_pads_compliance(m: Module) -> Scalar:
@@ -127,8 +95,8 @@ def _under_pads_compliance(m: Module) -> Scalar:
 
 @quantities.helper()
 def under_arcs_compliance(m: Module) -> Scalar:
-    """Compliance of the floor below the arcs, out to their rim [rad/(N*m)]."""
-    return _under_pads_compliance(m) if m.heater_form == CUT else _under_tiles_compliance(m)
+    """Compliance of the floor below the arcs, or around spreaders, out to their rim [rad/(N*m)]."""
+    return _under_pads_compliance(m) if m.heater_form == CUT else m.seat_path.floor
 
 
 @quantities.helper(requires=WITH_LINER, default=1.0)

@@ -28,7 +28,6 @@ from tvimdesign.physics.heat_flow.layer_end import room
 from tvimdesign.physics.heat_flow.lumps import BEYOND, STRIP, WAYS, Body, Link
 from tvimdesign.physics.heat_flow.peltier import SIDE_SHARE
 from tvimdesign.physics.heat_flow.shape_factors import ACROSS
-from tvimdesign.physics.solids import structure
 
 quantities = QuantityGroup("Switch")
 
@@ -221,20 +220,24 @@ def spreader_resistance(m: Module) -> Scalar:
 
 @quantities.helper()
 def pad_compliance(m: Module) -> Scalar:
-    """Compliance of the pads in shear about the axis [rad/(N*m)]: modules, and the spreader on them."""
+    """Compliance in shear about the axis [rad/(N*m)] of pads, or of spreaders and the adhesive of their seats."""
     if m.heater_form == CUT:
         return m.peltier_thickness / (m.peltier_shear_modulus * m.held_pads)
-    tiles = m.peltier_thickness / (m.peltier_shear_modulus * m.tile_section.polar)
-    return tiles + m.spreader_depth / (m.spreader_shear_modulus * m.held_pads)
+    return m.seat_path.adhesive + m.spreader_depth / (m.spreader_shear_modulus * m.held_pads)
 
 
 @quantities.helper()
 def pad_foundation(m: Module) -> Scalar:
-    """Tension on the layer over how far pads and spreader stretch under it [Pa/m]; a pad has E = 3 G."""
-    pad = INCOMPRESSIBLE * m.peltier_shear_modulus / m.peltier_thickness
+    """Tension on the layer over how far a pad stretches under it, E = 3 G, or a spreader bends between its rims [Pa/m].
+
+    Modules in grease do not hold a spreader down: it is a strip as wide as an arc, simply supported along both rims, of
+    the mean deflection q w^4/(120 D) (Young and Budynas, Roark's Formulas, table 8.1).
+    """
     if m.heater_form == CUT:
-        return pad
-    return structure.series(m.heater_coverage * pad, m.spreader_youngs_modulus / m.spreader_thickness)
+        return INCOMPRESSIBLE * m.peltier_shear_modulus / m.peltier_thickness
+    poisson = 0.5 * m.spreader_youngs_modulus / m.spreader_shear_modulus - 1.0
+    rigidity = m.spreader_youngs_modulus * m.spreader_depth**3 / (12.0 * (1.0 - poisson**2))
+    return 120.0 * rigidity / m.arc_width**4
 
 
 BELOW_PADS = ("around", LEDGES)

@@ -141,10 +141,13 @@ def heater_along(m: Module) -> Scalar:
 def pad_edge(m: Module) -> Scalar:
     """Conductance from one side of the pads to the walls of their pockets [W/K]: along the pads, and into the wall.
 
-    Tiles stand in air there; the spreader on them touches the wall.
+    Tiles stand in air there; the spreader on them meets the wall through its seat, and at its ends a slot.
     """
-    height = 0.5 * m.peltier_thickness if m.heater_form == CUT else m.spreader_depth
-    return lumps.in_series(m.heater_along, m.pad_edge_contact * height * m.edge_length)
+    if m.heater_form == CUT:
+        return lumps.in_series(m.heater_along, m.pad_edge_contact * 0.5 * m.peltier_thickness * m.edge_length)
+    seat = m.heater_adhesive_conductivity / m.spreader_gap * m.seat_length
+    ends = m.pad_edge_contact * (m.edge_length - m.seat_length)
+    return lumps.in_series(m.heater_along, (seat + ends) * m.spreader_depth)
 
 
 def across(cold_end: ColdEnd | None) -> columns.Columns:

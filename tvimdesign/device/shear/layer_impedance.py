@@ -19,6 +19,7 @@ from tvimdesign.device.components.liner import WITH_LINER, traction_with_liner
 from tvimdesign.device.core.heat.heater_form import CUT
 from tvimdesign.device.core.impedance.structure_stiffness import CORE_PARTS
 from tvimdesign.device.core.impedance.warm_structure import Compliances
+from tvimdesign.device.shear.spreader_seat import PAD_PARTS, TILE_PARTS
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Rule, Scalar
 from tvimdesign.device.table.quantity_group import QuantityGroup
@@ -168,13 +169,14 @@ def layer_holding_torque(m: Module) -> Scalar:
     return layer.torque_at_traction(traction, m.layer_polar_moment, m.pcl_outer_radius)
 
 
-_PARTS = ("layer_holding_torque", *CORE_PARTS, *LINK_PARTS, "bearing_holding_torque")
+_PARTS = ("layer_holding_torque", *TILE_PARTS, *PAD_PARTS, *CORE_PARTS, *LINK_PARTS, "bearing_holding_torque")
 
 
 @quantities.output("N*m", headline=True, least_of=_PARTS)
 def holding_torque(m: Module) -> Scalar:
-    """Torque the frozen joint holds: the least of what the layer, the core, what holds the link, and bearings bear."""
-    held = np.fmin(np.fmin(m.layer_holding_torque, m.core_holding_torque), m.link_holding_torque)
+    """Torque the frozen joint holds from link to floor: the least of what the parts on its way bear."""
+    rotor = np.fmin(m.core_holding_torque, m.link_holding_torque)
+    held = np.fmin(np.fmin(m.layer_holding_torque, m.seat_holding_torque), rotor)
     return with_bearings(m.bearing, held, m.bearing_holding_torque)
 
 

@@ -11,7 +11,8 @@ the floor for a thermistor under the spreader; slots for leads are in `leads.py`
 
 Pockets of pads and spreaders in the floor, and of liners in the rotor plate, and the level of that plate.
 
-A pocket has the outline of an arc, wider by `slip_clearance` on every side, so that what has that outline goes in.
+A pocket has the outline of an arc, longer by a slip clearance at either end and wider by `heater_gap`, so that what
+has that outline goes in.
 
 The rotor plate stands on the PCL layer, which lies on the floor.
 
@@ -27,6 +28,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from tvimdesign.device.components.heater_adhesive import WITH_PADS
 from tvimdesign.device.core.clearances import MM
 from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
@@ -124,13 +126,13 @@ holds = QuantityGroup("Impedance")
 @places.output("mm")
 def pocket_inner_radius(m: Module) -> Scalar:
     """Inner radius of the pads' pockets."""
-    return m.pcl_inner_radius - m.slip_clearance
+    return m.pcl_inner_radius - m.heater_gap
 
 
 @places.output("mm")
 def pocket_outer_radius(m: Module) -> Scalar:
     """Outer radius of the pads' pockets."""
-    return m.pcl_outer_radius + m.slip_clearance
+    return m.pcl_outer_radius + m.heater_gap
 
 
 @places.output("deg")
@@ -151,19 +153,14 @@ def pad_ledge(m: Module) -> Scalar:
     return m.window_ledge - (m.slip_clearance if m.heater_form == CUT else m.tile_clearance)
 
 
-def _ledge_area(m: Module) -> Scalar:
-    """Return what all pads, or tiles, lie on beside their windows [m^2]."""
-    lying = m.pad_section.area if m.heater_form == CUT else m.heater_count * m.cold_plate_length * m.peltier_width
-    return lying - m.window_section.area
-
-
-@holds.output("MPa")
+@holds.output("MPa", requires=WITH_PADS)
 def ledge_tension(m: Module) -> Scalar:
-    """Tension that holds the pads on their ledges while the layer freezes: the adhesive there has to bear it.
+    """Tension that holds pads cut to the arcs on their ledges while the layer freezes: the adhesive there bears it.
 
     The layer pulls with `freezing_traction`, its highest, over all of it, and with no more than its bond bears.
     """
-    return np.fmin(m.freezing_traction, m.pcl_bond_strength) * m.pcl_area / _ledge_area(m)
+    glued = m.pad_section.area - m.window_section.area
+    return np.fmin(m.freezing_traction, m.pcl_bond_strength) * m.pcl_area / glued
 
 
 levels = QuantityGroup("Layout")

@@ -18,8 +18,7 @@ A bonded ring between sheets, of which a torque enters one at the inner edge: a 
 
 With F the share of the torque T that a layer of the stiffness k has handed over from one sheet to the next, up to r,
 and the compliances a of its sheets, F'' - 3 F'/r = k (a_below M_below - a_above M_above)/T; F is 0 at the inner edge
-and 1 at the outer. Of two sheets, l^2 = k (a_1 + a_2). Of three with two layers between, the same holds of two
-mixtures of both F, each with an l of its own: the eigenvectors of what couples them.
+and 1 at the outer, l^2 = k (a_above + a_below).
 Sources: Volkersen, Luftfahrtforschung 15 (1938) 41-47, the same of a straight lap. F, but for what it is far from the
 edges, is r^2 times the modified Bessel functions of order 2, here by the first term of their uniform expansion,
 e^(+-p)/sqrt(q), q^2 = 4 + l^2 r^2, p' = q/r (NIST Digital Library of Mathematical Functions, 10.41), which is exact
@@ -169,34 +168,16 @@ class AnnularLap(NamedTuple):
     """Outer radius [m]."""
 
 
-def annular_lap(layer: Any, upper: Any, lower: Any, radii: tuple[Any, Any]) -> AnnularLap:
+def annular_lap(layer: Any, upper: Any, lower: Any, radii: tuple[Any, Any], inward: Any = 0.0) -> AnnularLap:
     """Return the lap of a layer of the stiffness k per area [Pa/m] between sheets of the compliances 1/(G h)
     [1/(Pa*m)].
 
-    Each counts with the share of the circle that it takes up.
+    Each counts with the share of the circle that it takes up. The lower sheet hands the share `inward` of the torque on
+    at its inner edge, where the upper one has all of it.
     """
     both = upper + lower
-    rest = lower / both
+    rest = (1.0 - inward) * lower / both
     return AnnularLap((Mode(np.sqrt(layer * both), rest - 1.0, rest),), rest, *radii)
-
-
-def lap_of_three(layers: tuple[Any, Any], sheets: tuple[Any, Any, Any], radii: tuple[Any, Any]) -> AnnularLap:
-    """Return the lap of two layers [Pa/m] between three sheets [1/(Pa*m)]; the torque enters the first and leaves the
-    third.
-
-    What each mode has of the first layer's F is its projection, (A - l_other^2)/(l^2 - l_other^2), A what couples both.
-    """
-    (first, second), (upper, between, lower) = layers, sheets
-    own, other, cross = first * (upper + between), second * (between + lower), first * between
-    middle, half = 0.5 * (own + other), np.sqrt(0.25 * (own - other) ** 2 + cross * second * between)
-    whole = upper * between + upper * lower + between * lower
-    long = upper * (between + lower) / whole, upper * between / whole
-    modes = []
-    for square, away in ((middle + half, middle - half), (middle - half, middle + half)):
-        of_first, of_second = (own - away) / (square - away), -cross / (square - away)
-        ends = (tuple(edge - one for one in long) for edge in (0.0, 1.0))
-        modes.append(Mode(np.sqrt(square), *(of_first * one + of_second * two for one, two in ends)))
-    return AnnularLap(tuple(modes), between * lower / whole, *radii)
 
 
 def edge_rises(lap: AnnularLap) -> tuple[Any, Any]:

@@ -72,7 +72,7 @@ def at_loads(module: ResolvedModule, rows: Mapping[str, float]) -> dict[str, flo
     names = ("held_spring_rate", "spring_winding", "holding_torque")
     rate, winding, held = (float(module.table.evaluate(_drawn(module), names)[name]) for name in names)
     torques = {"coil_stress": rate * winding, "tang_stress": rate * winding}
-    torques |= dict.fromkeys(("core_stress", "plate_stress", "edge_traction", "foot_force"), held)
+    torques |= dict.fromkeys(("core_stress", "plate_stress", "edge_traction", "seat_traction", "foot_force"), held)
     return {name: value * torques.get(name, 1.0) for name, value in rows.items()}
 
 
@@ -115,6 +115,7 @@ WORDS = {
         "of the force across it: equivalent stress by VDI 2230",
     ),
     "edge_traction": ("MPa", "shear along the arcs' edges at the holding torque, a mean over one thickness"),
+    "seat_traction": ("MPa", "shear of the adhesive along the spreaders' rims at the holding torque, the higher mean"),
 }
 """Unit and meaning of each row."""
 
@@ -150,8 +151,14 @@ def model_values(module: ResolvedModule) -> dict[str, float]:
     plate, floor = values["plate_stiffness"], values["floor_stiffness"]
     if shear:
         traction = values["layer_edge_traction"] / values["holding_torque"] * 1e-6
-        return {**rows, "plate": plate, "floor": floor, "edge_traction": traction}
+        return {**rows, "plate": plate, "floor": floor, "edge_traction": traction, **_seats(module)}
     return {**rows, **_vanes(values["rotor_vane_stiffness"], plate, values["housing_vane_stiffness"], floor)}
+
+
+def _seats(module: ResolvedModule) -> dict[str, float]:
+    """Return the shear of the adhesive around spreaders at 1 N*m [MPa], if the module has any."""
+    path = module.table.evaluate(_drawn(module), ("seat_path",))["seat_path"]
+    return {} if path is None else {"seat_traction": 1e-6 * float(max(path.inner_traction, path.outer_traction))}
 
 
 def plate_stress(module: ResolvedModule, thickness: float, core: float) -> float:
@@ -209,7 +216,8 @@ def joint_rows(joint: Mapping[str, float]) -> dict[str, float]:
     plate, floor = joint["plate"], joint["housing"]
     if "rotor_vanes" in joint:
         return {**rows, **_vanes(joint["rotor_vanes"], plate, joint["housing_vanes"], floor)}
-    return {**rows, "plate": plate, "floor": floor, "edge_traction": joint["edge_highest"]}
+    seats = {"seat_traction": max(joint["seat_inner"], joint["seat_outer"])} if "seat_outer" in joint else {}
+    return {**rows, "plate": plate, "floor": floor, "edge_traction": joint["edge_highest"], **seats}
 
 
 def _vanes(rotor: float, plate: float, housing: float, floor: float) -> dict[str, float]:

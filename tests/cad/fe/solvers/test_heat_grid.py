@@ -132,7 +132,9 @@ def test_a_pad_in_its_pocket_and_a_layer_between_lips_stand_off_by_a_slot() -> N
     r, a, z = grid.along.middles, grid.around.middles, grid.up.middles
     within = (r > inner - 0.19) & (r < outer + 0.19)
     arc = a < 0.5 * ARC["arc_span"]
-    assert set(found[np.ix_(within, arc, (z > -depth) & (z < 0.0))].ravel()) == {"edge"}
+    assert set(found[np.ix_(within, arc, (z > -depth) & (z < 0.0))].ravel()) == {"edge", "seat"}
+    rims = within & ((r < inner) | (r > outer))
+    assert set(found[np.ix_(rims, arc, (z > -ARC["spreader_depth"]) & (z < 0.0))].ravel()) == {"seat"}
     assert set(found[np.ix_(within, arc, z < -depth)].ravel()) == {"housing"}
     assert "edge" not in found[~within]
     for edge in (inner - 0.19, inner, outer, outer + 0.19):

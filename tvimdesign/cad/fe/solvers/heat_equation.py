@@ -198,6 +198,8 @@ class Heated:
         sheets = {"near": c["hot_contact"] * thin, "far": c["rotor_contact"] * thin,
                   "spread": c.get("spreader_contact", 1.0) * thin,
                   "edge": edge_contact(c) * self.grid.slot * 1e-3}  # fmt: skip
+        if "heater_adhesive_conductivity" in c:
+            sheets["seat"] = c["heater_adhesive_conductivity"] / c["spreader_gap"] * self.grid.slot * 1e-3
         legs = c["peltier_conductance"] / c["peltier_area"] * (1.0 - 2.0 * heat_lines.PAD_FILM) * self._pad_depth()
         beside = c.get("pad_conductivity", ALONG_PADS)
         through = {"hot": WELL, "legs": legs, "cold": WELL}

@@ -91,6 +91,8 @@ def _cut_slots(grid: Grid, found: Any) -> None:
     beside = (z < 0.0) & (z > -mm["pad_depth"]) & ~within & _in_pocket(grid)
     found[beside & (found == "")] = "housing"  # the slot is as wide as its contact says, whatever the pocket is
     found[near & (z < 0.0) & (z > -mm["pad_depth"]) & (found == "housing")] = "edge"
+    along_rims = (a < 0.5 * mm["arc_span"]) & ((r < inner) | (r > outer)) & (z > -mm["spreader_depth"])
+    found[along_rims & (found == "edge")] = "seat"
     for beside, column in ((1, inner - 0.5 * slot), (-1, outer + 0.5 * slot)):
         i = int(np.searchsorted(grid.along.ends, column)) - 1
         found[i][(found[i] == "rotor") & (found[i + beside] == "layer")] = "lip"
@@ -156,7 +158,7 @@ CONTACTS = {
     ("hot", "layer"): "near", ("layer", "rotor"): "far", ("hot", "spreader"): "spread", ("layer", "spreader"): "near",
     ("layer", "key"): "key",
 }  # fmt: skip
-SHEETS = {"near", "far", "spread", "edge", "lip"}
+SHEETS = {"near", "far", "spread", "edge", "seat", "lip"}
 
 
 def _sheet(before: str, after: str) -> str:

@@ -41,6 +41,8 @@ RUBBER = 100.0
 """Bulk over shear modulus from which a pad hardly changes its volume."""
 LOWER, HIGHER = 2, 3
 """Order of displacements, and in pads of rubber that are pressed."""
+GRADING, GRADING_AT_SEATS = 0.6, 0.4
+"""Growth of elements from one to the next; at the larger one lips beside a thin seat of adhesive get no mesh."""
 METAL = 0.33
 """Poisson's ratio of a spreader where its shear modulus is not told."""
 
@@ -55,7 +57,8 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     whole = Glue(joint_solids.parts(folder, mm, coarser, pressed))
     joint_solids.refine(whole, mm, coarser)
     joint_solids.name_faces(whole, mm)
-    sizes = {"maxh": 12.0 * coarser, "grading": 0.6, "curvaturesafety": 1.0, "segmentsperedge": 0.5}
+    grading = GRADING_AT_SEATS if "spreader_gap" in mm and mm["spreader_depth"] and not is_rubber else GRADING
+    sizes = {"maxh": 12.0 * coarser, "grading": grading, "curvaturesafety": 1.0, "segmentsperedge": 0.5}
     mesh = elastic.meshed(OCCGeometry(whole), 2, **sizes)
     shear, lame = _moduli(mesh, values)
     with TaskManager():
@@ -77,6 +80,8 @@ def solve(folder: Path, coarser: float = 1.0, field: Path | None = None) -> elas
     result |= joint_samples.at_plate(mesh, tensor, mm, torque)
     if not mm.get("vane_count"):
         result |= joint_samples.at_edges(mesh, tensor, mm, torque)
+    if "seat" in mesh.GetMaterials():
+        result |= joint_samples.at_seats(mesh, tensor, mm, torque)
     if field:
         elastic.write_field(field, mesh, elastic.mises(tensor) * 1e3 / torque, found)
     return result
@@ -95,6 +100,9 @@ def _moduli(mesh: Any, values: dict[str, float]) -> tuple[Any, Any]:
         youngs = values["spreader_youngs_modulus"] * 1e-6
         shear["spreader"] = values.get("spreader_shear_modulus", youngs / 2e-6 / (1 + METAL)) * 1e-6
         poisson["spreader"] = youngs / 2 / shear["spreader"] - 1
+    if "seat" in mesh.GetMaterials():
+        poisson["seat"] = values["heater_adhesive_poissons_ratio"]
+        shear["seat"] = values["heater_adhesive_youngs_modulus"] * 1e-6 / 2 / (1 + poisson["seat"])
     if "liner" in mesh.GetMaterials():
         poisson["liner"] = values["liner_poissons_ratio"]
         shear["liner"] = values["liner_youngs_modulus"] * 1e-6 / 2 / (1 + poisson["liner"])
@@ -124,7 +132,7 @@ class Held:
         dilated = lame * Trace(elastic.strain_of(u)) * Trace(elastic.strain_of(v))
         # Pads hardly change their volume, and whole tetrahedra of theirs would lock: one point of each is asked, or
         # four of a cubic one.
-        others, few = mesh.Materials("pcl|rotor|housing|spreader|liner"), {TET: IntegrationRule(TET, order - 1)}
+        others, few = mesh.Materials("pcl|rotor|housing|spreader|liner|seat"), {TET: IntegrationRule(TET, order - 1)}
         worked = sheared * dx + dilated * dx(definedon=others) + dilated * dx("pad", intrules=few)
         self.form = BilinearForm(worked, symmetric=True).Assemble()
         self.inverse = self.form.mat.Inverse(self.space.FreeDofs(), "sparsecholesky")

@@ -94,6 +94,32 @@ def at_edges(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     return found | {"edge_highest": highest}
 
 
+def at_seats(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
+    """Return the shear [MPa] at one newton metre of the adhesive around the spreaders, along its inner and outer rims.
+
+    Means over its height, in the middle of its width: the mean of all rims, and the highest over two millimetres.
+    """
+    inner, outer, span = (mm[name] for name in ("pcl_inner_radius", "pcl_outer_radius", "arc_span"))
+    half, shears = 0.5 * mm["spreader_gap"], Found()
+    levels = -(np.arange(4) + 0.5) / 4 * mm["spreader_depth"]
+    around = tensor[0, 1] * (x * x - y * y) + (tensor[1, 1] - tensor[0, 0]) * x * y
+    sliding = around / (x * x + y * y)
+    for name, radius in (("inner", inner - half), ("outer", outer + half)):
+        count = max(int(span * radius / 0.5), 8)
+        means = []
+        for arc in range(round(mm["arc_count"])):
+            turn = span * ((np.arange(count) + 0.5) / count - 0.5)
+            turn, up = np.meshgrid(
+                turn + 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"], levels, indexing="ij"
+            )
+            values = elastic.sampled(mesh, sliding, radius * np.cos(turn), radius * np.sin(turn), up)
+            means.append(np.abs(np.nanmean(values, axis=1)) * 1e3 / torque)
+        stretch = max(round(STRETCH * count / (span * radius)), 1)
+        running = [np.convolve(mean, np.ones(stretch) / stretch, "valid").max() for mean in means]
+        shears |= {f"seat_{name}": float(np.nanmean(means)), f"seat_{name}_highest": float(np.nanmax(running))}
+    return shears
+
+
 def in_bodies(mesh: Any, tensor: Any, mm: Found, torque: float) -> Found:
     """Return layer's shear and core's von Mises stress [MPa] at one newton metre."""
     points = mesh.MapToAllElements(IntegrationRule(TET, 2), VOL)

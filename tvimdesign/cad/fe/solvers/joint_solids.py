@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from netgen.occ import Axis, Box, Cylinder, Dir, HalfSpace, OCCGeometry, Pnt, Vec
 
-FOOT, EDGE = 0.5, 2.0
-"""Elements at the core's foot and along the arcs' edges [mm]."""
+FOOT, EDGE, SEAT = 0.5, 2.0, 0.6
+"""Elements at the core's foot, along the arcs' edges, and in the adhesive around a spreader [mm]."""
 SIZES = {"plate": 6.0, "housing": 12.0, "layer": 5.0}  # mm
 PRESSED, RUBBER = 0.4, 0.8
 """Size of elements in a pad that is pressed, over its thickness; and in one of rubber, which keeps its volume: there
@@ -30,9 +30,15 @@ def tube(inner: float, outer: float, bottom: float, top: float) -> Any:
     return whole - Cylinder(Pnt(0, 0, bottom - 1), Dir(0, 0, 1), r=inner, h=top - bottom + 2) if inner else whole
 
 
-def sectors(mm: dict[str, float], bottom: float, top: float, wider: float = 0.0, ledge: float = 0.0) -> list[Any]:
-    """Return one sector with sharp corners for each arc of PCL, wider on each side, or narrower by a ledge [mm]."""
-    inner, outer = mm["pcl_inner_radius"] - wider + ledge, mm["pcl_outer_radius"] + wider - ledge
+def sectors(
+    mm: dict[str, float], bottom: float, top: float, wider: float = 0.0, ledge: float = 0.0, rims: float | None = None
+) -> list[Any]:
+    """Return one sector with sharp corners for each arc of PCL, wider on each side, or narrower by a ledge [mm].
+
+    `rims` is by how much it is wider along its rims, if not as much as at its ends.
+    """
+    beyond = (wider if rims is None else rims) - ledge
+    inner, outer = mm["pcl_inner_radius"] - beyond, mm["pcl_outer_radius"] + beyond
     half, found = 0.5 * mm["arc_span"] - ledge / mm["pcl_inner_radius"], []
     for arc in range(round(mm["arc_count"])):
         middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
@@ -71,12 +77,13 @@ def parts(folder: Path, mm: dict[str, float], coarser: float, pressed: float = P
         housing = _ring_housing(read("housing"), mm, [read(path.stem) for path in sorted(heaters)])
     else:
         housing = _arc_housing(read("housing"), mm, _tile_pockets(mm) if rigid else _pad_pockets(mm))
-    kinds = _pressed(folder, mm, pressed) if blocks else _sheared(folder, mm)
+    kinds = _pressed(folder, mm, pressed) if blocks else _sheared(folder)
     found = [(rotor, "rotor", SIZES["plate"]), (housing, "housing", SIZES["housing"])]
     found += [(read(name), label, size) for name, label, size in kinds]
     found += [(liner, "liner", SIZES["layer"]) for liner in liners]
     if rigid:
-        found += [(one, "spreader", SIZES["layer"]) for one in sectors(mm, -mm["spreader_depth"], 0.0)]
+        spreaders = [(plate, "spreader", SIZES["layer"]) for plate in sectors(mm, -mm["spreader_depth"], 0.0)]
+        found += [*spreaders, *((adhesive, "seat", SEAT) for adhesive in _seats(mm))]
     elif not blocks:
         found += [(pad, "pad", SIZES["layer"]) for pad in sectors(mm, -mm["peltier_thickness"], 0.0)]
     for shape, label, size in found:
@@ -106,11 +113,19 @@ def _pressed(folder: Path, mm: dict[str, float], pressed: float) -> list[tuple[s
     return found
 
 
-def _sheared(folder: Path, mm: dict[str, float]) -> list[tuple[str, str, float]]:
-    """Return files of the arcs of PCL, and of the rigid modules below them, with name and size of elements."""
-    kinds = {"pcl": "pcl", "peltier_pad": "pad"} if mm["spreader_depth"] else {"pcl": "pcl"}
-    named = {path.stem: label for kind, label in kinds.items() for path in sorted(folder.glob(f"{kind}*.step"))}
-    return [(name, label, SIZES["layer"]) for name, label in named.items()]
+def _sheared(folder: Path) -> list[tuple[str, str, float]]:
+    """Return files of the arcs of PCL, with name and size of elements.
+
+    Rigid modules lie in grease and slide: they are left out.
+    """
+    return [(path.stem, "pcl", SIZES["layer"]) for path in sorted(folder.glob("pcl*.step"))]
+
+
+def _seats(mm: dict[str, float]) -> list[Any]:
+    """Return the adhesive along both rims of each spreader."""
+    low, gap = -mm["spreader_depth"], mm["spreader_gap"]
+    whole, inside = sectors(mm, low, 0.0, rims=gap), sectors(mm, low - 1.0, 1.0)
+    return [solid for around, plate in zip(whole, inside, strict=True) for solid in (around - plate).solids]
 
 
 def _ring_housing(whole: Any, mm: dict[str, float], pads: list[Any]) -> Any:
@@ -155,7 +170,7 @@ def _arc_housing(whole: Any, mm: dict[str, float], openings: list[Any]) -> Any:
     housing = (whole - tube(0, far, 0.0, far)) + wall  # bosses of the wall left out
     # Filled before it is cut, else the rounded openings' edges stay in its faces. Holes of leads are filled too.
     deep = mm["floor_thickness"] if mm["spreader_depth"] else mm["peltier_thickness"] + 0.2
-    for filling in sectors(mm, -deep, 0.0, wider=mm["slip_clearance"] + 0.1):
+    for filling in sectors(mm, -deep, 0.0, wider=mm["slip_clearance"] + 0.1, rims=mm["heater_gap"] + 0.1):
         housing += filling
     for opening in openings:
         housing -= opening
@@ -174,7 +189,7 @@ def _tile_pockets(mm: dict[str, float]) -> list[Any]:
     low, top = -mm["floor_thickness"] - 1.0, -mm["pad_depth"]
     deep, long = (0.5 * mm[size] - mm["window_ledge"] for size in ("peltier_width", "cold_plate_length"))
     porch = 0.5 * mm["peltier_porch"]
-    count, found = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP)
+    count, found = round(mm["tiles_per_arc"]), sectors(mm, top, 1.0, wider=PAD_GAP, rims=mm["spreader_gap"])
     for arc in range(round(mm["arc_count"])):
         middle = 2 * np.pi * arc / mm["arc_count"] + np.pi / mm["spring_count"]
         for tile in range(count):

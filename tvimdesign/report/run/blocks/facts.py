@@ -14,6 +14,7 @@ from tvimdesign.report.output.axis_labels import in_labels, label
 from tvimdesign.report.output.tables import ends_text, number, percent, range_text
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
+from tvimdesign.report.run.blocks.tables import torque_path
 from tvimdesign.report.run.blocks.verdict import measure_first, most_in_doubt
 from tvimdesign.report.run.uncertainty_data import cost_of_margins, gain_without_margins, reached_in_words, yield_of
 from tvimdesign.report.run.why import binding
@@ -170,6 +171,7 @@ def more_facts(answer: StudyResult, uncertainty: Mapping[str, Any], front: Any) 
     facts = [
         Fact("Soft", list(_soft(answer, uncertainty))),
         Fact("Stiff", list(_stiff(answer, uncertainty))),
+        Fact("Frozen torque", list(_weakest(answer))),
         Fact("Accepts", list(_accepts(answer))),
         *(Fact("Idealized ~", [_idealized(idealization, answer, table)]) for idealization in answer.idealizations),
         *chosen_fact(answer), *_current(answer, table), *front_fact(front, table), *measured_fact(uncertainty),
@@ -220,6 +222,13 @@ def stalling_in_words(softening: Curves | None, time: float) -> str:
     if math.isinf(steep):
         return "it stalls: a little less heat and it is never soft"
     return f"it stalls: 1 % less heat takes {steep:.0f} % longer"
+
+
+def _weakest(answer: StudyResult) -> Iterator[str]:
+    """Name the weakest part between link and ground, and the next."""
+    parts = torque_path(answer)[:2]
+    for words, (name, torque) in zip(("weakest", "next"), parts, strict=False):
+        yield f"{words}: {label(name)}, {number(torque, _DIGITS)} N·m"
 
 
 def _accepts(answer: StudyResult) -> Iterator[str]:

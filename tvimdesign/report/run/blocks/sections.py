@@ -51,6 +51,7 @@ def module_section(answered: AnsweredStudy) -> Section:
     if answer.found:
         blocks += [
             tables.points_grid(answer),
+            Folded("Way of the frozen torque", [tables.torque_path_grid(answer)]),
             Folded("What the module is", [tables.module_grid(answer)]),
             Folded("Every limit that binds or is required", [tables.checks_grid(answer)]),
         ]

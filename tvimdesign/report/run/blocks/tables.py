@@ -79,6 +79,39 @@ def module_grid(answer: StudyResult) -> Grid:
     return grid("What the module is", ("group", "quantity", "value", "unit", "meaning"), rows, right=(2,), code=(1,))
 
 
+def _parts_of_path(answer: StudyResult) -> list[str]:
+    """Return the torques that the parts between link and floor bear, by name."""
+    table = table_for(answer.design.mode)
+    return [
+        name for name in table.output("holding_torque").least_of if table.output(name).exists(answer.design.choices)
+    ]
+
+
+def torque_path(answer: StudyResult) -> list[tuple[str, float]]:
+    """Return the parts on the way of the frozen torque from link to ground, and the torque that each bears [N*m].
+
+    The weakest is first. Feet bear what their safety leaves beside the others.
+    """
+    values = answer.design.values
+    borne = {name: values[name] for name in _parts_of_path(answer) if name in values}
+    if "foot_safety" in values:
+        borne["foot_safety"] = values["foot_safety"] * values["holding_torque"]
+    return sorted(borne.items(), key=lambda part: part[1])
+
+
+def torque_path_grid(answer: StudyResult) -> Grid:
+    """Return those parts with their safety against the torque the study asks for, or against the one that is held."""
+    table, limits = table_for(answer.design.mode), answer.design.study["require"]
+    least = [limit["limit"] for limit in limits if (limit["output"], limit["sense"]) == ("holding_torque", ">=")]
+    against = max(least, default=0.0) or answer.design.values["holding_torque"]
+    rows = [
+        (name, number(torque), number(torque / against, 3) if against else "", table.output(name).description)
+        for name, torque in torque_path(answer)
+    ]
+    title = f"Way of the frozen torque from link to ground, the weakest first, against {number(against)} N·m"
+    return grid(title, ("part", "bears [N·m]", "safety", "meaning"), rows, right=(1, 2))
+
+
 def currents_grid(answer: StudyResult) -> Grid:
     """Return the currents that follow a profile, moment by moment; the current is linear between these moments."""
     table, rows = table_for(answer.design.mode), []
