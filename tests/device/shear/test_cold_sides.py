@@ -80,7 +80,7 @@ def test_the_pull_of_the_layer_comes_to_the_ledges() -> None:
 
 def test_the_bill_has_adhesive_or_grease_for_pads() -> None:
     def kinds(mode: str, changes: dict[str, Any]) -> list[str]:
-        return [one.kind for one in beside(design_of("held", changes, mode), {})]
+        return [item.kind for item in beside(design_of("held", changes, mode), {})]
 
     assert "heater_adhesive" in kinds("shear", {})
     assert "thermal_grease" not in kinds("shear", {})

@@ -34,7 +34,7 @@ from tvimdesign.device.core.heat.heater_form import CUT, WITH_TILES
 from tvimdesign.device.table.module import Module
 from tvimdesign.device.table.quantity import Scalar, at_least
 from tvimdesign.device.table.quantity_group import QuantityGroup
-from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, rectangle_at, stacked
+from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at, stacked
 
 tile_places = QuantityGroup("Layout", WITH_TILES)
 tile_weights = QuantityGroup("Size and weight", WITH_TILES)
@@ -83,12 +83,6 @@ def lead_angle(m: Module) -> Scalar:
 def tile_pitch(m: Module) -> Scalar:
     """Angle from one tile of an arc to the next."""
     return (m.arc_span - 2.0 * m.lead_angle) / m.tiles_per_arc
-
-
-@tile_weights.helper(default=NOTHING)
-def tile_section(m: Module) -> Section:
-    """Plan view of all tiles, of their longer plate."""
-    return rectangle_at(m.peltier_width, m.peltier_length, m.tile_radius).times(m.heater_count)
 
 
 @tile_places.output("mm")
