@@ -51,7 +51,8 @@ def test_derivatives_by_the_switch_are_those_of_differences(unity: DeviceFunctio
     supplied = np.array([numbers[name] for name in unity.switch_names])
     cycle = ca.MX.sym("cycle", len(supplied))
     jacobian = ca.Function("jacobian", [cycle], [ca.jacobian(unity.every_output(unity.start, cycle), cycle)])
-    shown = differences(lambda x: unity.every_output(unity.start, x), supplied, list(range(len(supplied))), 1e-3)
+    # Steps within 0.1 %: the margin of the thermal cut-out has a kink 0.2 % above the heater's temperature.
+    shown = differences(lambda x: unity.every_output(unity.start, x), supplied, list(range(len(supplied))), 5e-4)
     values = np.abs(np.asarray(unity.every_output(unity.start, supplied)).ravel())[:, None]
     exact = np.asarray(ca.DM(jacobian(supplied)).full())
     # Of a small rest of two large numbers, as the margin to a hot point that is just reached, the larger counts.

@@ -107,11 +107,14 @@ def strip(c: Mapping[str, float], fine: float) -> Drawing:
         if x > w and y > 0.0:
             return at_lip(x, y)
         if x > w:
-            return "slot" if y > under and x < w + slot else "floor"
+            return in_slot(y) if y > under and x < w + slot else "floor"
         if y < under:
             return "ledge" if x > inside else None
         beside = spread and x > tile and y < hot + SHEET
         return "beside tiles" if beside else next(name for height, name in heights if y < height)
+
+    def in_slot(y: float) -> str:
+        return "seat" if spread and y > hot + SHEET else "slot"
 
     def in_recess(x: float, y: float) -> str:
         if x > w:
@@ -152,13 +155,14 @@ def _strip_s_materials(c: Mapping[str, float]) -> dict[str, Material]:
     side = Material(c["pad_conductivity"], 100.0, heat)
     air, exchange = c["air_conductivity"], c["emissivity"] / (2.0 - c["emissivity"])
     spread = Material(c["spreader_conductivity"], c["spreader_conductivity"], c["spreader_heat_capacity"])
+    seat = c["seat_contact"] * air / c["pad_edge_contact"]
     return {
         "plate": solid, "lip": solid, "floor": solid, "ledge": solid, "hot": side, "cold": side,
         "legs": Material(c["pad_conductivity"], c["conductance"] * legs, heat),
         "near": Material(1e-9, c["hot_contact"] * SHEET), "far": Material(1e-9, c["rotor_contact"] * SHEET),
         "side": Material(c["rotor_contact"] * SHEET, 1e-9), "air": Material(air, air, 0.0, c["gap"] * exchange),
         "below lip": Material(air, air, 0.0, (c["gap"] - c["lip_height"]) * exchange),
-        "slot": Material(air, air), "spreader": spread,
+        "slot": Material(air, air), "seat": Material(seat, seat), "spreader": spread,
         "joint": Material(1e-9, c["spreader_contact"] * SHEET),
         "liner": Material(c["liner_conductivity"], c["liner_conductivity"], c["liner_heat_capacity"]),
         "bond": Material(1e-9, c["liner_bond"] * SHEET), "bond beside": Material(c["liner_bond"] * SHEET, 1e-9),
