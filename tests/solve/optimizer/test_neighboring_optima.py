@@ -133,10 +133,11 @@ def test_searches_begin_a_little_beside_the_best_optimum_too(monkeypatch: pytest
 def test_two_starts_that_each_found_one_half_find_the_whole(study: Study) -> None:
     # One start was kept from the better springs, the other from the better layer; no turn lies beside either.
     fixed = {name: vary for name, vary in study.vary.items() if name not in {"coil_count", "pin_radius_ratio"}}
-    optimizer = Optimizer(study.model_copy(update={"vary": fixed}))
+    module = {**study.module, "coil_count": 3.36, "pin_radius_ratio": 0.69}
+    optimizer = Optimizer(study.model_copy(update={"vary": fixed, "module": module}))
     whole = optimizer.solve()
     halves = [
-        optimizer.solve({"wire_diameter": (2.8e-3, 3.2e-3)}),
+        optimizer.solve({"wire_diameter": (2.1e-3, 3.2e-3)}),
         optimizer.solve({"pcl_outer_radius": (36e-3, 48e-3)}),
     ]
     assert all(run.start.converged for run in (whole, *halves))

@@ -49,14 +49,15 @@ def test_the_free_angle_of_the_papers_spring_is_three_times_its_stroke(
     assert preload.over_stroke == pytest.approx(3.14, abs=0.01)
     assert preload.adjusted == pytest.approx(np.radians(1.0))
     # A pin 28.5 mm from the middle, a spring at 57 mm, and a leg that passes its axis at (24.41 + 2.413 + 4) / 2 mm:
-    # over the stroke of 0.104 rad the spring unwinds by 0.1097. The preload of 0.15 less that is what it may be off.
+    # to the stop at 0.104 + 0.02 rad the spring unwinds by 0.1317. The preload of 0.15 less that is what it may be off.
+    # The rule that the preload leaves room for springs as sorted is no limit here: it would count the spread twice.
     # One in a thousand is wound so far that it breaks its pin, which is lost beside them.
-    pin = 28.5 * np.exp(0.104j)
+    pin = 28.5 * np.exp(0.124j)
     turned = np.angle(57.0 - pin) + np.arcsin(15.411 / abs(57.0 - pin)) - np.arcsin(15.411 / 28.5)
     reserve = 0.15 - abs(turned)
-    expected = NormalDist(0.0, np.radians(18.7) / 3.0).cdf(reserve)
-    assert preload.yield_as_bought.share == pytest.approx(expected, abs=5e-3)
-    assert preload.yield_adjusted.share == 1.0
+    bought, adjusted = (NormalDist(0.0, np.radians(degrees) / 3.0).cdf(reserve) for degrees in (18.7, 1.0))
+    assert preload.yield_as_bought.share == pytest.approx(bought, abs=5e-3)
+    assert preload.yield_adjusted.share == pytest.approx(adjusted, abs=5e-4)
 
 
 def test_what_is_adjusted_is_as_wide_as_adjusting_leaves_it(resolved: Callable[[str], ResolvedModule]) -> None:

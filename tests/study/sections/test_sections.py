@@ -109,8 +109,11 @@ def test_other_names_are_refused(written: str) -> None:
 
 
 def test_ratings_are_those_of_both_modes_and_no_rules() -> None:
+    """In shear alone the joint's torque goes through the adhesive of the heaters, which has a rating."""
     of = {mode: [row for row in table_for(mode).outputs if row.ratings] for mode in ("shear", "compression")}
-    assert [row.name for row in of["shear"]] == [row.name for row in of["compression"]]
+    shear, compression = ([row.name for row in rows] for rows in of.values())
+    shear.remove("heater_adhesive_margin")
+    assert shear == compression
     assert not [row.name for row in of["shear"] if row.rules or row.advice]
 
 

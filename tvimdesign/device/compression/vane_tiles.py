@@ -34,6 +34,7 @@ from tvimdesign.physics.solids.shapes import NOTHING, Section, disc_at
 
 kinds = QuantityGroup("Materials")
 tile_places = QuantityGroup("Layout", WITH_TILES)
+tile_weights = QuantityGroup("Size and weight", WITH_TILES)
 tile_rules = QuantityGroup("Gaps", WITH_TILES)
 
 kinds.option(
@@ -61,7 +62,7 @@ def slot_count(m: Module) -> Scalar:
     return m.tiles_per_block
 
 
-@tile_places.output("mm^3")
+@tile_weights.output("mm^3")
 def lead_volume(m: Module) -> Scalar:
     """Volume of leads that is drawn: none, for those of tiles in vanes go straight down their slots."""
     return 0.0 * m.lead_diameter

@@ -22,6 +22,9 @@ Progress = Callable[[str], None]
 SOBOL_SAMPLES = 1 << 10
 """Points of the Sobol indices; each costs as many modules as there are contributors, and two."""
 
+ALLOWS_FOR = {"free_angle_margin": FREE_ANGLE}
+"""Rules of a design that allow for the spread of an input: no limits of modules in which that input is drawn."""
+
 
 @dataclass(frozen=True)
 class Kept:
@@ -120,6 +123,7 @@ class Tolerancing:
             limit
             for limit in constraints_of(resolved.study, resolved.table, resolved.values)
             if self._moves(limit.output, names)
+            and (limit.origin == "require" or ALLOWS_FOR.get(limit.output) not in names)
         ]
         wanted = dict.fromkeys([*self._requested(), *(limit.output for limit in self.limits)])
         if not wanted:
