@@ -11,5 +11,5 @@ def study() -> tvim.Study:
 
 
 @pytest.fixture(scope="session")
-def result(study: tvim.Study) -> tvim.Result:
+def result(study: tvim.Study) -> tvim.Result[tvim.Study]:
     return study.run(progress=False)

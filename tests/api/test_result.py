@@ -13,7 +13,7 @@ from tvimdesign.device import table_for
 
 
 @pytest.mark.gate
-def test_values_are_quantities_and_choices_words(result: tvim.Result) -> None:
+def test_values_are_quantities_and_choices_words(result: tvim.Result[tvim.Study]) -> None:
     mass = result["module_mass"]
     assert isinstance(mass, tvim.Quantity)
     assert mass.unit == "g"
@@ -25,7 +25,7 @@ def test_values_are_quantities_and_choices_words(result: tvim.Result) -> None:
 
 
 @pytest.mark.gate
-def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result) -> None:
+def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result[tvim.Study]) -> None:
     table = result.table()
     assert list(table.columns)[:4] == ["value", "unit", "meaning", "status"]
     assert set(table.index) == set(result.design.values)
@@ -41,7 +41,7 @@ def test_the_table_has_value_unit_meaning_and_status(result: tvim.Result) -> Non
     assert "holding_torque" in torques.index
 
 
-def test_requirements_say_what_holds(result: tvim.Result) -> None:
+def test_requirements_say_what_holds(result: tvim.Result[tvim.Study]) -> None:
     table = result.requirements()
     asked = table[table.origin == "require"]
     said = " ".join(asked.limit)
@@ -56,7 +56,7 @@ def test_requirements_say_what_holds(result: tvim.Result) -> None:
     assert result.feasible
 
 
-def test_a_result_tells_what_binds_and_what_is_accepted(result: tvim.Result) -> None:
+def test_a_result_tells_what_binds_and_what_is_accepted(result: tvim.Result[tvim.Study]) -> None:
     assert result.status == "optimal"
     assert result.accepting == ("structure_temperature_margin",)
     assert result.above_rating == ()
@@ -70,7 +70,7 @@ def test_a_result_tells_what_binds_and_what_is_accepted(result: tvim.Result) -> 
 
 
 @pytest.mark.slow
-def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result) -> None:
+def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result[tvim.Study]) -> None:
     table = result.intervals()
     asked = {limit["output"] for limit in result.design.study["require"]}
     assert asked | {"module_mass", "softening_time", "frozen_time"} <= set(table.index)
@@ -83,7 +83,7 @@ def test_intervals_say_what_may_be_and_what_to_measure_first(result: tvim.Result
     assert result.uncertainty()["parts_yield"] != result.uncertainty()["ranges_hold"]
 
 
-def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result) -> None:
+def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result[tvim.Study]) -> None:
     before = dict(mpl.rcParams)
     figures = {name: result.plot(name) for name in result.plots}
     assert {"cycle", "impedance", "mass", "bounds"} <= set(figures)
@@ -97,7 +97,7 @@ def test_figures_are_drawn_and_matplotlib_stays_as_it_was(result: tvim.Result) -
 
 @pytest.mark.gate
 def test_the_command_line_gives_the_same_and_writes_the_same(
-    result: tvim.Result, tvimdesign: Command, tmp_path: Path
+    result: tvim.Result[tvim.Study], tvimdesign: Command, tmp_path: Path
 ) -> None:
     done = tvimdesign("run", "studies/paper_shear.yaml", "--no-cad", "--no-plots", "--out", tmp_path / "run")
     assert done.returncode == 0, done.stderr
@@ -112,12 +112,12 @@ def test_the_command_line_gives_the_same_and_writes_the_same(
 
 
 @pytest.mark.slow
-def test_the_figures_are_saved_too(result: tvim.Result, tmp_path: Path) -> None:
+def test_the_figures_are_saved_too(result: tvim.Result[tvim.Study], tmp_path: Path) -> None:
     result.save(tmp_path / "x")
     assert {file.name for file in (tmp_path / "x/plots").iterdir()} >= {"cycle.png", "bounds.png"}
 
 
-def test_results_in_use_are_not_replaced(result: tvim.Result, tmp_path: Path) -> None:
+def test_results_in_use_are_not_replaced(result: tvim.Result[tvim.Study], tmp_path: Path) -> None:
     result.save(tmp_path / "x", plots=False)
     with pytest.raises(tvim.InputError, match="holds results already"):
         result.save(tmp_path / "x")
@@ -156,7 +156,9 @@ def test_no_design_is_an_error_that_has_the_closest_one() -> None:
     assert closest.plots == []
 
 
-def test_a_notebook_and_show_print_what_a_run_prints(result: tvim.Result, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_notebook_and_show_print_what_a_run_prints(
+    result: tvim.Result[tvim.Study], capsys: pytest.CaptureFixture[str]
+) -> None:
     shown = result._repr_html_()
     assert "spring_stiffness &gt;= 5.2 N·m/rad" in shown
     assert "optimal" in shown
@@ -179,7 +181,7 @@ def test_a_front_is_sought_without_a_folder(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_parts_are_made(result: tvim.Result, tmp_path: Path) -> None:
+def test_parts_are_made(result: tvim.Result[tvim.Study], tmp_path: Path) -> None:
     parts = result.parts(tmp_path / "parts", progress=False)
     assert any(file.suffix == ".step" for file in parts.files)
     assert (parts.table()["level"] != "failure").all()

@@ -6,7 +6,7 @@ import os
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from tvimdesign.api import notebook
 from tvimdesign.api.notebook import shown_progress
@@ -26,14 +26,17 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from tvimdesign.api.study import Study
     from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
+
+
+StudyT = TypeVar("StudyT")
+"""The study of Python users, which makes results."""
 
 
 class NoDesignError(InfeasibleError):
     """No design is feasible; `result` is where the search ended, the closest design."""
 
-    def __init__(self, message: str, result: Result) -> None:
+    def __init__(self, message: str, result: Result[Any]) -> None:
         """Keep the result beside the message."""
         super().__init__(message)
         self.result = result
@@ -81,27 +84,26 @@ class Parts:
         return preview.read_bytes() if preview.exists() else None
 
 
-class Result:
+class Result(Generic[StudyT]):
     """Result of a study. `result["module_mass"]` is a quantity, `result["motor"]` the word of a choice."""
 
-    def __init__(self, answered: AnsweredStudy) -> None:
-        """Hold an answer; `study.run()` makes results."""
+    def __init__(self, answered: AnsweredStudy, study: StudyT) -> None:
+        """Hold an answer and its study; `study.run()` makes results."""
         self._answered = answered
+        self._study = study
 
     @classmethod
-    def of(cls, answered: AnsweredStudy) -> Result:
-        """Return the result of an answer. Raises NoDesignError where there is no design."""
-        result = cls(answered)
+    def of(cls, answered: AnsweredStudy, study: StudyT) -> Result[StudyT]:
+        """Return the result of a study's answer. Raises NoDesignError where there is no design."""
+        result = cls(answered, study)
         if not answered.result.found:
             raise NoDesignError(complaint(answered.result, answered.study.table), result)
         return result
 
     @property
-    def study(self) -> Study:
+    def study(self) -> StudyT:
         """The study that it answers, to be changed and run again."""
-        from tvimdesign.api.study import Study
-
-        return Study._of(self._answered.tree)
+        return self._study
 
     @property
     def verdict(self) -> str:

@@ -40,7 +40,7 @@ def example(name: str) -> Study:
 
 def size(
     *, torque: str, stiffness: str, diameter: str, time: str, supply: str, name: str = "joint", progress: bool = True
-) -> Result:
+) -> Result[Study]:
     """Size a joint from five numbers, as `tvimdesign size` does.
 
     Parameters
@@ -206,7 +206,7 @@ class Study:
         study = refuse_what_cannot_be(self.resolved)
         return [*record_checks(study), *foreseen_ratings(study)]
 
-    def run(self, *, sensitivities: bool = False, prove: bool = False, progress: bool = True) -> Result:
+    def run(self, *, sensitivities: bool = False, prove: bool = False, progress: bool = True) -> Result[Study]:
         """Evaluate or optimise the study, as `tvimdesign run` does, without writing a file.
 
         Raises NoDesignError, which has the closest design, where no design is feasible.
@@ -215,15 +215,15 @@ class Study:
         from tvimdesign.report.run.answered_study import answer_study
 
         with shown_progress(progress) as say:
-            return Result.of(answer_study(self._tree, say, sensitivities=sensitivities, prove=prove))
+            return Result.of(answer_study(self._tree, say, sensitivities=sensitivities, prove=prove), self)
 
-    def evaluate(self, *, progress: bool = True) -> Result:
+    def evaluate(self, *, progress: bool = True) -> Result[Study]:
         """Evaluate the module as it is drawn: what may change stands at its start, and nothing is optimised."""
         from tvimdesign.api.result import Result
         from tvimdesign.report.run.answered_study import answer_study
 
         with shown_progress(progress) as say:
-            return Result.of(answer_study(self._tree, say, drawn_only=True))
+            return Result.of(answer_study(self._tree, say, drawn_only=True), self)
 
     def sweep(
         self,

@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic
 
 from tvimdesign.api import notebook
 from tvimdesign.api.notebook import shown_progress
-from tvimdesign.api.result import Result
+from tvimdesign.api.result import Result, StudyT
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.report.run.answered_study import answer_study
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-StudyT = TypeVar("StudyT")
-"""The study of Python users, which makes sweeps."""
 _WITH_DESIGN = {"evaluated", "optimal", "above_rating", "below_yield"}
 
 
@@ -50,7 +48,7 @@ class Cell(Generic[StudyT]):
         return self._sweep.study_of(self._sweep.plan.cell_tree(self._texts))
 
     @cached_property
-    def result(self) -> Result | None:
+    def result(self) -> Result[StudyT] | None:
         """The cell's whole result, answered as in the sweep when it is first asked for; None without a design."""
         return self._sweep._result(self._texts) if self.status in _WITH_DESIGN else None
 
@@ -122,12 +120,13 @@ class Sweep(Generic[StudyT]):
             axes.legend()
         return shown(figure)
 
-    def _result(self, texts: tuple[str, ...]) -> Result:
+    def _result(self, texts: tuple[str, ...]) -> Result[StudyT]:
         tree, plan = self.plan.cell_tree(texts), self.plan
+        study = self.study_of(tree)
         if plan.task == "evaluate":
-            return Result(answer_study(tree, lambda _: None, drawn_only=True))
+            return Result(answer_study(tree, lambda _: None, drawn_only=True), study)
         search = self._answers.search_of(texts)
-        return Result(answer_study(tree, lambda _: None, search=search.as_optimize))
+        return Result(answer_study(tree, lambda _: None, search=search.as_optimize), study)
 
     @cached_property
     def _answers(self) -> CellAnswers:
