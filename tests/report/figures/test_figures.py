@@ -162,12 +162,12 @@ def test_bars_are_the_parts_the_module_has_and_add_up_to_its_mass(found: StudyRe
 
 
 def test_all_figures_can_be_looked_at_before_any_is_written_for_print(
-    found: StudyResult, monkeypatch: pytest.MonkeyPatch
+    found: StudyResult, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     written: list[str] = []
     monkeypatch.setattr(plot_process, "atomic_write", lambda path, _data: written.append(path.name))
     asked = [one for one in drawings(found, table_for(found.design.mode)) if one.file in {"mass", "torque"}]
-    plot_process._draw(Path(), asked, {"study": "a test", "endings": ["png", "svg"]})
+    plot_process._draw(asked, {"folder": str(tmp_path), "study": "a test", "endings": ["png", "svg"]})
     names = [one.file for one in asked]
     assert len(names) == 2
     assert written == [f"{name}.{ending}" for ending in ("png", "svg") for name in names]

@@ -11,13 +11,13 @@ from robot_models import model_of, module_of
 from tvimdesign.physics.motions.motion import Modes
 from tvimdesign.report.robot.joint_model import JointModel, JointState
 from tvimdesign.report.robot.model_files import held_angles, maxwell_hinges, mjcf, without_spring
-from tvimdesign.simulation.joint_tests.release import release
+from tvimdesign.simulation.joint_tests.release import ANGLE, release
 from tvimdesign.simulation.trial import Trial
 
 
 @cache
-def _released(mode: str) -> Trial:
-    return release(module_of(mode), kelvin_voigt=False)
+def _released(mode: str, angle: float) -> Trial:
+    return release(module_of(mode), angle, kelvin_voigt=False)
 
 
 def _loaded(model: JointModel, point: str) -> mujoco.MjModel:
@@ -28,31 +28,36 @@ def _loaded(model: JointModel, point: str) -> mujoco.MjModel:
 
 SHARE = 0.01
 """Of the angle it is released from, which MuJoCo may be off."""
+SMALL = 5e-3
+"""Angle [rad] at which a frozen layer bears its torque: from that of the virtual test it slips, in MuJoCo it cannot."""
 
 
 @pytest.mark.parametrize(
-    ("mode", "point", "step", "seconds"),
+    ("mode", "point", "step", "seconds", "angle"),
     [
-        ("shear", "cold", None, 0.04),
-        ("shear", "hot", None, 0.04),
-        ("shear", "hot", 1e-4, 2.0),
-        ("compression", "hot", 1e-4, 2.0),
-        pytest.param("compression", "cold", None, 0.04, marks=pytest.mark.slow),
-        pytest.param("compression", "hot", None, 0.04, marks=pytest.mark.slow),
+        ("shear", "cold", None, 0.04, SMALL),
+        ("shear", "hot", None, 0.04, ANGLE),
+        ("shear", "hot", 1e-4, 2.0, ANGLE),
+        ("compression", "hot", 1e-4, 2.0, ANGLE),
+        pytest.param("compression", "cold", None, 0.04, ANGLE, marks=pytest.mark.slow),
+        pytest.param("compression", "hot", None, 0.04, ANGLE, marks=pytest.mark.slow),
     ],
 )
 def test_the_link_let_go_moves_as_in_the_virtual_test(
-    mode: str, point: str, step: float | None, seconds: float
+    mode: str, point: str, step: float | None, seconds: float, angle: float
 ) -> None:
     model = model_of(mode, step)
     loaded = _loaded(model, point)
     data = mujoco.MjData(loaded)
     mujoco.mj_resetDataKeyframe(loaded, data, 0)
+    data.qpos *= angle / data.joint("joint").qpos[0]  # all that is held is in proportion to the angle
     angles = [data.joint("joint").qpos[0]]
     for _ in range(int(seconds / model.step)):
         mujoco.mj_step(loaded, data)
         angles.append(data.joint("joint").qpos[0])
-    sheet = next(one for one in _released(mode).sheets if one.name in {f"release_{point}", f"release_{point}_nominal"})
+    sheet = next(
+        one for one in _released(mode, angle).sheets if one.name in {f"release_{point}", f"release_{point}_nominal"}
+    )
     times, expected = sheet.column("time").values, sheet.column("angle").values
     seen = times < seconds
     found = np.interp(times[seen], model.step * np.arange(len(angles)), angles)
