@@ -85,6 +85,7 @@ def test_a_value_is_that_of_casadi_to_the_last_bit(name: str, x: float, y: float
 @example(x=1.0, y=1.0, along=(1.0, 2.0))
 @example(x=-1.5, y=2.0, along=(-1.0, 2.0))
 @example(x=2.5, y=-0.5, along=(1.0, 0.0))
+@example(x=1e-05, y=1e-05, along=(2.991171371580771, 2.991171371580771))
 def test_tangents_are_those_of_casadi(name: str, x: float, y: float, along: tuple[float, float]) -> None:
     tape, value, slope = MADE[name]
     directions = np.array([[along[0], 1.0], [along[1], -1.0]])
@@ -92,7 +93,9 @@ def test_tangents_are_those_of_casadi(name: str, x: float, y: float, along: tupl
     ((values, tangents),) = tape.tangents((np.array([x, y]),), (directions,))
     if (name in CORNERS and x in (y, 0.0)) or not np.all(np.isfinite([float(value(x, y)), *expected])):
         return
-    assert tangents[0] == pytest.approx(expected, rel=1e-11, abs=1e-11)
+    # Two terms that cancel leave the rounding of the terms.
+    terms = np.array([[abs(float(slope(x, y, column * axis))) for axis in np.eye(2)] for column in directions.T])
+    assert np.all(np.abs(tangents[0] - expected) <= 1e-11 * np.maximum(1.0, terms.sum(axis=1)))
     assert bits(values[0]) == bits(float(value(x, y)))
 
 
