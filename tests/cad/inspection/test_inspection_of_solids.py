@@ -261,8 +261,8 @@ def test_walls_below_milled_pads_are_thick_enough_by_the_rule() -> None:
 def test_a_coil_clears_its_post_until_the_post_is_too_thick(paper: Design, dims: Dimensions) -> None:
     checks = {check.name: check for check in coil_checks(dims)}
     assert all(check.level == "pass" for check in checks.values())
-    wound = checks[f"spring: post at {-dims.stroke:+.4f} rad"]
-    # The post has 90 % of the inner diameter of the coil that the stroke and the preload have wound up.
+    wound = checks[f"spring: post at {-dims.stop_angle:+.4f} rad"]
+    # The post has 90 % of the inner diameter of the coil that stop angle and preload have wound up.
     inner = 1e3 * (paper.value("spring_wound_diameter") - paper.value("wire_diameter"))
     assert wound.value == pytest.approx(0.05 * inner, rel=0.01)
     assert wound.value < checks["spring: post as bought"].value

@@ -93,7 +93,7 @@ def test_a_vane_squeezes_the_block_ahead_and_leaves_the_one_behind(
 def test_squeezed_blocks_leave_the_room_that_the_quantity_gives(blocks: Design, rest: dict[str, cq.Solid]) -> None:
     # Springs of 12.02 mm and wire of 2.413 mm at 57 mm reach in to 48.09 mm, and 1 mm is to stay.
     outer = 57.0 - 8.914 - 1.0 - 1e3 * blocks.values["squeezed_block_gap"]
-    bulged = sector(13.0, outer, 4.0 / 18.5 - 0.104, 0.4, 12.364)
+    bulged = sector(13.0, outer, 4.0 / 18.5 - 0.124, 0.4, 12.364)  # up to the stops, 0.02 rad beyond the stroke
     assert bulged.Volume() == pytest.approx(rest["pcl_block_1"].Volume(), rel=1e-4)
 
 

@@ -132,9 +132,12 @@ def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:
     assert "link_dowel" not in drawn_parts(dims)
     assert [one.kind for one in beside(design, {})] == [
         "polymer",
-        "heat_conducting_adhesive",
+        "heater_adhesive",
         "thermistor",
         "polyimide_film",
+        "wire_sleeve",
+        "grease",
+        "mount_screw",
     ]
     assert drawing_requirements("link", dims, design.choices).seats == []
     assert broken_rules(design_of("fitted", {})) == []

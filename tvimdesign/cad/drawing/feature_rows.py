@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import atan2, cos, degrees, hypot, pi, sin
 from typing import TypeVar
 
@@ -66,6 +67,10 @@ def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow
     cylinders, walls = upright_cylinders(solid), upright_walls(solid)
     bounded, arcs, ends = sectors(cylinders, walls)
     beside, alone = pairs(ends)
+    if not asked.placed:
+        # Without an axis, walls of different heights are dimensioned from each other, step by step.
+        steps, alone = pairs(_between_levels(alone))
+        beside = [*beside, *steps]
     rows = [
         *_like(_told_of_hole(asked), _holes(cylinders, asked), _hole_key),
         *_like(_told_of_sector, bounded, _sector_key),
@@ -76,6 +81,17 @@ def feature_rows(solid: cq.Solid, asked: DrawingRequirements) -> list[FeatureRow
     ]
     rows = [row if asked.placed or row.what not in _BODY else replace(row, place="") for row in rows]
     return _unlike([_over(row, box.zmin, box.zmax) for row in rows])
+
+
+def _between_levels(walls: Sequence[Wall]) -> list[Wall]:
+    """Return walls cut at each height at which one of them ends."""
+    heights = sorted({round(height, 4) for wall in walls for height in (wall.bottom, wall.top)})
+    return [
+        replace(wall, bottom=low, top=high)
+        for wall in walls
+        for low, high in pairwise(heights)
+        if wall.bottom < 0.5 * (low + high) < wall.top
+    ]
 
 
 def is_corner(one: Cylinder) -> bool:
