@@ -51,7 +51,7 @@ def test_requirements_say_what_holds(result: tvim.Result[tvim.Study]) -> None:
         for part in shear.output(name).least_of or (name,):
             assert (f"{part}{at}{point}" in said) == shear.output(part).exists(result.design.choices)
     # Ten limits: two are on the least of several, which are told one by one, and two on the stiffness, at five angles.
-    assert (len(asked), table.kept.all()) == (25, True)  # so are the three places that the core yields at
+    assert (len(asked), table.kept.all()) == (27, True)  # so are the places that the core and the pads' seats yield at
     assert result.table().loc["holding_torque", "status"] == "binds"
     assert result.feasible
 
