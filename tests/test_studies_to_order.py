@@ -110,7 +110,7 @@ TO_SIZE = {
 """Kinds that are made to sizes the bill tells, as no table of a maker was to be read."""
 RATED = {
     "thermal_grease", "heat_conducting_adhesive", "polyimide_film", "thread_locker", "motor_adhesive", "mould_release",
-    "supply", "driver",
+    "supply", "driver", "wire_sleeve", "crimp_splice", "grease",
 }  # fmt: skip
 """Kinds that any shop has, by a rating that the bill tells."""
 FIGURE = re.compile(r"\d+(\.\d+)? (°C|V|A)\b")

@@ -13,7 +13,7 @@ import pytest
 
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.sweep import sweep_page, swept_cells
+from tvimdesign.report.sweep import cell_table, sweep_page
 from tvimdesign.report.sweep.cell_table import CellTable
 from tvimdesign.report.sweep.sweep_page import CellCommands, kept_page, write_sweep_page
 from tvimdesign.study import given, read_tree
@@ -101,8 +101,8 @@ def test_cells_over_two_numbers_are_brushed(tmp_path: Path) -> None:
 
 
 def test_of_many_cells_some_are_on_the_page_and_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(swept_cells, "MOST_LISTED", 3)
-    monkeypatch.setattr(swept_cells, "MOST_FAILED", 1)
+    monkeypatch.setattr(cell_table, "MOST_LISTED", 3)
+    monkeypatch.setattr(cell_table, "MOST_FAILED", 1)
     asked = plan(CLOUD)
     text = page(asked, seen(asked, [1.0, None, None, 4.0, 5.0, 6.0, 7.0, 8.0]), tmp_path / "out")
     assert "3 of 8 cells are in this table, one in 3. cells.csv and cells.sqlite have all." in text
