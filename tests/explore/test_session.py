@@ -36,7 +36,7 @@ def test_the_newest_state_of_a_drag_is_answered(tmp_path: Path) -> None:
     assert len(answers) < 50
     assert [item["number"] for item in answers] == sorted(item["number"] for item in answers)
     power = next(item for item in last["shown"]["limits"] if item["of"] == "peak_power")
-    assert (power["stands"], power["got"], power["text"]) == ("binds", "8.95 W", "peak_power <= 8.95 W")
+    assert (power["stands"], power["got"], power["text"]) == ("binds", "8.95 W", "peak power <= 8.95 W")
     assert last["shown"]["variables"]["current"]["value"] < first["shown"]["variables"]["current"]["value"]
 
 

@@ -182,7 +182,7 @@ solver: {starts: 1, cells: 12, time_limit: 5 min}
 
 @pytest.mark.gate
 def test_a_design_without_its_margins_by_deviations_is_no_optimum() -> None:
-    clock = Clock("staying within the limits")
+    clock = Clock("adding margins to the limits")
     answered = clock.answer(read_study_text(TIMED))
     assert (answered.design.status, answered.found) == (BELOW_YIELD, True)
     assert clock.deadline.left_out == [MARGINS]

@@ -25,6 +25,7 @@ from tvimdesign.solve.uncertainty.uncertain_inputs import (
     UnmeasuredInput,
     before_measuring,
     contributors_of,
+    judges_modules,
     unmeasured_inputs,
 )
 
@@ -71,7 +72,9 @@ class UncertaintyModel:
         self._spreading = {name.partition("@")[0] for name in study.tolerances}
         moved = self._spreading | set(unmeasured)
         every = constraints_of(study, table, resolved.values)
-        self.limits = [limit for limit in every if _behind(table, limit.output, moved)]
+        self.limits = [
+            limit for limit in every if _behind(table, limit.output, moved) and judges_modules(limit, self._spreading)
+        ]
         limited = [limit.output for limit in self.limits if not _behind(table, limit.output, lost)]
         self.outputs = list(dict.fromkeys([*limited, *self.asked]))
         counting = [name for name in unmeasured if any(_behind(table, output, {name}) for output in self.outputs)]

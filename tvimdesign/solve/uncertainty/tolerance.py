@@ -14,16 +14,13 @@ from tvimdesign.solve.batch.batch_model import BatchModel
 from tvimdesign.solve.nlp import spread
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
-from tvimdesign.solve.uncertainty.uncertain_inputs import FREE_ANGLE, contributors_of
+from tvimdesign.solve.uncertainty.uncertain_inputs import FREE_ANGLE, contributors_of, judges_modules
 
 Array = NDArray[np.float64]
 Progress = Callable[[str], None]
 
 SOBOL_SAMPLES = 1 << 10
 """Points of the Sobol indices; each costs as many modules as there are contributors, and two."""
-
-ALLOWS_FOR = {"free_angle_margin": FREE_ANGLE}
-"""Rules of a design that allow for the spread of an input: no limits of modules in which that input is drawn."""
 
 
 @dataclass(frozen=True)
@@ -122,8 +119,7 @@ class Tolerancing:
         self.limits = [
             limit
             for limit in constraints_of(resolved.study, resolved.table, resolved.values)
-            if self._moves(limit.output, names)
-            and (limit.origin == "require" or ALLOWS_FOR.get(limit.output) not in names)
+            if self._moves(limit.output, names) and judges_modules(limit, names)
         ]
         wanted = dict.fromkeys([*self._requested(), *(limit.output for limit in self.limits)])
         if not wanted:

@@ -24,7 +24,7 @@ from tvimdesign.solve.nlp.solution import LostTo, YieldReached
 from tvimdesign.solve.nlp.solver_run import Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import OutputDerivatives
-from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of
+from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of, judges_modules
 
 Array = NDArray[np.float64]
 
@@ -85,6 +85,7 @@ class Yields:
         self.limits = tuple(
             limit for limit in constraints_of(study, table)
             if bases & {limit.output.partition("@")[0], *table.ancestors(limit.output)}
+            and judges_modules(limit, bases)
             and not (optimizer.currents and on_cycle(table, limit.output))
         )  # fmt: skip
         self._outputs = list(dict.fromkeys(limit.output for limit in self.limits))
