@@ -87,10 +87,10 @@ BORED = [name for name, case in SHIPPED.items() if case["mode"] == "shear" and "
 
 
 def beyond(names: Iterable[str], **why: str) -> list[Any]:
-    """The modules of a test, those of which the form misses FE marked with the reason, which README.md describes."""
+    """The modules of a test, those of which the form misses FE marked with the reason, as in README.md."""
     missed = {name: why[study] for name in names if (study := name.removesuffix(", shipped")) in why}
     return [
-        pytest.param(name, marks=pytest.mark.xfail(strict=True, reason=missed[name]))  # strict: it fails once the form is fixed
+        pytest.param(name, marks=pytest.mark.xfail(strict=True, reason=missed[name]))  # fails once the form is fixed
         if name in missed else name
         for name in names
     ]  # fmt: skip
