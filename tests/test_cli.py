@@ -15,7 +15,7 @@ from support import ROOT, Command, wait_until
 
 from tvimdesign.base.processes import communicate
 from tvimdesign.cli.options import default_folder, name_of
-from tvimdesign.report.virtual_tests import TESTS
+from tvimdesign.simulation.virtual_tests import TESTS
 from tvimdesign.study.design import design_json
 
 HEAVY = ("casadi", "cadquery", "OCP", "pandas", "matplotlib", "scipy", "numpy", "pint")

@@ -8,7 +8,7 @@ from small_sweeps import plan
 
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.sweep.cell_table import CellTable
+from tvimdesign.report.sweep.sweep_figures import CellTable
 from tvimdesign.report.sweep.sweep_page import write_sweep_page
 from tvimdesign.sweep.gather import columns
 

@@ -12,8 +12,8 @@ from cad_designs import design_of, whole
 
 from tvimdesign.base.atomic_files import UNFINISHED
 from tvimdesign.base.errors import SimulationError
+from tvimdesign.report import verify_design
 from tvimdesign.report.run import parts_of_design
-from tvimdesign.report.verify import verify_design
 from tvimdesign.study.design import read_design, write_design
 
 

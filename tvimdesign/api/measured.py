@@ -90,8 +90,8 @@ class Fitted:
 
     def plot(self) -> Figure:
         """Plot values, fitted curves and residuals."""
-        from tvimdesign.report.figures.plot_process import Drawing
         from tvimdesign.report.fit.fit_files import figure_data
+        from tvimdesign.report.output.plot_process import Drawing
 
         names = ", ".join(file.path.name for file in self._measured.files)
         return drawn(Drawing("fit", "analysis_figures.fit", figure_data(self._measured)), names)

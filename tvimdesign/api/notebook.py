@@ -16,7 +16,7 @@ from tvimdesign.report.output.terminal import Progress, progress_output
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from tvimdesign.report.figures.plot_process import Drawing
+    from tvimdesign.report.output.plot_process import Drawing
 
 
 def heading(title: str, more: str) -> str:

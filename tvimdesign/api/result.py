@@ -234,8 +234,8 @@ class Result(Generic[StudyT]):
 
         Plots that cannot be drawn are a warning.
         """
-        from tvimdesign.report.command import noting
-        from tvimdesign.report.figures.plot_process import PlotProcess
+        from tvimdesign.report.output.command import noting
+        from tvimdesign.report.output.plot_process import PlotProcess
         from tvimdesign.report.run.first_screen import write_summary
         from tvimdesign.report.run.run_page import finish, summary_sheet, write_answer, write_run_page
 

@@ -74,7 +74,7 @@ def size(
     NoDesignError
         If the search finds no design.
     """
-    from tvimdesign.report.size_study import sized_text
+    from tvimdesign.report.run.study_files import sized_text
     from tvimdesign.study.sizing import JointTask
 
     text = sized_text(JointTask.read(torque, stiffness, diameter, time, supply), name)

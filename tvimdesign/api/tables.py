@@ -13,7 +13,7 @@ from tvimdesign.study.design import Design
 if TYPE_CHECKING:
     import pandas as pd
 
-    from tvimdesign.report.output.number_format import NumberEntry
+    from tvimdesign.report.output.numbers import NumberEntry
     from tvimdesign.report.output.results_format import IntervalEntry
 
 

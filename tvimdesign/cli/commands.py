@@ -88,7 +88,7 @@ def _verification(run: Path, fe_python: str, *, overwrite: bool, told: bool) -> 
 
     from tvimdesign.cad.fe.run_solvers import require_fe
     from tvimdesign.report.run.verification_section import folder_of_verification
-    from tvimdesign.report.verify.verify_design import verify_design
+    from tvimdesign.report.verify_design import verify_design
 
     require_fe(fe_python or sys.executable)
     out = folder_of_verification(run)
@@ -138,7 +138,7 @@ def new(
     list_all: Annotated[bool, typer.Option("--list", help="List the shipped studies.")] = False,
 ) -> None:
     """Write a study to start from. It is commented, or a shipped one, or the module of a result."""
-    from tvimdesign.report.study_files import list_examples, write_new_study
+    from tvimdesign.report.run.study_files import list_examples, write_new_study
 
     if list_all:
         list_examples()
@@ -168,7 +168,7 @@ def size(
     json: AsJson = False,
 ) -> None:
     """Size a joint from five numbers; give a verdict. Writes a study with its hardware and ranges, and runs it."""
-    from tvimdesign.report.size_study import size_study
+    from tvimdesign.report.run.study_files import size_study
 
     numbers = {"torque": torque, "stiffness": stiffness, "diameter": diameter, "time": time, "supply": supply}
     size_study(file, numbers, out or default_folder(file), overwrite=overwrite, cad=cad, plots=plots, as_json=json)
@@ -177,7 +177,7 @@ def size(
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of studies. An editor then knows names, units and descriptions."""
-    from tvimdesign.report.study_files import print_schema
+    from tvimdesign.report.run.study_files import print_schema
 
     print_schema()
 

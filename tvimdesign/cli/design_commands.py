@@ -23,7 +23,7 @@ from tvimdesign.cli.options import (
     Workers,
     name_of,
 )
-from tvimdesign.report.virtual_tests import TESTS
+from tvimdesign.simulation.virtual_tests import TESTS
 
 
 def robot(
@@ -91,7 +91,7 @@ def verify(
     json: AsJson = False,
 ) -> None:
     """Check a design against finite elements of its parts. The folder is results/<name>-verified."""
-    from tvimdesign.report.verify.verify_design import verify_design
+    from tvimdesign.report.verify_design import verify_design
 
     folder = out or Path("results") / f"{name_of(result)}-verified"
     verify_design(result, folder, fe_python, overwrite=overwrite, pictures=pictures, as_json=json)

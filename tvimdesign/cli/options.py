@@ -23,7 +23,7 @@ def designs_and_studies(incomplete: str) -> list[str]:
 
 def tests(incomplete: str) -> list[str]:
     """Complete virtual tests."""
-    from tvimdesign.report.virtual_tests import TESTS
+    from tvimdesign.simulation.virtual_tests import TESTS
 
     return _beginning(TESTS, incomplete)
 
@@ -37,7 +37,7 @@ def kinds(incomplete: str) -> list[str]:
 
 def examples(incomplete: str) -> list[str]:
     """Complete shipped studies."""
-    from tvimdesign.report.study_files import example_names
+    from tvimdesign.report.run.study_files import example_names
 
     return _beginning(example_names(), incomplete)
 

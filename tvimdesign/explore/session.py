@@ -21,7 +21,7 @@ from tvimdesign.explore.states.messages import Change, Message
 from tvimdesign.explore.states.source import Source, open_source
 from tvimdesign.explore.states.state import Pinned, State, changed, controls_shown, saved_text, tree_of
 from tvimdesign.explore.worker_process import Job, Reply, WorkerProcess
-from tvimdesign.report.output.axis_labels import label
+from tvimdesign.report.output.numbers import label
 from tvimdesign.study import Study, read_tree
 
 QUIET = 0.35

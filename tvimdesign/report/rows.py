@@ -16,7 +16,7 @@ from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import MODES, Choice, Input, Output, table_for
 from tvimdesign.device.table.quantity import Quantity
-from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.terminal import wide_console
 from tvimdesign.study.resolve import words_of
 from tvimdesign.study.text.mistakes import did_you_mean, synonyms

@@ -14,15 +14,15 @@ from rich.markup import escape
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty, si_unit
 from tvimdesign.page.blocks import Block, Drawn, Grid, Page, Points, Section
-from tvimdesign.report.command import Command, design_file
-from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.number_format import finite, head
+from tvimdesign.report.output.command import Command, design_file
+from tvimdesign.report.output.numbers import finite, head, number
 from tvimdesign.report.output.page_sections import grid, made_by_words, study_section, there, versions_section
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.output.tables import curves_csv
 from tvimdesign.report.output.terminal import print_grid
-from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.trial import Column, CurveTable, Finding, Panel, PlottedLine, Trial
+from tvimdesign.simulation.virtual_tests import find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import read_design

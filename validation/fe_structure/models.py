@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tvimdesign.cad.fe import model_comparison as comparison
 from tvimdesign.device import table_for
-from tvimdesign.report.verify import comparison
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.study import given, read_study
 

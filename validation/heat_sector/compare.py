@@ -23,8 +23,8 @@ import numpy as np
 import shear
 from plane import Array, Plane, passed
 
+from tvimdesign.cad.fe.warm_joint import WarmJoint
 from tvimdesign.device.core.impedance.warm_structure import PartTemperatures
-from tvimdesign.report.verify.verify_design import WarmJoint
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design

@@ -14,8 +14,8 @@ from PIL import Image
 
 from tests.helpers.figures import faults, signed
 from tvimdesign.device import table_for
-from tvimdesign.report.figures import plot_process
 from tvimdesign.report.figures.theme import as_file, png
+from tvimdesign.report.output import plot_process
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text

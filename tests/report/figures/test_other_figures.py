@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from tests.helpers.figures import faults, signed
-from tvimdesign.report.figures import analysis_figures, comparison_figures, design_figures, paper_figures
+from tvimdesign.report.figures import analysis_figures, comparison_figures, design_figures
 from tvimdesign.report.figures.virtual_test_figures import trial as trial_figure
 from tvimdesign.report.simulate_study import figure_data
-from tvimdesign.report.virtual_tests import TESTS, find_test
+from tvimdesign.simulation.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.study import read_study
 
@@ -98,7 +98,7 @@ def test_an_editor_finds_no_fault_with_the_paper_s_case() -> None:
              "x": [100.0, 1e3, 1e4], "lines": {place: [0.5, None, 1.0] for place in places},
              "published": [1e4, 1.0]}  # fmt: skip
     data = {"wanted": 70.0, "range": [0.2, 2.0], "panels": [panel] * 3}
-    assert faults(signed(paper_figures.level_sets(data))) == []
+    assert faults(signed(comparison_figures.level_sets(data))) == []
     bars = [{"label": "Thickness of the PCL layer (mm)", "ends": [0.7, 2], "ratios": [2.4, 1.5]}] * 5
     choices = [{"label": "a thermometer at the near face", "ratio": 1.04}]
-    assert faults(signed(paper_figures.tornado({"bars": bars, "choices": choices, "ratio": 2.0}))) == []
+    assert faults(signed(comparison_figures.tornado({"bars": bars, "choices": choices, "ratio": 2.0}))) == []

@@ -12,7 +12,7 @@ from support import Command
 
 import tvimdesign as tvim
 from tvimdesign.base.child_process import start_child
-from tvimdesign.report.figures import plot_process
+from tvimdesign.report.output import plot_process
 
 BURNS = "while True: pass"
 FAILS = "raise RuntimeError('no fonts')"

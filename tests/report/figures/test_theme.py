@@ -25,7 +25,7 @@ from tvimdesign.report.figures.theme import (
     style_of,
 )
 from tvimdesign.report.figures.virtual_test_figures import drawn
-from tvimdesign.report.output.axis_labels import axis_label, name_in_words
+from tvimdesign.report.output.numbers import axis_label, name_in_words
 
 OKABE_ITO = {"#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7"}
 

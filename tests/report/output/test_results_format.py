@@ -13,7 +13,7 @@ from support import ROOT
 
 from tvimdesign.base.units import si_unit, to_si
 from tvimdesign.device import Choice, table_for
-from tvimdesign.report.output.number_format import FORMAT, number_entry
+from tvimdesign.report.output.numbers import FORMAT, number_entry
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import results_schema
 from tvimdesign.report.output.tables import curves_csv, results, results_csv

@@ -15,7 +15,7 @@ from answers import shipped_answer
 from comparable import COARSE, COMPRESSION, SHEAR
 from support import ROOT, Command
 
-from tvimdesign.report.output.axis_labels import label
+from tvimdesign.report.output.numbers import label
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks.requirements import requirements
 from tvimdesign.report.run.first_screen import LINES, NARROW_LINES, first_screen, verdict_of

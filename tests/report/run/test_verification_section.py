@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 from tvimdesign.base.atomic_files import digest_of
+from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.page.blocks import Page, Picture, Points, Section, Words
 from tvimdesign.report.output.manifest import MANIFEST
@@ -14,9 +15,8 @@ from tvimdesign.report.run.verification_section import (
     put_on_page,
     verification_section,
     verification_sections,
+    verified,
 )
-from tvimdesign.report.verify.comparison import Compared
-from tvimdesign.report.verify.verify_report import verified
 
 ROWS = [Compared("hub", "N*m/rad", "frozen joint", model=400.0, fe=505.0, coarse=500.0)]
 

@@ -6,7 +6,7 @@ Figures give way to parts as well.
 import psutil
 from support import wait_until
 
-from tvimdesign.report.figures.plot_process import PlotProcess
+from tvimdesign.report.output.plot_process import PlotProcess
 from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from small_sweeps import SMALL, plan
 
-from tvimdesign.report import command
+from tvimdesign.report.output import command
 from tvimdesign.report.sweep.sweep_study import DRAWN_FROM, KeptFigure, kept_figure, sweep_folder
 from tvimdesign.sweep.run_sweep import Executor
 

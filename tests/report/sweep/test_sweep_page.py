@@ -13,8 +13,9 @@ import pytest
 
 from tvimdesign.page.page_file import FILE
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.sweep import cell_table, sweep_page
-from tvimdesign.report.sweep.cell_table import CellTable
+from tvimdesign.report.sweep import sweep_figures as cell_table
+from tvimdesign.report.sweep import sweep_page
+from tvimdesign.report.sweep.sweep_figures import CellTable
 from tvimdesign.report.sweep.sweep_page import CellCommands, kept_page, write_sweep_page
 from tvimdesign.study import given, read_tree
 from tvimdesign.study.tree import tree_of_file, tree_of_text, tree_of_values

@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 from support import Command
 
+from tvimdesign.cad.fe.model_comparison import Compared
 from tvimdesign.cad.fe.run_solvers import Solved
 from tvimdesign.cli import commands
 from tvimdesign.page.page_file import page_html
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.verify.comparison import Compared
-from tvimdesign.report.verify.verify_report import far, verify_page
+from tvimdesign.report.run.verification_section import far, verify_page
 
 PIXEL = bytes.fromhex(
     "89504e470d0a1a0a0000000d4948445200000001000000010806000000"
@@ -65,7 +65,7 @@ def test_the_run_comes_first_and_its_folder_is_verified(monkeypatch: pytest.Monk
     monkeypatch.setattr("tvimdesign.report.run.run_study.run_study", lambda *_, **__: done.append("run"))
     monkeypatch.setattr("tvimdesign.cad.fe.run_solvers.require_fe", done.append)
     monkeypatch.setattr(
-        "tvimdesign.report.verify.verify_design.verify_design",
+        "tvimdesign.report.verify_design.verify_design",
         lambda path, out, _, **given: done.append((path, out, given["told"])),
     )
     out = tmp_path / "wrist"

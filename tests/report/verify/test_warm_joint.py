@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support import ROOT
 
-from tvimdesign.report.verify.verify_design import WarmJoint, softening_time
+from tvimdesign.cad.fe.warm_joint import WarmJoint, softening_time
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_study
 from tvimdesign.study import read_study
 

@@ -11,7 +11,6 @@ from support import ROOT
 
 from tvimdesign.physics.motions import one_sided
 from tvimdesign.report.output.tables import results
-from tvimdesign.report.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.joint_tests import release as release_test
 from tvimdesign.simulation.joint_tests import step_test
 from tvimdesign.simulation.joint_tests.case import Case, cases
@@ -21,6 +20,7 @@ from tvimdesign.simulation.link_motion import link
 from tvimdesign.simulation.link_motion.course import Plant
 from tvimdesign.simulation.link_motion.sampled_motion import OneSided
 from tvimdesign.simulation.trial import CurveTable, Trial
+from tvimdesign.simulation.virtual_tests import TESTS, find_test
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_study
 from tvimdesign.solve.result import answer
 from tvimdesign.study import read_study

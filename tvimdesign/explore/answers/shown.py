@@ -8,8 +8,8 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.axis_labels import in_labels, label
-from tvimdesign.report.output.tables import NOTHING, margin_text, number
+from tvimdesign.report.output.numbers import in_labels, label, number
+from tvimdesign.report.output.tables import NOTHING, margin_text
 from tvimdesign.solve.nlp.constraints import Constraint, constraints_of, in_words
 from tvimdesign.solve.optimizer.verify_optimum import exceeded, kept
 from tvimdesign.solve.result import ConstraintCheck

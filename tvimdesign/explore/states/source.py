@@ -11,7 +11,7 @@ from typing import Any
 from tvimdesign.base.errors import InputError
 from tvimdesign.explore.states.messages import Way
 from tvimdesign.explore.states.state import State, beginning, refuse_other_folders
-from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.report.output.numbers import axis_label
 from tvimdesign.report.sweep.swept_cells import SweptCells, is_sweep, open_cells
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.design import Design, read_design

@@ -17,11 +17,11 @@ from rich.markup import escape
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.base.yaml_data import plain_data
-from tvimdesign.report.command import Command, design_file
-from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.fit.fit_files import fit_data, from_si_array
+from tvimdesign.report.output.command import Command, design_file
+from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.simulation.measurement import bench_tests
 from tvimdesign.simulation.measurement.bench_tests import Columns

@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 
 from tvimdesign.base.child_process import read_lines, start_child
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
-from tvimdesign.report.command import Command, design_file, done_in_part
-from tvimdesign.report.compare.compared_design import finished_run, nothing_found
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
+from tvimdesign.report.compare.comparison_job import finished_run, nothing_found
 from tvimdesign.report.compare.comparison_page import comparison_page, drawings, print_comparison, summary_text
 from tvimdesign.report.compare.comparison_table import compare_csv
+from tvimdesign.report.output.command import Command, design_file, done_in_part
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.study import Study, read_tree

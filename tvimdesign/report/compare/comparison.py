@@ -23,7 +23,7 @@ from tvimdesign.report.compare.comparison_table import (
     standing,
     wins,
 )
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.numbers import head
 from tvimdesign.solve.pareto.front_shape import leads
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design

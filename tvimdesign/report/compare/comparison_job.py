@@ -11,7 +11,7 @@ import json
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
 from functools import cached_property
@@ -20,16 +20,17 @@ from typing import Any
 
 from tvimdesign.base.atomic_files import atomic_write
 from tvimdesign.base.child_process import follow_parent
-from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, TvimError
+from tvimdesign.base.errors import AboveRatingError, BelowYieldError, InfeasibleError, InputError, TvimError
 from tvimdesign.base.units import from_si
 from tvimdesign.device import Table
-from tvimdesign.report.compare.compared_design import compared_design, nothing_found
 from tvimdesign.report.output.tables import results
+from tvimdesign.report.output.thresholds import soft_in_words
 from tvimdesign.report.run.infeasible_report import above_rating, complaint, starts_reported
 from tvimdesign.report.run.uncertainty_data import below_yield
+from tvimdesign.report.run.why import PRICE_SHOWN
 from tvimdesign.report.simulate_study import figure_data, findings
-from tvimdesign.report.virtual_tests import find_test
 from tvimdesign.simulation.joint_tests.release import ANGLE_PANEL
+from tvimdesign.simulation.virtual_tests import find_test
 from tvimdesign.simulation.working_cycle.resolved_module import resolve_design
 from tvimdesign.solve import anchored_search
 from tvimdesign.solve.nlp.solver_run import Run
@@ -38,7 +39,56 @@ from tvimdesign.solve.pareto.front import Front, completed, trace_front, undomin
 from tvimdesign.solve.pareto.tradeoff import Point, Tradeoff
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import Study, drawn, read_tree
+from tvimdesign.study.design import Design, read_design
 from tvimdesign.study.tree import StudyTree, tree_of_file
+
+MOST_ACTIVE = 3
+"""Active constraints of a design that a comparison reports, the costliest."""
+
+
+def compared_design(design: Design, results: Mapping[str, Any], table: Table) -> dict[str, Any]:
+    """Return a design with its violated limits, warnings, active constraints and search; `results` as results.json."""
+    search = results.get("starts") or {"count": 0, "converged": 0, "optima": []}
+    solution = results.get("solution") or {"active_constraints": []}
+    active = [entry for entry in solution["active_constraints"] if (entry["shadow_price"] or 0.0) > PRICE_SHOWN]
+    return {
+        "design": design.model_dump(mode="json"),
+        "broken": [check["limit"] for check in results.get("checks", ()) if not check["kept"]],
+        "warnings": [
+            {"output": check["output"], "value": check["si"]["value"], "because": check["origin"]}
+            for check in results.get("warnings", ())
+        ],
+        "above_rating": list(design.above_rating),
+        "accepting": list(design.accepting),
+        "soft": soft_in_words(design, table),
+        "active_constraints": [
+            {"limit": entry["text"], "because": entry["origin"], "shadow_price": entry["shadow_price"]}
+            for entry in sorted(active, key=lambda entry: -entry["shadow_price"])[:MOST_ACTIVE]
+        ],
+        "starts": search["count"],
+        "converged": search["converged"],
+        "optima": [{"objective": entry["objective"], "variables": entry["at"]} for entry in search["optima"]],
+    }  # fmt: skip
+
+
+def finished_run(source: Path, table: Table) -> dict[str, Any]:
+    """Return what a comparison needs of a finished run, by its design.json. Raises InputError."""
+    design = read_design(source)
+    path = source.parent / "results.json"
+    try:
+        results = json.loads(path.read_bytes()) if source.name == "design.json" else {}
+    except FileNotFoundError:
+        results = {}
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from error
+    which = "optimised" if design.study["vary"] else "drawn"
+    return {**nothing_found(), which: compared_design(design, results or {"solution": design.solution}, table)}
+
+
+def nothing_found() -> dict[str, Any]:
+    """Return what a comparison has of a study before anything is computed."""
+    return {"fronts": [], "seconds": {}, "release": {}, "heat": {}, "troubles": []}
+
 
 Say = Callable[[str], None]
 

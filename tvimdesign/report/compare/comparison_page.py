@@ -17,11 +17,10 @@ from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.page.blocks import Block, Drawn, Folded, Grid, Listing, Page, Points, Section, Warned, Words
 from tvimdesign.report.compare.comparison import COMPARISONS, Outcome
 from tvimdesign.report.compare.comparison_table import Row
-from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.axis_labels import axis_label
+from tvimdesign.report.output.numbers import axis_label, number
 from tvimdesign.report.output.page_sections import grid, made_by_words, there, tone_of, versions_section
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import WIDTH, OwnMarkupConsole, print_grid
 
 _STILL = 1e-3

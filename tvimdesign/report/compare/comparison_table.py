@@ -14,8 +14,7 @@ from typing import Any, Literal
 
 from tvimdesign.base.units import format_quantity, from_si, pretty, si_unit
 from tvimdesign.device import Output, Table
-from tvimdesign.report.output.number_format import finite
-from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.numbers import finite, number
 from tvimdesign.solve.pareto.front_shape import ALIKE, Lead
 from tvimdesign.study.conditions import Case
 from tvimdesign.study.design import Design

@@ -16,11 +16,10 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.command import Command
-from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.number_format import finite, head, number_entry
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.output.numbers import finite, head, number, number_entry
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.terminal import print_grid, wide_console
 from tvimdesign.simulation.measurement.fitting.fit import Estimate, Fit
 from tvimdesign.simulation.measurement.measure_files import Measured, kind_sheets, measure_files

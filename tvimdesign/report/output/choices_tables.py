@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from tvimdesign.base.units import format_quantity, from_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.number_format import NumberEntry, number_entry
+from tvimdesign.report.output.numbers import NumberEntry, number_entry
 from tvimdesign.report.output.results_format import ChoosingEntry, Listed
 from tvimdesign.solve.nlp.solution import Choosing, Standard
 from tvimdesign.solve.result import StudyResult

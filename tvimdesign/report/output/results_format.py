@@ -11,7 +11,7 @@ from typing import Any, Literal, NotRequired
 from pydantic import TypeAdapter
 from typing_extensions import TypedDict
 
-from tvimdesign.report.output.number_format import Head, NumberEntry, closed
+from tvimdesign.report.output.numbers import Head, NumberEntry, closed
 
 Shares = dict[str, float | None]
 

@@ -12,7 +12,7 @@ from typing import Any, cast
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Table
 from tvimdesign.report.output.choices_tables import choices_with_margins, choosing_data
-from tvimdesign.report.output.number_format import finite, head, number_entry
+from tvimdesign.report.output.numbers import finite, head, number, number_entry, percent
 from tvimdesign.report.output.provenance import FindRecord, provenance
 from tvimdesign.report.output.results_format import Answered, BestConstant, CheckEntry, IntervalEntry, ValueEntry, Yield
 from tvimdesign.report.output.thresholds import notes
@@ -23,14 +23,6 @@ from tvimdesign.study.design import catalog_of
 NOTHING = 5e-4
 """Margin, as a share, below which a limit binds."""
 _ROUND = 1e-5
-
-
-def number(value: float, digits: int = 4) -> str:
-    """Return a number for people: `digits` significant figures, no needless zeros, `never` for an infinite time."""
-    if math.isinf(value):
-        return "never"
-    text = f"{value:.{digits}g}"
-    return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
 
 
 def value_text(answer: StudyResult, name: str, table: Table, *, rounded: bool = False) -> str:
@@ -55,25 +47,6 @@ def on_limit(check: ConstraintCheck, unit: str) -> float:
 def _rounded(value: float) -> float:
     """Return zero for what a solver leaves of zero, in any unit that people read."""
     return 0.0 if abs(value) < _ROUND else value
-
-
-def percent(share: float, digits: int = 3) -> str:
-    """Return a share for people: `95.8 %`."""
-    return f"{100.0 * share:.{digits}g} %"
-
-
-def ends_text(low: float | None, high: float | None, digits: int = 3) -> str:
-    """Return an interval for people, `38 to 104`; what never happens has no end."""
-    return " to ".join("never" if end is None else number(end, digits) for end in (low, high))
-
-
-def range_text(interval: Mapping[str, Any] | None) -> str:
-    """Return the range of a value, `38 to 104`; empty if its ends are the value itself in three digits."""
-    if interval is None:
-        return ""
-    text = ends_text(interval["low"], interval["high"])
-    value = ends_text(interval["value"], interval["value"])
-    return "" if text == value else text
 
 
 def mark(name: str, answer: StudyResult) -> str:

@@ -18,8 +18,8 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si, pretty
-from tvimdesign.report.command import PARTLY_DONE, done_in_part, noting
-from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.command import PARTLY_DONE, done_in_part, noting
+from tvimdesign.report.output.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import progress_output, wide_console
 from tvimdesign.report.paper import paper_case
@@ -45,11 +45,11 @@ def write_level_sets(out: Path, overwrite: bool) -> Path:
     with ResultsFolder(out, overwrite) as folder, progress_output() as say, PlotProcess() as drawing:
         sets = [level_set(model, name, list(values), thin, wanted, say) for name, values in AGAINST.items()]
         say("what the ratio of compression to shear hangs on: every assumed input through its range")
-        case = Drawing("paper_case", "paper_figures.tornado", paper_case.figure_data())
+        case = Drawing("paper_case", "comparison_figures.tornado", paper_case.figure_data())
         say("drawing")
         drawing.begin(
             folder.path,
-            [Drawing("level_sets", "paper_figures.level_sets", _figure_data(sets, model, wanted)), case],
+            [Drawing("level_sets", "comparison_figures.level_sets", _figure_data(sets, model, wanted)), case],
             "The paper's module, reconstructed",
         )
         units = {each.parameter: model.table.unit(each.parameter) for each in sets}

@@ -9,11 +9,11 @@ from rich.console import Console
 from rich.markup import escape
 
 from tvimdesign.physics.polymers.polymer import ZERO_CELSIUS
-from tvimdesign.report.command import Command, design_file
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.command import Command, design_file
+from tvimdesign.report.output.numbers import head, number
 from tvimdesign.report.output.page_sections import grid
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import curves_csv, number
+from tvimdesign.report.output.tables import curves_csv
 from tvimdesign.report.output.terminal import Progress, print_grid
 from tvimdesign.report.robot.fmu.fmu_file import WrittenFmu, write_fmu
 from tvimdesign.report.robot.joint_model import JointModel, joint_model, make_bodies, refuse_step

@@ -16,9 +16,9 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import from_si, pretty, to_si
 from tvimdesign.device import Table
-from tvimdesign.report.command import noting
-from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.axis_labels import name_in_words
+from tvimdesign.report.output.command import noting
+from tvimdesign.report.output.numbers import name_in_words
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import RunResults, UncertaintyEntry
 from tvimdesign.report.output.tables import results

@@ -16,7 +16,7 @@ from tvimdesign.base.deadline import Deadline
 from tvimdesign.base.errors import InputError, SimulationError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Choice
-from tvimdesign.report.output.tables import number
+from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
 from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.study import Range, Study, read_tree

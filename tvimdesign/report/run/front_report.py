@@ -22,9 +22,8 @@ from tvimdesign.base.deadline import NEVER, Deadline
 from tvimdesign.base.errors import AboveRatingError, InputError, TvimError
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.axis_labels import axis_label
-from tvimdesign.report.output.number_format import finite, head
+from tvimdesign.report.output.numbers import axis_label, finite, head
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint, RunResults
 from tvimdesign.report.output.terminal import Progress

@@ -12,8 +12,8 @@ from tvimdesign.base.atomic_files import TABLE_ENCODING
 from tvimdesign.base.units import pretty
 from tvimdesign.cad import cad_report
 from tvimdesign.page.blocks import Block, Cell, Drawn, Folded, Grid, Head, Picture, Section, Steps, Words
+from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.tables import number
 
 FOLDER, CYCLE = "cad", "cycle"
 """Folder of the parts, and name of the figure of the cycle beside them."""

@@ -16,10 +16,9 @@ from tvimdesign.base.errors import InfeasibleError
 from tvimdesign.cad.cad_report import PREVIEW
 from tvimdesign.device import Choice, Table
 from tvimdesign.page.blocks import Block, Drawn, Facts, Folded, Page, Points, Section, Warned
-from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.axis_labels import axis_label
-from tvimdesign.report.output.number_format import FORMAT, UNITS
+from tvimdesign.report.output.numbers import FORMAT, UNITS, axis_label
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.results_format import FrontEntry, RefusedRun
 from tvimdesign.report.output.tables import curves_csv, results_csv

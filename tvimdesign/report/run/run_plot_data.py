@@ -9,8 +9,8 @@ from typing import Any
 
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Output, Table
-from tvimdesign.report.figures.plot_process import Drawing
-from tvimdesign.report.output.axis_labels import axis_label, name_in_words
+from tvimdesign.report.output.numbers import axis_label, name_in_words
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.tables import NOTHING, margin_of
 from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves, torque_loop
 from tvimdesign.solve.result import ConstraintCheck, StudyResult

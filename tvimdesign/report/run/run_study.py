@@ -27,7 +27,7 @@ from tvimdesign.base.errors import (
     TimeOverError,
     TvimError,
 )
-from tvimdesign.report.command import done_in_part, noting
+from tvimdesign.report.output.command import done_in_part, noting
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
 from tvimdesign.report.run.check_study import refuse_what_cannot_be
@@ -39,7 +39,7 @@ from tvimdesign.study.tree import tree_of_file
 from tvimdesign.study.written_studies import started_at, study_text
 
 if TYPE_CHECKING:
-    from tvimdesign.report.figures.plot_process import PlotProcess
+    from tvimdesign.report.output.plot_process import PlotProcess
     from tvimdesign.report.output.results_format import Parts
     from tvimdesign.report.run.answered_study import AnsweredStudy
     from tvimdesign.report.run.parts_of_design import BackgroundPartsJob
@@ -149,7 +149,7 @@ def _parts_ahead(mode: str) -> BackgroundPartsJob:
 
 
 def _plots_ahead() -> PlotProcess:
-    from tvimdesign.report.figures.plot_process import PlotProcess
+    from tvimdesign.report.output.plot_process import PlotProcess
 
     return PlotProcess(gives_way=True)
 

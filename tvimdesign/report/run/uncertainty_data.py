@@ -15,9 +15,8 @@ from typing import Any
 from tvimdesign.base.errors import SimulationError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.output.number_format import finite, number_entry
+from tvimdesign.report.output.numbers import finite, number, number_entry, percent
 from tvimdesign.report.output.results_format import IntervalEntry, ShareEntry, UncertaintyEntry, UnmeasuredEntry
-from tvimdesign.report.output.tables import number, percent
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule, resolve_design, resolve_study
 from tvimdesign.solve.nlp.solution import LostTo, YieldReached

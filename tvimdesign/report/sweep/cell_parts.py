@@ -13,8 +13,8 @@ from rich.markup import escape
 
 from tvimdesign.base.environment import require_extra
 from tvimdesign.base.errors import GeometryError, InputError, TvimError
-from tvimdesign.report.command import Command
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.command import Command
+from tvimdesign.report.output.numbers import head
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.run.parts_of_design import make_parts_of

@@ -16,11 +16,10 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Choice
 from tvimdesign.page.blocks import Block, Cell, Facts, Folded, Grid, Head, Listing, Page, Section, Tone, Words
 from tvimdesign.page.page_file import FILE
+from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import made_by_words, study_section, there, versions_section, write_page
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import number
-from tvimdesign.report.sweep.cell_table import CellTable
-from tvimdesign.report.sweep.sweep_figures import figure_data, figures
+from tvimdesign.report.sweep.sweep_figures import CellTable, figure_data, figures
 from tvimdesign.study import given
 from tvimdesign.study.tree import study_file
 from tvimdesign.sweep.gather import Column, Value, columns

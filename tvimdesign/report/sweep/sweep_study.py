@@ -23,16 +23,14 @@ from tvimdesign.base.atomic_files import recorded
 from tvimdesign.base.errors import FolderInUseError, InputError
 from tvimdesign.base.units import pretty
 from tvimdesign.page.page_file import FILE
-from tvimdesign.report.command import Command, not_done
-from tvimdesign.report.figures.plot_process import Drawing
 from tvimdesign.report.output.claim import IN_PARTS, Claim
+from tvimdesign.report.output.command import Command, not_done
 from tvimdesign.report.output.manifest import seed
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.numbers import head, number
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import prepare, recovered, say
-from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import Progress, duration, progress_output, wide_console
-from tvimdesign.report.sweep.cell_table import CellTable
-from tvimdesign.report.sweep.sweep_figures import figure_data
+from tvimdesign.report.sweep.sweep_figures import CellTable, figure_data
 from tvimdesign.report.sweep.sweep_page import kept_page, write_sweep_page
 from tvimdesign.study.tree import study_file, tree_of_file
 from tvimdesign.sweep.gather import columns, parquet_library, rows, write_parquet, write_tables

@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from tvimdesign.base.errors import InputError
-from tvimdesign.report.sweep.cell_table import MOST_LISTED
-from tvimdesign.report.sweep.sweep_figures import CELL_WORDS, cell_points
+from tvimdesign.report.sweep.sweep_figures import CELL_WORDS, MOST_LISTED, cell_points
 from tvimdesign.study import Study, read_tree
 from tvimdesign.study.tree import StudyTree, tree_of_file, without_section
 from tvimdesign.sweep.gather import Value

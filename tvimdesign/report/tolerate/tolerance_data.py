@@ -12,8 +12,7 @@ import numpy as np
 
 from tvimdesign.base.units import from_si, pretty, si_unit, to_si
 from tvimdesign.device import Table
-from tvimdesign.report.output.axis_labels import axis_label, name_in_words
-from tvimdesign.report.output.number_format import head
+from tvimdesign.report.output.numbers import axis_label, head, name_in_words
 from tvimdesign.report.run.uncertainty_data import interval_entry
 from tvimdesign.simulation.working_cycle.resolved_module import ResolvedModule
 from tvimdesign.solve.nlp.constraints import in_words

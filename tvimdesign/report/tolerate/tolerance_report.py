@@ -15,9 +15,9 @@ from rich.markup import escape
 
 from tvimdesign.device import Table
 from tvimdesign.page.blocks import Block, Folded, Grid, Page, Picture, Points, Section
+from tvimdesign.report.output.numbers import number
 from tvimdesign.report.output.page_sections import grid, made_by_words, study_section, there, versions_section
 from tvimdesign.report.output.results_folder import ResultsFolder
-from tvimdesign.report.output.tables import number
 from tvimdesign.report.output.terminal import print_grid
 from tvimdesign.report.tolerate.tolerance_data import spreads, unknown_rows
 from tvimdesign.solve.nlp.constraints import in_words

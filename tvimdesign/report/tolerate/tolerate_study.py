@@ -10,8 +10,8 @@ from typing import Any
 from tvimdesign.base.errors import InfeasibleError, InputError
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table
-from tvimdesign.report.command import Command, design_file
-from tvimdesign.report.figures.plot_process import Drawing
+from tvimdesign.report.output.command import Command, design_file
+from tvimdesign.report.output.plot_process import Drawing
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.terminal import Progress
 from tvimdesign.report.output.thresholds import soft_of_module

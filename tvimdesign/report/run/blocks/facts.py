@@ -10,8 +10,7 @@ import numpy as np
 
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table, table_for
-from tvimdesign.report.output.axis_labels import in_labels, label
-from tvimdesign.report.output.tables import ends_text, number, percent, range_text
+from tvimdesign.report.output.numbers import ends_text, in_labels, label, number, percent, range_text
 from tvimdesign.report.output.terminal import DOT
 from tvimdesign.report.output.thresholds import soft_in_words, stiff_in_words
 from tvimdesign.report.run.blocks.tables import torque_path

@@ -9,17 +9,8 @@ from typing import Any
 from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Cell, Grid, Head, Tone
-from tvimdesign.report.output.axis_labels import label
-from tvimdesign.report.output.tables import (
-    NOTHING,
-    ends_text,
-    margin_text,
-    mark,
-    number,
-    on_limit,
-    range_text,
-    value_text,
-)
+from tvimdesign.report.output.numbers import ends_text, label, number, range_text
+from tvimdesign.report.output.tables import NOTHING, margin_text, mark, on_limit, value_text
 from tvimdesign.solve.result import ConstraintCheck, StudyResult
 
 HEADS = ("", "asked", "got", "range", "margin")

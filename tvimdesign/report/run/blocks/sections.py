@@ -8,10 +8,9 @@ from typing import Any
 from tvimdesign.base.units import format_quantity
 from tvimdesign.device import Input, table_for
 from tvimdesign.page.blocks import Block, Cell, Folded, Grid, Head, Points, Section, Words
-from tvimdesign.report.output.axis_labels import in_labels
 from tvimdesign.report.output.choices_tables import choices_with_margins, price_in_words, tally_in_words
+from tvimdesign.report.output.numbers import in_labels, number, percent
 from tvimdesign.report.output.results_format import FrontEntry, FrontPoint
-from tvimdesign.report.output.tables import number, percent
 from tvimdesign.report.run.answered_study import AnsweredStudy
 from tvimdesign.report.run.blocks import tables
 from tvimdesign.report.run.blocks.verdict import objective_in_words

@@ -10,8 +10,9 @@ from tvimdesign.base.units import from_si, pretty
 from tvimdesign.device import Input, Output, Table, table_for
 from tvimdesign.page.blocks import Grid
 from tvimdesign.report.output.choices_tables import best_rows
+from tvimdesign.report.output.numbers import ends_text, number, range_text
 from tvimdesign.report.output.page_sections import grid
-from tvimdesign.report.output.tables import NOTHING, ends_text, margin_text, mark, number, range_text, value_text
+from tvimdesign.report.output.tables import NOTHING, margin_text, mark, value_text
 from tvimdesign.report.output.thresholds import meaning
 from tvimdesign.report.run.blocks.verdict import unreached_points
 from tvimdesign.report.run.why import binding

@@ -23,8 +23,8 @@ from typing import Any, Literal
 from tvimdesign.base.units import format_quantity, from_si, pretty
 from tvimdesign.device import Table, table_for
 from tvimdesign.page.blocks import Tone
-from tvimdesign.report.output.axis_labels import in_labels, label
-from tvimdesign.report.output.tables import margin_text, number, percent
+from tvimdesign.report.output.numbers import in_labels, label, number, percent
+from tvimdesign.report.output.tables import margin_text
 from tvimdesign.report.run.blocks.warnings import RunWarning
 from tvimdesign.report.run.uncertainty_data import yield_of
 from tvimdesign.solve.nlp.solver_run import BELOW_YIELD, FLAT_GOAL

@@ -13,7 +13,7 @@ from tvimdesign.base.errors import TvimError
 from tvimdesign.base.units import format_quantity
 from tvimdesign.base.yaml_data import plain_data
 from tvimdesign.device import Choice, Table, table_for
-from tvimdesign.report.output.axis_labels import label
+from tvimdesign.report.output.numbers import label
 from tvimdesign.report.output.terminal import duration
 from tvimdesign.report.run.infeasible_report import endings
 from tvimdesign.solve.nlp.constraints import advice_of, ratings_of

@@ -1,6 +1,6 @@
 """Draws a run's plots from plain data, in a process of its own that loads matplotlib while the solver works.
 
-Run as `python -m tvimdesign.report.figures.plot_process`: reads JSON objects on standard input, a line each,
+Run as `python -m tvimdesign.report.output.plot_process`: reads JSON objects on standard input, a line each,
 `{"folder": ..., "study": ..., "endings": ["png", ...], "drawings": [{"file": ..., "figure": ..., "data": ...}]}`, and
 writes a file of each ending for each drawing. `PlotProcess` is the other end.
 """
@@ -44,7 +44,7 @@ class PlotProcess:
     def __init__(self, *, gives_way: bool = False) -> None:
         """Start it, at low priority: the first screen and parts need the processors first."""
         self._child = start_child(
-            "tvimdesign.report.figures.plot_process",
+            "tvimdesign.report.output.plot_process",
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
         )  # fmt: skip
         self._sender: threading.Thread | None = None

@@ -14,7 +14,7 @@ from rich.markup import escape
 
 from tvimdesign.base.errors import InputError, TvimError
 from tvimdesign.page.blocks import Page
-from tvimdesign.report.figures.plot_process import Drawing, PlotProcess
+from tvimdesign.report.output.plot_process import Drawing, PlotProcess
 from tvimdesign.report.output.results_folder import PROGRESS, ResultsFolder
 from tvimdesign.report.output.terminal import Progress, progress_output, wide_console
 

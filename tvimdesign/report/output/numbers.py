@@ -1,0 +1,148 @@
+"""Numbers for people and for files: digits, units, ranges, labels, and the entries of JSON files.
+
+One unit system in files: every bare number is in SI. A number that people read in another unit stands under `value`,
+`low` and `high` with its `unit`, and under `si` once more in SI. What never happens is null.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from functools import cache
+from importlib import resources
+from typing import Any, Literal
+
+from pydantic import ConfigDict, with_config
+from typing_extensions import TypedDict
+
+from tvimdesign.base.units import from_si, pretty, si_unit
+from tvimdesign.base.yaml_data import plain_data
+
+_CAPITALS = {"pcl": "PCL", "peltier": "Peltier", "peltiers": "Peltiers"}
+_NAME = re.compile(r"\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+(?:@\w+)?|\b[a-z_0-9]+@\w+|^[a-z]+(?= [<>]=)")
+
+
+@cache
+def _labels() -> dict[str, str]:
+    """Return labels of quantities whose names do not read as words."""
+    return dict(plain_data(resources.files(__package__).joinpath("labels.yaml").read_text(encoding="utf-8")))
+
+
+def name_in_words(name: str) -> str:
+    """Return a quantity's full name in words."""
+    quantity, _, point = name.partition("@")
+    words = " ".join(_CAPITALS.get(word, word) for word in quantity.split("_"))
+    return f"{words}, {point.replace('_', ' ')}" if point else words
+
+
+def label(name: str) -> str:
+    """Return the label of a quantity: a few words for people; its name in words if it has none of its own."""
+    quantity, _, point = name.partition("@")
+    words = _labels().get(quantity)
+    if words is None:
+        return name_in_words(name)
+    return f"{words}, {point.replace('_', ' ')}" if point else words
+
+
+def in_labels(text: str) -> str:
+    """Return a text with each name of a quantity replaced by its label."""
+    return _NAME.sub(lambda match: label(match[0]), text)
+
+
+def axis_label(name: str, unit: str) -> str:
+    """Return what stands at an axis: the quantity in words, and its unit; a dash for a number without one."""
+    words = name_in_words(name)
+    shown = pretty(unit)
+    return f"{words[0].upper()}{words[1:]} ({shown if shown and shown != '1' else '–'})"
+
+
+FORMAT: Literal[1] = 1
+"""Version of results.json, compare.json, findings.json and tolerances.json; a change that breaks a reader raises it."""
+UNITS: Literal["SI"] = "SI"
+closed = with_config(ConfigDict(extra="forbid"))
+"""For an entry that has no other keys than its own."""
+
+
+class Head(TypedDict):
+    """The first entries of every JSON file of results."""
+
+    format: Literal[1]
+    units: Literal["SI"]
+
+
+def head() -> Head:
+    """Return the first entries of a JSON file of results."""
+    return {"format": FORMAT, "units": UNITS}
+
+
+@closed
+class InSi(TypedDict):
+    """A number and what it may lie between, in SI."""
+
+    value: float | None
+    low: float | None
+    high: float | None
+    unit: str
+
+
+@closed
+class NumberEntry(TypedDict):
+    """A number in the unit people read, and in SI. `low` and `high` are None where no range is known."""
+
+    value: float | None
+    low: float | None
+    high: float | None
+    unit: str
+    si: InSi
+
+
+Ends = tuple[float | None, float | None]
+
+
+def number_entry(value: float, unit: str, ends: Ends | None = None) -> NumberEntry:
+    """Return a number (SI) of a quantity people read in `unit`, with its range (SI) if that is known."""
+    low, high = ends or (None, None)
+
+    def shown(number: float | None) -> float | None:
+        return None if number is None else finite(from_si(number, unit))
+
+    return {
+        "value": shown(value),
+        "low": shown(low),
+        "high": shown(high),
+        "unit": pretty(unit),
+        "si": {"value": finite(value), "low": finite(low), "high": finite(high), "unit": pretty(si_unit(unit))},
+    }
+
+
+def finite(value: float | None) -> float | None:
+    """Return a number, or None for what never happens: JSON has no infinity."""
+    return value if value is not None and math.isfinite(value) else None
+
+
+def number(value: float, digits: int = 4) -> str:
+    """Return a number for people: `digits` significant figures, no needless zeros, `never` for an infinite time."""
+    if math.isinf(value):
+        return "never"
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e+" in text and abs(value) < 1e7 else text
+
+
+def percent(share: float, digits: int = 3) -> str:
+    """Return a share for people: `95.8 %`."""
+    return f"{100.0 * share:.{digits}g} %"
+
+
+def ends_text(low: float | None, high: float | None, digits: int = 3) -> str:
+    """Return an interval for people, `38 to 104`; what never happens has no end."""
+    return " to ".join("never" if end is None else number(end, digits) for end in (low, high))
+
+
+def range_text(interval: Mapping[str, Any] | None) -> str:
+    """Return the range of a value, `38 to 104`; empty if its ends are the value itself in three digits."""
+    if interval is None:
+        return ""
+    text = ends_text(interval["low"], interval["high"])
+    value = ends_text(interval["value"], interval["value"])
+    return "" if text == value else text
