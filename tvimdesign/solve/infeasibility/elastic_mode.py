@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
 from tvimdesign.solve.nlp.ipopt import ProgrammeSolver, solver_of
-from tvimdesign.solve.nlp.problem import Problem
-from tvimdesign.solve.nlp.problem_parts import Objective, Parameters, Point
+from tvimdesign.solve.nlp.problem_parts import Objective, Parameters
 from tvimdesign.solve.nlp.solver_run import Array, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 
@@ -78,6 +78,8 @@ class ElasticMode:
         problem.place_grids(x, parameters)
         counts = np.isin(np.arange(self.count), list(within)) if within else np.ones(self.count, dtype=bool)
         each = self._slack_of
+        by_slacks = np.zeros((len(each), self.count))
+        by_slacks[np.arange(len(each)), each] = -1.0
         residuals = np.zeros(self.count)
         broken = problem.at(x, parameters).rows[self.equations : self.equations + len(each)]
         np.maximum.at(residuals, each, np.nan_to_num(broken))
@@ -85,7 +87,7 @@ class ElasticMode:
         lower, upper = optimizer.vector.bounds({})
         objectives, no_equations = len(problem.objectives), np.zeros(self.equations)
         answer = self._solver(
-            _Elastic(problem, parameters, each, weights), optimizer.deadline,
+            ExtendedProblem(problem, parameters, by_slacks, weights, TRACE), optimizer.deadline,
             x0=np.concatenate([x, slacks]),
             lbx=np.concatenate([lower, np.zeros(self.count)]),
             ubx=np.concatenate([upper, np.where(counts, np.inf, 0.0)]),
@@ -112,24 +114,3 @@ class ElasticMode:
         bare = {"x": unknowns[:size], "f": answer["f"], "lam_g": np.zeros(problem.row_count), "lam_x": np.zeros(size)}
         run = self.optimizer.record(bare, self._solver.stats(), begin, seconds, parameters)
         return ElasticSolution(run, np.maximum(unknowns[size:], 0.0), pressing, ends)
-
-
-class _Elastic:
-    """A problem with slacks as a programme: the unknowns, then the slacks."""
-
-    def __init__(self, problem: Problem, parameters: Parameters, slack_of: Array, weights: Array) -> None:
-        self._problem, self._parameters, self._slack_of, self._weights = problem, parameters, slack_of, weights
-        self.unknown_count, self.row_count = problem.unknown_count + len(weights), problem.row_count
-
-    def at(self, x: Array) -> Point:
-        size, first = self._problem.unknown_count, self._problem.equation_count
-        point, slacks = self._problem.at(x[:size], self._parameters), x[size:]
-        rows, by_slacks = point.rows.copy(), np.zeros((self.row_count, len(slacks)))
-        limits = np.arange(first, first + len(self._slack_of))
-        rows[limits] -= slacks[self._slack_of]
-        by_slacks[limits, self._slack_of] = -1.0
-        return point._replace(
-            objective=float(self._weights @ slacks) + TRACE * point.objective,
-            gradient=np.concatenate([TRACE * point.gradient, self._weights]),
-            rows=rows, jacobian=np.hstack([point.jacobian, by_slacks]),
-        )  # fmt: skip

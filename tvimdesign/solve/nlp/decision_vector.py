@@ -53,6 +53,14 @@ class DecisionVector:
             lower[place.stop] = np.log(SHORTEST / UNIT)
         return lower, upper
 
+    def shaken(self, unknowns: Array, within: Mapping[str, Ends], share: float, random: np.random.Generator) -> Array:
+        """Return unknowns with the free numbers moved at random, by at most a share of their ranges, within ends."""
+        lower, upper = (ends[: len(self.problem.free)] for ends in self.bounds(within))
+        moved = unknowns.copy()
+        step = share * (upper - lower) * random.uniform(-1.0, 1.0, len(lower))
+        moved[: len(lower)] = np.clip(unknowns[: len(lower)] + step, lower, upper)
+        return moved
+
     def places_of_currents(self) -> Iterator[tuple[FreeCurrent, slice]]:
         """Yield the free currents and their places among the unknowns."""
         for i, current in enumerate(self.problem.free_currents):

@@ -67,14 +67,11 @@ class NeighboringOptima:
         optimizer, best = self._optimizer, min(optima, key=lambda run: run.start.objective, default=None)
         if best is None or optimizer.mixtures:
             return None
-        lower, upper = (ends[: len(optimizer.free)] for ends in optimizer.vector.bounds(best.within))
         random, better = np.random.default_rng(optimizer.study.solver.seed), best
         for _ in range(SHAKES):
             if optimizer.deadline.passed:
                 break
-            unknowns = better.unknowns.copy()
-            moved = unknowns[: len(lower)] + SHAKE * (upper - lower) * random.uniform(-1.0, 1.0, len(lower))
-            unknowns[: len(lower)] = np.clip(moved, lower, upper)
+            unknowns = optimizer.vector.shaken(better.unknowns, best.within, SHAKE, random)
             begin = optimizer.vector.inputs(unknowns)
             run = optimizer.solve(best.within, begin=begin, unknowns=unknowns, beginning="near")
             if _better(run, better):

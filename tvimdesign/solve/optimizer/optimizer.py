@@ -18,10 +18,11 @@ from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.simulation.working_cycle.device_functions import DeviceFunctions
 from tvimdesign.solve.nlp.constraints import ALGEBRAIC_TOLERANCE, Constraint, constraints_of, on_cycle, unchangeable
 from tvimdesign.solve.nlp.decision_vector import DecisionVector
+from tvimdesign.solve.nlp.extended_problem import ExtendedProblem
 from tvimdesign.solve.nlp.ipopt import TIME_OVER, Beginning, ProgrammeSolver, solver_of
 from tvimdesign.solve.nlp.mixture import MixedDevice, Mixture
 from tvimdesign.solve.nlp.problem import Problem
-from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters, Point
+from tvimdesign.solve.nlp.problem_parts import Free, FreeCurrent, Objective, Parameters
 from tvimdesign.solve.nlp.solution import Start
 from tvimdesign.solve.nlp.solver_run import NO_DESIGN, Array, Derivatives, Ends, Progress, Run, Trace
 from tvimdesign.solve.optimizer.multistart import Multistart
@@ -33,6 +34,8 @@ MOST_GRIDS = 4
 """Times the steps are placed anew for one run."""
 _BESIDE, _TRIALS = (0.1, 0.3, 1.0), 10
 """How far beside a module whose switch never ends others are tried, as a share of the ranges, and how many each."""
+_WORTH = 10.0
+"""Worth of the whole of a step of the margins, in what is minimised over its reference; no design is dearer."""
 _APART = 1e-4
 """Step of an unknown in the differences that second derivatives come from."""
 
@@ -80,7 +83,7 @@ class Optimizer:
         self.problem = self._problem(self.kept_constraints(limits), objectives)
         self._begin()
         self.reference = {name: self._reference(name) for name in self.problem.minimize} | (reference or {})
-        self._solvers: dict[Beginning, ProgrammeSolver] = {}
+        self._solvers: dict[tuple[Beginning, int], ProgrammeSolver] = {}
         self.seconds = {"set_up": time.perf_counter() - began, "solve": 0.0}
 
     def _device(self) -> DeviceFunctions:
@@ -182,12 +185,12 @@ class Optimizer:
             return float(horizon)
         return value if value != 0.0 else 1.0
 
-    def _solver(self, beginning: Beginning) -> ProgrammeSolver:
-        """Return the solver, built when it is first needed."""
-        if beginning not in self._solvers:
-            problem = self.problem
-            self._solvers[beginning] = solver_of(problem.unknown_count, problem.row_count, self.study.solver, beginning)
-        return self._solvers[beginning]
+    def _solver(self, beginning: Beginning, programme: ExtendedProblem) -> ProgrammeSolver:
+        """Return the solver for a programme of this size, built when it is first needed."""
+        key = (beginning, programme.unknown_count)
+        if key not in self._solvers:
+            self._solvers[key] = solver_of(*key[1:], programme.row_count, self.study.solver, beginning)
+        return self._solvers[key]
 
     def solve(
         self,
@@ -198,12 +201,14 @@ class Optimizer:
         unknowns: Array | None = None,
         *,
         beginning: Beginning | None = None,
+        moves: Mapping[str, float] | None = None,
     ) -> Run:
         """Run IPOPT from `begin` (the study's start), or warm from an earlier run, with some numbers kept `within` ends
         of their own.
 
         `unknowns` stand in place of `begin`; `beginning` says what is neither cold nor warm. An `objective` stands in
-        place of the study's weights and bounds what is traded. Steps in time are placed where the run begins, and anew
+        place of the study's weights and bounds what is traded. As large a share of `moves` as a design bears, all of
+        them if possible, is added to the margins. Steps in time are placed where the run begins, and anew
         where it ends, until that moves the optimum no more; an optimum that is sharpened keeps its own. Raises
         KeyboardInterrupt where an interrupt came, also one that CasADi has swallowed. The run ends at the deadline.
         """
@@ -220,7 +225,7 @@ class Optimizer:
             self.deadline.met = True
             return replace(self._not_started(x, inputs, parameters), within=within or {})
         multipliers = {} if warm is None else {"lam_g0": warm.multipliers, "lam_x0": warm.bound_multipliers}
-        ends = self.ends(within or {}, objective)
+        ends, count = self.ends(within or {}, objective), len(x)
         if not len(x):
             answer, stats = self._checked(x, parameters, ends["ubg"])
             return self.record(answer, stats, inputs, time.perf_counter() - clock, parameters)
@@ -230,20 +235,31 @@ class Optimizer:
             self.problem.grids = sharp
         else:
             x = self._where_it_ends(x, parameters, ends)
+        programme = ExtendedProblem(self.problem, parameters)
+        if moves is not None:
+            steps = np.array([[moves.get(limit.name, 0.0)] for limit in self.problem.limits])
+            programme = ExtendedProblem(self.problem, parameters, steps, np.array([-_WORTH]))
+            ends |= {"lbx": np.append(ends["lbx"], 0.0), "ubx": np.append(ends["ubx"], 1.0)}
+            x = np.append(x, 0.0)
         for _ in range(MOST_GRIDS):
             grids = self.problem.grids
-            solver = self._solver(beginning)
-            answer = solver(_WithParameters(self.problem, parameters), self.deadline, x0=x, **multipliers, **ends)
+            solver = self._solver(beginning, programme)
+            answer = solver(programme, self.deadline, x0=x, **multipliers, **ends)
             stats = solver.stats()
             iterations += int(stats["iter_count"])
             x = np.asarray(answer["x"]).ravel()
-            if sharp or not stats["success"] or not self.problem.events or self._settled(x, parameters):
+            if sharp or not stats["success"] or not self.problem.events or self._settled(x[:count], parameters):
                 break
             multipliers = {"lam_g0": answer["lam_g"], "lam_x0": answer["lam_x"]}
             beginning = "warm"
         seconds = time.perf_counter() - clock
         self.seconds["solve"] += seconds
         self.problem.grids = grids
+        if moves is not None:
+            names = {**self.margins, **moves}
+            self.margins = {name: self.margins.get(name, 0.0) + x[-1] * moves.get(name, 0.0) for name in names}
+            own = self.problem.at(x[:count], parameters).objective
+            answer = {**answer, "x": x[:count], "lam_x": np.asarray(answer["lam_x"]).ravel()[:count], "f": own}
         run = self.record(answer, {**stats, "iter_count": iterations}, inputs, seconds, parameters)
         return replace(run, within=within or {})
 
@@ -374,14 +390,3 @@ class Optimizer:
         names = self.study.minimize
         values, gradients = {name: here.values[name] for name in names}, {name: here.gradients[name] for name in names}
         return Derivatives(rows, here.jacobian, 0.5 * (hessian + hessian.T), values, gradients)
-
-
-class _WithParameters:
-    """A problem with the parameters of one run: a programme in its unknowns alone."""
-
-    def __init__(self, problem: Problem, parameters: Parameters) -> None:
-        self._problem, self._parameters = problem, parameters
-        self.unknown_count, self.row_count = problem.unknown_count, problem.row_count
-
-    def at(self, x: Array) -> Point:
-        return self._problem.at(x, self._parameters)

@@ -19,7 +19,7 @@ from tvimdesign.solve.nlp.spread import moments_at
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.sensitivity.output_sensitivity import output_sensitivities
 from tvimdesign.solve.uncertainty.uncertain_inputs import contributors_of
-from tvimdesign.solve.uncertainty.yield_search import HALVINGS, Robust, reach_yield
+from tvimdesign.solve.uncertainty.yield_search import Robust, reach_yield
 
 ROUNDS = 6
 _SETTLED = 1e-3
@@ -34,26 +34,22 @@ Candidate = tuple[Optimizer, Run, Mapping[str, Ends]]
 def most_robust(candidates: Sequence[Candidate]) -> tuple[int, Run]:
     """Return the place of the first of some designs, the best first, that can be made robust, and its robust run.
 
-    Margins are added whole to each design first, and in parts only where no design can bear that. Where none reaches
-    what the study asks for, the one that comes nearest is returned. Raises TimeOverError where the time is over before
-    any is known to come near.
+    Where none reaches what the study asks for, the one that comes nearest is returned. Raises TimeOverError where the
+    time is over before any is known to come near.
     """
     tried: list[tuple[int, Robust]] = []
-    for halvings in (0, HALVINGS):
-        for place in _worth_trying(candidates):
-            optimizer, run, within = candidates[place]
-            if tried and optimizer.deadline.passed:
-                break
-            optimizer.margins = {}
-            try:
-                tried.append((place, _robust(optimizer, run, within, None, halvings)))
-            except TimeOverError:
-                if not tried:
-                    raise
-                optimizer.deadline.leave_out(MARGINS)
-                break
-            if tried[-1][1].reached:
-                break
+    for place in _worth_trying(candidates):
+        optimizer, run, within = candidates[place]
+        if tried and optimizer.deadline.passed:
+            break
+        optimizer.margins = {}
+        try:
+            tried.append((place, _robust(optimizer, run, within, None)))
+        except TimeOverError:
+            if not tried:
+                raise
+            optimizer.deadline.leave_out(MARGINS)
+            break
         if tried[-1][1].reached:
             break
     best, robust = max(tried, key=lambda pair: (pair[1].reached, pair[1].kept))
@@ -80,15 +76,13 @@ def settle(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective
     return _robust(optimizer, run, within, objective).run
 
 
-def _robust(
-    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, halvings: int = HALVINGS
-) -> Robust:
+def _robust(optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None) -> Robust:
     options = optimizer.study.robust
     assert options is not None
     if options.share is None:
         run = _settled(optimizer, run, within, objective)
     elif run.start.converged:
-        return reach_yield(optimizer, run, within, options.share, objective, halvings)
+        return reach_yield(optimizer, run, within, options.share, objective)
     return Robust(run, optimizer.margins, 0.0, reached=options.share is None)
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from tvimdesign.base.errors import SimulationError, TimeOverError
 from tvimdesign.solve.nlp.problem_parts import Objective
 from tvimdesign.solve.nlp.solution import same_optimum
-from tvimdesign.solve.nlp.solver_run import MARGINS, NO_DESIGN, Array, Ends, Run
+from tvimdesign.solve.nlp.solver_run import MARGINS, Array, Ends, Run
 from tvimdesign.solve.optimizer.optimizer import Optimizer
 from tvimdesign.solve.uncertainty.yields import Drawn, Yields, yields_of
 
@@ -33,8 +33,10 @@ _PRESSING = 1e-6
 """Multiplier from which on a limit holds the design, objectives a share of its scale."""
 _UNKNOWN = 0.1
 """Step of a margin, as a share of its limit's scale, where too many modules never come to its output at all."""
-HALVINGS = 2
-"""How often a step of the margins that no design bears is halved."""
+_NO_ROOM = 0.05
+"""Share of a step of the margins that counts as none."""
+SHAKES, _SHAKE = 3, 0.2
+"""Designs beside one that does not bear a step, and how far off they are at most, as a share of each range."""
 _AIM = 0.05
 """Share of what may be lost that is aimed to be kept, so that margins which are settled do reach the yield."""
 
@@ -52,9 +54,8 @@ class Robust:
 
 
 def reach_yield(
-    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None,
-    halvings: int = HALVINGS,
-) -> Robust:  # fmt: skip
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], share: float, objective: Objective | None = None
+) -> Robust:
     """Seek the optimum `within` ends again from a converged run, until `share` of the modules is feasible.
 
     Returns the best design that reaches it, else the one that most modules keep; its margins stay with the optimizer.
@@ -76,8 +77,8 @@ def reach_yield(
         if not moves or _no_better(candidates):
             break
         optimizer.progress(f"adding tolerance margins: yield so far {drawn.together.share:.1%}, target {share:.0%}")
-        following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves, halvings)
-        if following is run:
+        following = _settled(optimizer, yields, run, drawn, within, aim, objective, moves)
+        if following is run or (same_optimum(following.start, run.start) and not candidates[-1].reached):
             if optimizer.deadline.passed:
                 optimizer.deadline.leave_out(MARGINS)
             break
@@ -95,17 +96,17 @@ def reach_yield(
 
 def _settled(
     optimizer: Optimizer, yields: Yields, run: Run, drawn: Drawn, within: Mapping[str, Ends], aim: float,
-    objective: Objective | None, moves: Mapping[str, float], halvings: int,
+    objective: Objective | None, moves: Mapping[str, float],
 ) -> Run:  # fmt: skip
     """Return the optimum whose margins fit its predicted modules; the run itself if there is none."""
     first = run
     for _ in range(PREDICTIONS):
-        margins = dict(optimizer.margins)
-        following = _tightened(optimizer, run, within, objective, margins, moves, halvings)
+        following = _tightened(optimizer, run, within, objective, moves, SHAKES if run is first else 0)
         if following is None:
-            optimizer.margins = margins
             break
-        run = following
+        settled, run = same_optimum(run.start, following.start), following
+        if settled:
+            break
         try:
             predicted = yields.beside(run.inputs, first.inputs, drawn)
         except SimulationError:
@@ -114,6 +115,29 @@ def _settled(
         if not moves:
             break
     return run
+
+
+def _tightened(
+    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None, moves: Mapping[str, float],
+    shakes: int,
+) -> Run | None:  # fmt: skip
+    """Return the optimum with moved margins, or with the largest share of the moves that a design nearby bears.
+
+    Where the design itself leads to no optimum with all moves, others a little beside it may: those are shaken.
+    """
+    margins, random = dict(optimizer.margins), np.random.default_rng(optimizer.study.solver.seed)
+    best: tuple[float, Run, dict[str, float]] | None = None
+    for attempt in range(1 + shakes):
+        unknowns = optimizer.vector.shaken(run.unknowns, within, _SHAKE, random) if attempt else run.unknowns
+        optimizer.margins = margins
+        tried = optimizer.solve(within, unknowns=unknowns, objective=objective, moves=moves)
+        taken = max((optimizer.margins[name] - margins.get(name, 0.0)) / move for name, move in moves.items())
+        if tried.start.converged and taken > (best[0] if best else _NO_ROOM):
+            best = taken, tried, optimizer.margins
+        if taken > 1.0 - _NO_ROOM or optimizer.deadline.passed:
+            break
+    optimizer.margins = best[2] if best else margins
+    return best and best[1]
 
 
 def _no_better(candidates: Sequence[Robust]) -> bool:
@@ -146,6 +170,9 @@ def _moves(drawn: Drawn, share: float, margins: Mapping[str, float], pressing: C
     middle, beyond = (ordered[:, int(share_of * (ordered.shape[1] - 1))] for share_of in (_MEDIAN, _DEVIATION))
     settled = _SETTLED if drawn.together.low >= share else _SHORT
     unsettled = np.abs(moved) > settled * np.where(np.isinf(beyond), _UNKNOWN, beyond - middle)
+    holding = np.array([limit.name in pressing for limit in drawn.limits], dtype=bool)
+    if not np.any(unsettled & (holding | (moved > 0.0))):
+        return {}
     return {drawn.limits[i].name: float(moved[i]) for i in np.flatnonzero(unsettled)}
 
 
@@ -153,24 +180,6 @@ def _shifts(ordered: Array, place: int, may_give: NDArray[np.bool_]) -> Array:
     """Return the fall of each limit's residual that so many modules need; it may rise where the limit has room."""
     beyond = ordered[:, place]
     return np.where(may_give, beyond, np.maximum(beyond, 0.0))
-
-
-def _tightened(
-    optimizer: Optimizer, run: Run, within: Mapping[str, Ends], objective: Objective | None,
-    margins: Mapping[str, float], moves: Mapping[str, float], halvings: int,
-) -> Run | None:  # fmt: skip
-    """Return the optimum with moved margins; where there is none, with half of the move, and half of that."""
-    for halving in range(halvings + 1):
-        step = 0.5**halving
-        optimizer.margins = {
-            name: margins.get(name, 0.0) + step * moves.get(name, 0.0) for name in {**margins, **moves}
-        }
-        optimum = optimizer.solve(within, warm=run, objective=objective)
-        if not optimum.start.converged and optimum.start.status != NO_DESIGN:
-            optimum = optimizer.solve(within, begin=run.inputs, objective=objective)
-        if optimum.start.converged or optimizer.deadline.passed:
-            break
-    return optimum if optimum.start.converged else None
 
 
 def _pressing(optimizer: Optimizer, run: Run) -> set[str]:
