@@ -9,7 +9,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import python_page
 from support import ROOT, Command
+
+import tvimdesign as tvim
 
 DOCS = ROOT / "docs"
 PAGES = ["tutorial.md", *(f"how-to/{path.name}" for path in sorted((DOCS / "how-to").glob("*.md")))]
@@ -102,3 +105,29 @@ def test_all_commands_of_a_page(page: str, process: Command, tmp_path: Path) -> 
     _do(page, process, tmp_path, [], set())
     if page == "tutorial.md":
         _check_the_tutorial_s_table(tmp_path / "results/elbow/results.json")
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if not page.endswith("index.md")])
+def test_a_page_starts_with_its_command(page: str) -> None:
+    start = (DOCS / page).read_text().split("\n\n")[1]
+    assert re.search(r"(?:`|^|\n)(?:tvimdesign|make) \w", start), start
+
+
+PAGE_CALLS = re.compile(r"(?<=`)(?:study|result)\b[.\[][^`]*")
+WRITES = ("parts(", "robot(", "save(", "show(", "run(", "sweep(")
+
+
+@pytest.mark.gate
+def test_the_code_of_the_python_page_prints_the_numbers_beside_it(tmp_path: Path) -> None:
+    page = python_page.PAGE.read_text()
+    now, names = python_page.executed(page, tmp_path)
+    assert now == page  # docs/make/python_page.py writes the numbers anew
+    assert len(re.findall("# -> .*[0-9]", page)) >= 10
+    assert (tmp_path / "results/thickness/cells.csv").exists()
+    assert (tmp_path / "my_records/spring_materials/my_wire.yaml").exists()
+    calls = {call for row in re.findall(r"^\| (.*?) \|", page, re.M) for call in PAGE_CALLS.findall(row)}
+    tried = sorted(call for call in calls if not any(word in call for word in WRITES))
+    assert len(tried) > 20
+    for call in tried:
+        value = eval(call, names)
+        _ = value.resolved if isinstance(value, tvim.Study) else value

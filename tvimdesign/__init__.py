@@ -10,8 +10,8 @@ from typing import Any
 __version__ = "0.1.0"
 
 _PUBLIC = {
+    "pint": ("Quantity",),
     "tvimdesign.api.measured": ("Fitted", "fit"),
-    "tvimdesign.api.quantity": ("Quantity", "linspace"),
     "tvimdesign.api.result": ("NoDesignError", "Parts", "Reasons", "Result"),
     "tvimdesign.api.study": ("Study", "example", "load", "size"),
     "tvimdesign.api.sweep": ("Cell", "Sweep"),

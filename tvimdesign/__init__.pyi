@@ -1,8 +1,8 @@
 # The public names, for type checkers and editors; `__init__.py` loads them when they are asked for.
+from pint import Quantity as Quantity
+
 from tvimdesign.api.measured import Fitted as Fitted
 from tvimdesign.api.measured import fit as fit
-from tvimdesign.api.quantity import Quantity as Quantity
-from tvimdesign.api.quantity import linspace as linspace
 from tvimdesign.api.result import NoDesignError as NoDesignError
 from tvimdesign.api.result import Parts as Parts
 from tvimdesign.api.result import Reasons as Reasons

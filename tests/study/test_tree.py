@@ -113,6 +113,7 @@ ureg: Any = pint.UnitRegistry()
         (0.12, "cm"),
         ureg.Quantity(1.2, "mm"),
         ureg.Quantity(1.2e-3, "m"),
+        ureg.Quantity(1200, "um"),
     ],
     ids=str,
 )
@@ -123,7 +124,16 @@ def test_a_number_with_its_unit_may_be_given_in_many_ways(value: Any) -> None:
 
 @pytest.mark.parametrize(
     ("value", "unit"),
-    [("15 N.m", "N*m"), ("5.6 N.m/rad", "newton*meter/radian"), ("100 degC", "degC"), ("1 Hz", "hertz")],
+    [
+        ("15 N.m", "N*m"),
+        ("5.6 N.m/rad", "newton*meter/radian"),
+        ("100 degC", "degC"),
+        ("1 Hz", "hertz"),
+        ("5 K", "delta_degC"),
+        ("0.5 1", "dimensionless"),
+        ("3 kg.mm^2", "kg * mm ** 2"),
+        ("3 J/kg/K", "J/kg/delta_degC"),
+    ],
 )
 def test_pints_own_words_for_units_are_read(value: str, unit: str) -> None:
     from tvimdesign.base.units import parse_quantity
@@ -135,7 +145,16 @@ def test_pints_own_words_for_units_are_read(value: str, unit: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "pair", [["0.6 mm", "2 mm"], (0.6, 2, "mm"), [(0.6, "mm"), (2, "mm")], np.array(["0.6 mm", "2 mm"])], ids=str
+    "pair",
+    [
+        ["0.6 mm", "2 mm"],
+        (0.6, 2, "mm"),
+        [(0.6, "mm"), (2, "mm")],
+        np.array(["0.6 mm", "2 mm"]),
+        (np.array([0.6, 2.0]), "mm"),
+        np.linspace(ureg.Quantity(600, "um"), ureg.Quantity(2, "mm"), 2),
+    ],
+    ids=str,
 )
 def test_a_range_may_be_given_in_many_ways(pair: Any) -> None:
     sections = {"mode": "shear", "vary": {"pcl_thickness": pair}, "minimize": "module_mass"}

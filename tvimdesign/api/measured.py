@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tvimdesign.api.notebook import drawn
-from tvimdesign.api.quantity import Quantity
+from tvimdesign.api.tables import quantity
 from tvimdesign.base.units import from_si, pretty
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
+    from pint import Quantity
 
     from tvimdesign.report.fit import Measured
 
@@ -70,12 +71,12 @@ class Fitted:
 
         return fit_data(self._measured)
 
-    def __getitem__(self, name: str) -> Quantity:
+    def __getitem__(self, name: str) -> Quantity[float]:
         """Return a parameter, or what follows. Raises KeyError."""
         estimate = next((candidate for candidate in self._estimates() if candidate.name == name), None)
         if estimate is None:
             raise KeyError(f"{name!r}; there are {', '.join(candidate.name for candidate in self._estimates())}")
-        return Quantity(from_si(estimate.value, estimate.unit), estimate.unit)
+        return quantity(estimate.value, estimate.unit)
 
     def table(self) -> pd.DataFrame:
         """Return value, low and high of 95 %, unit and meaning of all parameters. An open end is not a number."""

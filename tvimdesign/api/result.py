@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from tvimdesign.api import notebook
 from tvimdesign.api.notebook import shown_progress
-from tvimdesign.api.quantity import Quantity
-from tvimdesign.api.tables import constraint_table, interval_table, value_table
+from tvimdesign.api.tables import constraint_table, cycle_table, interval_table, quantity, value_table
 from tvimdesign.base.errors import InfeasibleError, InputError, TvimError
-from tvimdesign.base.units import from_si, parse_quantity
+from tvimdesign.base.units import format_quantity, parse_quantity
 from tvimdesign.report.output.results_folder import ResultsFolder
 from tvimdesign.report.output.tables import margin_text, value_text
 from tvimdesign.report.run.answered_study import AnsweredStudy, drawings
@@ -25,6 +24,7 @@ from tvimdesign.study.text.mistakes import did_you_mean
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
+    from pint import Quantity
 
     from tvimdesign.report.output.results_format import LimitEntry, RunResults, UncertaintyEntry
 
@@ -85,7 +85,7 @@ class Parts:
 
 
 class Result(Generic[StudyT]):
-    """Result of a study. `result["module_mass"]` is a quantity, `result["motor"]` the word of a choice."""
+    """Result of a study. `result["module_mass"]` is a quantity of pint, `result["motor"]` the word of a choice."""
 
     def __init__(self, answered: AnsweredStudy, study: StudyT) -> None:
         """Hold an answer and its study; `study.run()` makes results."""
@@ -157,16 +157,15 @@ class Result(Generic[StudyT]):
         advice = [f"{check.text}, by {self._margin(check)}: {check.origin}" for check in self._answered.result.warnings]
         return [*advice, *map(str, self._answered.failures), *self.data.get("doubts", [])]
 
-    def __getitem__(self, name: str) -> Quantity | Any:
-        """Return a value by full name, `row` or `row@point`, in the row's unit; a choice's word. Raises InputError."""
+    def __getitem__(self, name: str) -> Quantity[float] | Any:
+        """Return a value by full name, `row` or `row@point`, as pint's quantity; a choice's word. Raises InputError."""
         design, table = self.design, self._answered.study.table
         if name in design.choices:
             return design.choices[name]
         if name not in design.values:
             known = [*design.values, *design.choices]
             raise InputError(f"the result has no value {name!r}; {did_you_mean(name, known) or '`table()` lists all'}")
-        unit = table.unit(name)
-        return Quantity(from_si(design.values[name], unit), unit)
+        return quantity(design.values[name], table.unit(name))
 
     def table(self, match: str = "") -> pd.DataFrame:
         """Return every value by name: value, unit, meaning, status, low and high where history leaves it open, group.
@@ -178,6 +177,13 @@ class Result(Generic[StudyT]):
     def requirements(self) -> pd.DataFrame:
         """Return a table of every requirement and rule of the machine: limit, value, margin and state."""
         return constraint_table(self._answered)
+
+    @property
+    def cycle(self) -> pd.DataFrame:
+        """The phases of the working cycle, a row a moment: phase, time since it began, temperatures, current, power,
+        stiffness and damping. `cycle.attrs["units"]` has the unit of each column.
+        """
+        return cycle_table(self._answered.result.histories)
 
     def uncertainty(self) -> UncertaintyEntry:
         """Return the yield, and intervals over the unmeasured inputs, as `results.json` has them.
@@ -305,8 +311,7 @@ class Result(Generic[StudyT]):
             for check in result.checks if check.origin == "require" for margin in (margin_text(check, table),)
         ]  # fmt: skip
         names = [*self.design.study["vary"], *self.design.study["minimize"]]
-        values = [
-            (name, str(self[name])) for name in names if name in self.design.values or name in self.design.choices
-        ]
+        values = [(n, format_quantity(self.design.values[n], table.unit(n))) for n in names if n in self.design.values]
+        values += [(n, self.design.choices[n]) for n in names if n in self.design.choices]
         tables = notebook.grid(("asked", "got", "", "margin"), rows) + notebook.grid(("", "value"), values)
         return notebook.heading(self.name, f"{self.design.mode} mode, {self.status}") + tables

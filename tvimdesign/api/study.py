@@ -85,8 +85,8 @@ class Study:
     """Study: a module, its variables, its requirements and its objective.
 
     Every argument is a section of the study file and takes what the file takes: text with its unit ("1.2 mm"), pairs of
-    them for ranges, `{"choose": [...]}`, limits (">= 15 N.m"). A number with its unit may also be `(1.2, "mm")`, a
-    `Quantity` of this package or of pint. A study does not change: `set`, `vary`, `require`, `accept` and `minimize`
+    them for ranges, `{"choose": [...]}`, limits (">= 15 N.m"). A number with its unit may also be `(1.2, "mm")` or a
+    quantity of pint. A study does not change: `set`, `vary`, `require`, `accept` and `minimize`
     return a changed copy, which is read, and refused where it is wrong, when it is first used.
     """
 
@@ -245,11 +245,11 @@ class Study:
     ) -> Sweep[Study]:
         """Answer the study at every cell of a grid or a sample; each value is set as `set` does.
 
-        An axis is a list of values, or a range `{"from": "0.6 mm", "to": "2 mm", "count": 20}`. Without axes the
-        study's own `sweep` section says them. `method` is `grid`, `latin_hypercube` or `sobol`, these with a `count`
-        of cells and a `seed`; `cells` names each cell instead. `task="evaluate"` optimises nothing. What else may
-        change is optimised in each cell, from the study's own optimum where that can be done. A cell without a design
-        is a row with its reason.
+        An axis is a list or an array of values, `(array, "mm")`, or a range `{"from": "0.6 mm", "to": "2 mm",
+        "count": 20}`. Without axes the study's own `sweep` section gives them. `method` is `grid`, `latin_hypercube` or
+        `sobol`, these with a `count` of cells and a `seed`; `cells` names each cell instead. `task="evaluate"`
+        optimises nothing. What else may change is optimised in each cell, from the study's own optimum where that can
+        be done. A cell without a design is a row with its reason.
 
         Cells are answered in this process and nothing is written, unless `out` names a folder: then `workers` processes
         (as many as processors unless given), or the cluster of a dask `scheduler`, keep them there, and cells that are

@@ -1,20 +1,30 @@
-"""An answer's tables as pandas data frames."""
+"""Numbers of an answer as quantities of pint, and its tables as data frames of pandas."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from tvimdesign.base.units import from_si
 from tvimdesign.report.output.tables import NOTHING, check_row
 from tvimdesign.report.run.answered_study import AnsweredStudy
+from tvimdesign.simulation.working_cycle.curves import PHASE_UNITS, Curves
 from tvimdesign.study import Study
 from tvimdesign.study.design import Design
 
 if TYPE_CHECKING:
     import pandas as pd
+    from pint import Quantity
 
     from tvimdesign.report.output.numbers import NumberEntry
     from tvimdesign.report.output.results_format import IntervalEntry
+
+
+def quantity(value_si: float, unit: str) -> Quantity[float]:
+    """Return a number in SI as a quantity of pint's application registry, in `unit`."""
+    from pint import Quantity  # takes a tenth of a second, which no command pays
+
+    return Quantity(from_si(value_si, unit), unit)
 
 
 def value_table(answered: AnsweredStudy, match: str = "") -> pd.DataFrame:
@@ -46,6 +56,16 @@ def constraint_table(answered: AnsweredStudy) -> pd.DataFrame:
     import pandas as pd
 
     return pd.DataFrame([check_row(check, answered.study.table) for check in answered.result.checks])
+
+
+def cycle_table(histories: Mapping[str, Curves]) -> pd.DataFrame:
+    """Return the curves of all phases one below the other, with the units of the columns in `attrs`."""
+    import pandas as pd
+
+    phases = {phase: pd.DataFrame(curves) for phase, curves in histories.items()}
+    frame = pd.concat(phases, names=["phase"]).reset_index(level="phase").reset_index(drop=True)
+    frame.attrs["units"] = {name: PHASE_UNITS.get(name, "degC") for name in frame.columns[1:]}
+    return frame
 
 
 def interval_table(intervals: Mapping[str, IntervalEntry]) -> pd.DataFrame:

@@ -32,7 +32,7 @@ _NUMBER = re.compile(r"([+-]?[0-9]++(?:\.[0-9]++)?+(?:[eE][+-]?[0-9]++)?+)(.*)",
 # Possessive quantifiers: hostile text must not make the pattern backtrack. Exponents are one digit, and none follows a
 # parenthesis, so that no product of powers can grow without limit.
 _UNIT = re.compile(r"(?:[A-Za-z_]++(?:\^-?[1-9](?![0-9]))?+|(?<![A-Za-z0-9])1(?![A-Za-z0-9])|[()*/ ])++")
-_SPELLINGS = {"°C": "degC", "°": "deg", "\u2126": "ohm", "Ω": "ohm", "µ": "u", "μ": "u", "%": "percent"}
+_SPELLINGS = {"Δ°C": "K", "°C": "degC", "°": "deg", "\u2126": "ohm", "Ω": "ohm", "µ": "u", "μ": "u", "%": "percent"}
 _OPERATORS = {"**": "^", "²": "^2", "³": "^3", ".": "*", "·": "*", "⋅": "*"}
 _PRETTY = {"degC": "°C", "deg": "°", "ohm": "Ω", "um": "µm", "percent": "%"}
 _DIFFERENCE = "write temperature differences in K"
@@ -232,16 +232,6 @@ def parse_quantity(text: str, unit: str) -> float:
     if wanted.celsius and value < 0.0:
         _fail(text, unit, "that is below absolute zero")
     return value
-
-
-def read_quantity(text: str) -> tuple[float, str]:
-    """Read a quantity of any kind, such as "2.413 mm", and return its number and the text of its unit.
-
-    The unit of a bare number is `1`. Raises UnitError.
-    """
-    number, unit = _split(text.strip()[:LONGEST_TEXT], "1")
-    _read_unit(unit or "1")
-    return number, unit or "1"
 
 
 def to_si(value: float, unit: str) -> float:

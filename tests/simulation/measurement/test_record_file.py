@@ -137,7 +137,7 @@ def test_the_door_for_python_users(tmp_path: Path) -> None:
     table = fitted.table()
     assert list(table.columns) == ["value", "low", "high", "unit", "meaning"]
     assert table.loc["seebeck", "value"] == pytest.approx(21.0, rel=0.03)
-    assert fitted["seebeck"].to("V/K").value == pytest.approx(0.021, rel=0.03)
+    assert fitted["seebeck"].to("V/K").magnitude == pytest.approx(0.021, rel=0.03)
     assert fitted.data["kind"] == fitted.kind == "pad"
     assert any("hot_temperature: 'hot side [degC]' in °C" in line for line in fitted.read)
     assert len(fitted.plot().axes) == 4
