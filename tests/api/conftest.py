@@ -12,4 +12,5 @@ def study() -> tvim.Study:
 
 @pytest.fixture(scope="session")
 def result(study: tvim.Study) -> tvim.Result[tvim.Study]:
-    return study.run(progress=False)
+    """Run the study from one start."""
+    return study.set({"solver.starts": 1}).run(progress=False)

@@ -57,7 +57,7 @@ def test_a_run_from_python_waits_for_pandas_until_a_table_is_asked_for() -> None
     assert not {"pandas", "matplotlib"} & set(found)  # scipy is loaded by numba, which runs the engine
 
 
-def test_public_names_are_there_also_for_type_checkers() -> None:
+def test_public_names_are_there_and_on_the_page() -> None:
     for name in tvim.__all__:
         assert getattr(tvim, name) is not None
     assert set(tvim.__all__) == set(dir(tvim))
@@ -71,9 +71,6 @@ def test_public_names_are_there_also_for_type_checkers() -> None:
     errors = [getattr(tvim, name) for name in tvim.__all__ if name.endswith("Error")]
     assert len(errors) == 9
     assert all(issubclass(error, tvim.TvimError) for error in errors)
-
-
-def test_the_page_speaks_of_every_public_name() -> None:
     page = (ROOT / "docs/python.md").read_text()
     left_out = {"__version__", "Cell", "Parts", "Reasons", "Result", "Sweep", "Design"}  # what calls return
     assert [name for name in tvim.__all__ if name not in left_out and name not in page] == []

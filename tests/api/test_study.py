@@ -45,10 +45,7 @@ write: {cad: false}
             "coil_count": [3, 8],
             "spring_material": {"choose": ["music_wire", "stainless_302"]},
         },
-        require={
-            "spring_stiffness": [">= 4 N.m/rad", "<= 6 N.m/rad"],
-            "joint_damping@hot": ">= 0.5 N.m.s/rad",
-        },
+        require={"spring_stiffness": [">= 4 N.m/rad", "<= 6 N.m/rad"], "joint_damping@hot": ">= 0.5 N.m.s/rad"},
         minimize={"module_mass": 1, "response_time": 2},
         operating_points={"warm": {"temperature": tvim.Quantity(60.0, "degC"), "frequency": "2 Hz"}},
         solver={"starts": 2},
@@ -68,7 +65,7 @@ def test_all_mistakes_of_a_study_in_python_are_told_at_once() -> None:
     assert str(caught.value).startswith("Study(...): module.curent: no such input")
 
 
-def test_copies_are_changed_and_the_study_is_not(study: tvim.Study) -> None:
+def test_copies_are_changed_by_paths_and_the_study_is_not(study: tvim.Study) -> None:
     before = study.resolved
     fixed = study.set(pcl_thickness="1.2 mm").resolved
     assert fixed.module["pcl_thickness"] == pytest.approx(1.2e-3)
@@ -81,9 +78,6 @@ def test_copies_are_changed_and_the_study_is_not(study: tvim.Study) -> None:
     assert study.minimize("module_mass").resolved.minimize == {"module_mass": 1.0}
     assert study.minimize(module_mass=1, cycle_time=3).resolved.minimize == {"module_mass": 1.0, "cycle_time": 3.0}
     assert study.resolved == before
-
-
-def test_a_copy_changes_what_its_paths_name(study: tvim.Study) -> None:
     assert "current" not in study.vary(current=None).resolved.vary
     assert "holding_torque" not in {one.output for one in study.require(holding_torque=None).resolved.require}
     assert "stroke" not in study.set(stroke=None).resolved.module

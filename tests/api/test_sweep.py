@@ -1,6 +1,5 @@
 """A sweep's cells are the designs that its studies have on their own; progress shows where it is seen."""
 
-import math
 import sys
 import threading
 from pathlib import Path
@@ -67,17 +66,6 @@ def test_cells_are_single_evaluations_with_units_beside_the_table(grid: tvim.Swe
     units = grid.table("module_mass").attrs["units"]
     assert units == {"coil_count": "1", "wire_diameter": "mm", "module_mass": "g"}
     assert "wire_diameter [mm]" in grid._repr_html_()
-
-
-def test_a_cell_without_a_design_says_why_and_the_others_are_kept() -> None:
-    study = tvim.example("paper_reconstructed")
-    sweep = study.sweep(pcl_inner_radius=["20 mm", "70 mm"], progress=False)
-    table = sweep.table("module_mass")
-    assert table.status[0] == "evaluated"
-    assert table.status[1] == "refused"
-    assert "arc_width" in table.reason[1]
-    assert math.isnan(table.module_mass[1])
-    assert sweep[1].result is None
 
 
 @pytest.mark.gate
@@ -159,7 +147,7 @@ def notebook(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return said
 
 
-def test_a_notebook_s_line_is_empty_in_the_end_and_where_not_wanted(notebook: list[str]) -> None:
+def test_a_notebook_s_line_is_empty_in_the_end_and_after_an_error(notebook: list[str]) -> None:
     assert in_notebook()
     tvim.example("paper_reconstructed").evaluate()
     assert "... simulating one working cycle" in notebook
@@ -168,8 +156,6 @@ def test_a_notebook_s_line_is_empty_in_the_end_and_where_not_wanted(notebook: li
     tvim.example("paper_reconstructed").evaluate(progress=False)
     assert notebook == []
 
-
-def test_the_line_is_emptied_after_an_error_too(notebook: list[str]) -> None:
     def work() -> None:
         with shown_progress(True) as say:
             say("working")

@@ -7,11 +7,14 @@ from pathlib import Path
 import pytest
 import quick_parts
 from cad_designs import BLOCKS, CASES, Made, design_of, whole
+from shared_solids import _shared_solids
 
 from tvimdesign.base.user_cache import FOLDER_VARIABLE
 from tvimdesign.cad import CadReport, make_cad
 from tvimdesign.cad.make import JOB, LIMIT
 from tvimdesign.study.design import Design, write_design
+
+__all__ = ["_shared_solids"]
 
 QUICK = {"paper", "blocks"}
 """Cases that the fast tests take; every case is one of the slow tests."""

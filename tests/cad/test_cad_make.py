@@ -74,7 +74,8 @@ def test_moving_parts_are_compared_with_all_they_could_meet(made: Made) -> None:
         assert {f"{pair} at {angle} rad" for pair in pairs[made.design.mode]} <= reported
 
 
-def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:
+@pytest.mark.gate
+def test_step_and_mesh_read_back_with_names_and_colours(made: Made) -> None:
     for kind in MODULES[made.design.mode].kinds(dimensions(made.design)):
         copies = {"link_screw": 4, "link_dowel": 4}.get(kind, 1)
         if kind in ("pcl_arc", "pcl_block", "peltier_pad"):
@@ -88,9 +89,6 @@ def test_step_and_mesh_read_back_as_the_parts(made: Made) -> None:
         assert mesh.is_watertight, kind
         assert mesh.volume == pytest.approx(expected, rel=1e-2), kind
         assert mesh.bounds[0][2] == pytest.approx(0.0, abs=1e-6) or not printed.exists(), f"{kind} is not on the bed"
-
-
-def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
     path = made.report.folder / "assembly.step"
     parts = {name: (shape, colour) for shape, name, _, colour in cq.Assembly.importStep(str(path))}
     # Four of the kinds made once, the cut-out, springs, five screws, four pins.
@@ -103,9 +101,6 @@ def test_assembly_step_has_names_colours_and_material(made: Made) -> None:
     assert "AP242" in text
     assert "'petg'" in text
     assert "2000-01-01T00:00:00" in text
-
-
-def test_the_glb_is_in_metres_with_y_up_and_linear_light(made: Made) -> None:
     scene = trimesh.load_scene(made.report.folder / "assembly.glb")
     values = made.design.values
     width, height = values["envelope_diameter"], values["envelope_height"]
@@ -113,12 +108,12 @@ def test_the_glb_is_in_metres_with_y_up_and_linear_light(made: Made) -> None:
     assert {"housing", "spring_left_4", f"peltier_pad_{COPIES[made.design.mode]}"} <= set(scene.graph.nodes_geometry)
     # glTF 2.0, 3.9.2: factors are linear. By IEC 61966-2-1 half of full sRGB is 0.214 of the light.
     assert _linear(0.5) == pytest.approx(0.2140, abs=5e-5)
-    scene = trimesh.load_scene(made.report.folder / "assembly.glb")
     factors = scene.geometry["rotor"].visual.material.baseColorFactor[:3] / 255.0
     assert factors == pytest.approx([_linear(part) for part in KINDS["rotor"].colour], abs=1.0 / 255.0)
 
 
-def test_the_section_shows_pad_polymer_and_a_spring_that_is_cut(made: Made) -> None:
+@pytest.mark.gate
+def test_pictures_show_the_parts_and_what_is_cut(made: Made) -> None:
     image = matplotlib.image.imread(made.report.folder / "views/section.png")[:560, :, :3]
     for kind in ("peltier_pad", "pcl_arc" if made.design.mode == "shear" else "pcl_block", "rotor", "housing"):
         hue = np.array(KINDS[kind].colour) / max(KINDS[kind].colour)
@@ -129,9 +124,6 @@ def test_the_section_shows_pad_polymer_and_a_spring_that_is_cut(made: Made) -> N
     assert rows.min() > 0  # nothing is cropped
     assert columns.min() > 0
     assert columns.max() < image.shape[1] - 1
-
-
-def test_picture_shows_the_parts(made: Made) -> None:
     image = matplotlib.image.imread(made.report.folder / "preview.png")[:700, :, :3]
     drawn = np.any(np.abs(image - 1.0) > 0.05, axis=2)
     assert 0.2 < drawn.mean() < 0.9
@@ -153,7 +145,7 @@ def test_a_design_gives_the_same_bytes_on_another_day(
         assert hashlib.sha256(first).digest() == hashlib.sha256(second).digest(), name
 
 
-def test_colours_are_put_in_the_order_of_their_parts() -> None:
+def test_colours_are_written_in_the_order_of_their_parts() -> None:
     def block(number: int, context: int) -> str:
         styles = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION"
         return (
@@ -167,11 +159,7 @@ def test_colours_are_put_in_the_order_of_their_parts() -> None:
     assert one.startswith(head + "#3 = MECHANICAL")
     assert "#4),#1);" in one
     assert one.endswith(end)
-
-
-def test_a_shared_colour_is_written_with_the_first_part() -> None:
     styles, colour = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION", "COLOUR_RGB('',0.3);\n"
-    head, end = "#1 = A();\n#2 = B();\n", "ENDSEC;\n"
     one = in_fixed_order(f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}")
     other = in_fixed_order(f"{head}#3 = {styles}('',(#4),#2);\n#4 = {colour}#5 = {styles}('',(#4),#1);\n{end}")
     assert one == other == f"{head}#3 = {styles}('',(#4),#1);\n#4 = {colour}#5 = {styles}('',(#4),#2);\n{end}"
@@ -207,9 +195,7 @@ def test_a_process_that_reports_no_progress_is_an_error(
 
 
 @pytest.mark.gate
-def test_a_child_that_reports_progress_gets_more_time(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_child_that_reports_progress_gets_more_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(processes, "CHECK_EVERY", 0.05)
     burn = "    end = time.process_time() + 0.4\n    while time.process_time() < end: pass\n"
     says = f"import json, time\nfor step in range(8):\n    print(json.dumps({{'progress': step}}), flush=True)\n{burn}"

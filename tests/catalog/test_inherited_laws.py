@@ -28,25 +28,19 @@ HALF_TIME = {"crystallization_half_time": (20.0, "s")}
 VISCOSITY = {"zero_shear_viscosity": (200.0, "Pa*s")}
 
 
-def test_a_grade_of_the_same_material_may_have_the_laws_of_another() -> None:
-    assert inherited_law_warnings(Catalog().record("polymers", "pcl_50k")) == []
-
-
-def test_another_polymer_has_a_warning_for_each_law(tmp_path: Path) -> None:
+def test_laws_of_another_material_have_a_warning_each(tmp_path: Path) -> None:
     message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA))
     assert [line.split(" are those of ")[0] for line in message] == [
         "Mine: the kinetics of freezing", "Mine: the viscosity of the melt", "Mine: the losses of the solid",
     ]  # fmt: skip
     assert all("Polycaprolactone, 80 kg/mol" in line and "melting_start" in line for line in message)
     assert "give crystallization_half_time or nucleation_constant or avrami_exponent of its own" in message[0]
-
-
-def test_laws_of_one_material_or_of_ones_own_have_no_warning(tmp_path: Path) -> None:
     message = inherited_law_warnings(record(tmp_path, "pcl_80k", **EVA, **HALF_TIME, **VISCOSITY))
     assert len(message) == 1
     assert message[0].startswith("Mine: the losses of the solid")
     own = {"melting_start": (53.0, "degC"), "density_solid": (1150.0, "kg/m^3")}
     assert inherited_law_warnings(record(tmp_path, "pcl_80k", **own)) == []
+    assert inherited_law_warnings(Catalog().record("polymers", "pcl_50k")) == []
 
 
 @pytest.mark.parametrize("base", ["pcl_80k", "fields_metal"])

@@ -147,7 +147,7 @@ def test_solid_spectrum_has_a_modulus_of_one_at_1_hertz() -> None:
     of_every(MELTING, check)
 
 
-def test_solid_softens_as_calibrated() -> None:
+def test_solids_soften_and_take_up_heat_as_calibrated() -> None:
     def check(name: str) -> None:
         value = CATALOG.record("polymers", name).value
 
@@ -169,8 +169,6 @@ def test_solid_softens_as_calibrated() -> None:
 
     of_every(PCL, check)
 
-
-def test_heat_to_100_degrees() -> None:
     def check(name: str) -> None:
         value = CATALOG.record("polymers", name).value
         middle = (value("melting_start") + value("melting_end")) / 2
@@ -182,11 +180,7 @@ def test_heat_to_100_degrees() -> None:
 
 @pytest.mark.parametrize(
     ("name", "seebeck", "resistance", "conductance"),
-    [
-        ("teci_12706", 52.6e-3, 2.05, 0.550),
-        ("qc_17", 6.37e-3, 0.515, 0.028),
-        ("pc_072", 29.9e-3, 0.446, 0.778),
-    ],
+    [("teci_12706", 52.6e-3, 2.05, 0.550), ("qc_17", 6.37e-3, 0.515, 0.028), ("pc_072", 29.9e-3, 0.446, 0.778)],
 )
 def test_peltier_follows_from_its_data_sheet(name: str, seebeck: float, resistance: float, conductance: float) -> None:
     value = CATALOG.record("peltiers", name).value
@@ -220,7 +214,7 @@ def test_no_name_leaves_the_shelf(name: str) -> None:
         CATALOG.record("spring_materials", name)
 
 
-def test_an_insert_weighs_no_more_than_its_brass() -> None:
+def test_fasteners_fit_and_weigh_as_their_metal() -> None:
     def check(name: str) -> None:
         value = CATALOG.record("inserts", name).value
         ring = 0.25 * math.pi * (value("outer_diameter") ** 2 - value("nominal_diameter") ** 2) * value("length")
@@ -228,8 +222,6 @@ def test_an_insert_weighs_no_more_than_its_brass() -> None:
 
     of_every(CATALOG.names("inserts"), check)
 
-
-def test_a_screw_names_the_insert_of_its_own_thread() -> None:
     def check(name: str) -> None:
         screw = CATALOG.record("screws", name)
         if screw.word("insert") == "none":
@@ -269,7 +261,7 @@ def test_a_data_sheet_is_that_of_the_type() -> None:
     of_every(EVERY_RECORD, check)
 
 
-def test_processes_and_structure_materials_name_one_another() -> None:
+def test_structure_materials_are_consistent() -> None:
     def check(name: str) -> None:
         process = CATALOG.record("processes", name)
         assert process.word("structure_material") in CATALOG.names("structure_materials")
@@ -278,8 +270,6 @@ def test_processes_and_structure_materials_name_one_another() -> None:
     made = {CATALOG.record("processes", name).word("structure_material") for name in CATALOG.names("processes")}
     assert made == set(CATALOG.names("structure_materials"))
 
-
-def test_structure_materials_are_weakest_across_layers() -> None:
     def check(name: str) -> None:
         record = CATALOG.record("structure_materials", name)
         value = record.value
@@ -292,9 +282,6 @@ def test_structure_materials_are_weakest_across_layers() -> None:
                 assert value("service_temperature") < value(load)
 
     of_every(CATALOG.names("structure_materials"), check)
-
-
-def test_the_specific_heat_of_polyetherimide_follows_from_its_diffusivity() -> None:
     value = CATALOG.record("structure_materials", "pei_9085").value
     diffusivity = value("thermal_conductivity") / (value("density") * value("specific_heat"))
     assert diffusivity == pytest.approx(0.132e-6, rel=2e-3)  # ASTM E1952, page 7 of the sheet

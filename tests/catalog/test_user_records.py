@@ -37,7 +37,7 @@ def put(folder: Path, text: str | bytes, category: str = "peltiers", name: str =
     return Catalog(folder)
 
 
-def test_a_user_record_adds_to_the_shelf(tmp_path: Path) -> None:
+def test_a_user_record_adds_to_the_shelf_or_replaces(tmp_path: Path) -> None:
     catalog = put(tmp_path, GOOD)
     assert catalog.names("peltiers") == sorted([*Catalog().names("peltiers"), "mine"])
     record = catalog.record("peltiers", "mine")
@@ -47,9 +47,6 @@ def test_a_user_record_adds_to_the_shelf(tmp_path: Path) -> None:
     assert record.word("form") == "flexible"
     assert record.file == str(tmp_path / "peltiers" / "mine.yaml")
     assert check_records(catalog) == []
-
-
-def test_a_user_record_replaces_a_shipped_one(tmp_path: Path) -> None:
     catalog = put(tmp_path, GOOD, name="flexible_1600")
     assert catalog.record("peltiers", "flexible_1600").title == "A module I measured"
     assert catalog.record("peltiers", "qc_17").title == "QC-17-1.0-2.5AS"
@@ -163,9 +160,24 @@ tables:
 """The sum of modulus times time is 3491 Pa s, that of the moduli 1.000 MPa."""
 
 
-def test_a_users_spectrum_agrees_with_viscosity_and_plateau(tmp_path: Path) -> None:
+def test_spectra_agree_with_viscosity_and_plateau(tmp_path: Path) -> None:
     record = put(tmp_path, OWN_SPECTRUM, category="polymers").record("polymers", "mine")
     assert melt_modes(record) == [(1e-2, 2.5e5), (4e-3, 2.4e5), (1e-4, 3e5), (1e-5, 1e5), (1e-6, 6e4), (1e-7, 5e4)]
+    lines = [line for line in OWN_SPECTRUM.splitlines() if "zero_shear" not in line]
+    record = put(tmp_path, "\n".join(lines), category="polymers").record("polymers", "mine")
+    assert record.value("zero_shear_viscosity") == pytest.approx(3491.07, rel=1e-5)
+    text = "title: thin\nbased_on: pcl_80k\nvalues:\n" + "\n".join(
+        f"  {name}: {{value: {value}, unit: Pa{unit}, source: ours, status: measured}}"
+        for name, value, unit in (("zero_shear_viscosity", 42.002095, "*s"), ("plateau_modulus", 9500, ""))
+    )
+    catalog = put(tmp_path, text, category="polymers")
+    shipped, thin = (melt_modes(catalog.record("polymers", name)) for name in ("pcl_80k", "mine"))
+    for (slow, modulus), (own_slow, own_modulus) in zip(shipped, thin, strict=True):
+        assert own_slow == pytest.approx(slow)
+        assert own_modulus == pytest.approx(0.01 * modulus)
+    text = PCL.read_text(encoding="utf-8").replace("plateau_modulus:", "plateau:")
+    with pytest.raises(CatalogError, match=r"values\.plateau_modulus: missing; expected MPa"):
+        put(tmp_path, text, category="polymers").record("polymers", "mine")
 
 
 @pytest.mark.parametrize(
@@ -186,25 +198,7 @@ def test_a_melt_spectrum_that_cannot_be_is_named(tmp_path: Path, good: str, bad:
     assert message in str(caught.value)
 
 
-def test_a_hundredth_of_viscosity_and_plateau_changes_the_melt(tmp_path: Path) -> None:
-    text = "title: thin\nbased_on: pcl_80k\nvalues:\n" + "\n".join(
-        f"  {name}: {{value: {value}, unit: Pa{unit}, source: ours, status: measured}}"
-        for name, value, unit in (("zero_shear_viscosity", 42.002095, "*s"), ("plateau_modulus", 9500, ""))
-    )
-    catalog = put(tmp_path, text, category="polymers")
-    shipped, thin = (melt_modes(catalog.record("polymers", name)) for name in ("pcl_80k", "mine"))
-    for (slow, modulus), (own_slow, own_modulus) in zip(shipped, thin, strict=True):
-        assert own_slow == pytest.approx(slow)
-        assert own_modulus == pytest.approx(0.01 * modulus)
-
-
-def test_a_polymer_without_spectrum_needs_viscosity_and_plateau(tmp_path: Path) -> None:
-    text = PCL.read_text(encoding="utf-8").replace("plateau_modulus:", "plateau:")
-    with pytest.raises(CatalogError, match=r"values\.plateau_modulus: missing; expected MPa"):
-        put(tmp_path, text, category="polymers").record("polymers", "mine")
-
-
-def test_a_based_record_keeps_the_sources_of_its_base(tmp_path: Path) -> None:
+def test_a_based_record_keeps_what_its_base_has(tmp_path: Path) -> None:
     own = {
         "first": ("petg", "density: {value: 1300, unit: kg/m^3"),
         "second": ("first", "youngs_modulus: {value: 3, unit: GPa"),
@@ -218,9 +212,6 @@ def test_a_based_record_keeps_the_sources_of_its_base(tmp_path: Path) -> None:
     assert result.value("youngs_modulus") == pytest.approx(3e9)
     assert result.entry("specific_heat") == petg.entry("specific_heat")
     assert set(result.entries) == set(petg.entries)
-
-
-def test_a_record_may_be_based_on_the_shipped_one_that_it_replaces(tmp_path: Path) -> None:
     text = "title: mine\nbased_on: qc_17\nvalues: {mass: {value: 9, unit: g, source: scale, status: measured}}"
     result = put(tmp_path, text, name="qc_17").record("peltiers", "qc_17")
     assert result.value("mass") == pytest.approx(9e-3)
@@ -258,26 +249,17 @@ def test_strength_must_be_in_millimetres(tmp_path: Path) -> None:
     [
         b"",
         b"\x00\x01\xff\xfe binary",
-        b"\xff",
         b"just words",
-        b"- a\n- b",
         b"title: [",
         b"title: !!python/object/apply:os.system ['true']",
-        b"title: !important x",
         b"a: &a [1]\nb: *a",
-        b"a: &a x",
         b"[" * 900_000,
         b"a: " * 200_000,
-        b"- " * 400_000,
-        b"x: [" + b"1," * 200_000 + b"]",
         b"".join(b"k%d: 1\n" % number for number in range(20_000)),
-        b"? [a, b]\n: c",
         b"<<: {a: b}",
         b"title: x\nvalues: 5\ntables: x\nwords: [a]",
         b"title: x\nvalues: {a: {value: 1, unit: " + b"m" * 5000 + b"}}",
-        b"title: x\nvalues: {a: {value: 1, unit: foo, source: s, status: measured}}",
         b"a: b\n---\nc: d",
-        b"#" * 2_000_000,
         b"\xef\xbb\xbftitle: 1:30",
     ],
     ids=lambda text: repr(text[:20]),
@@ -292,16 +274,13 @@ def test_rubbish_is_a_short_error_within_a_second(tmp_path: Path, text: bytes) -
     assert len(str(caught.value)) < 20_000
 
 
-def test_a_pipe_or_folder_is_no_record(tmp_path: Path) -> None:
+def test_pipes_folders_and_wrong_shelves_are_named(tmp_path: Path) -> None:
     (tmp_path / "wires" / "folder.yaml").mkdir(parents=True)
     os.mkfifo(tmp_path / "wires" / "pipe.yaml")
     (tmp_path / "wires" / "gone.yaml").symlink_to(tmp_path / "nowhere")
     for name in ("folder", "pipe", "gone"):
         with pytest.raises(CatalogError, match="no file"):
             Catalog(tmp_path).record("wires", name)
-
-
-def test_the_folder_must_be_one_of_shelves(tmp_path: Path) -> None:
     with pytest.raises(CatalogError, match="not there"):
         Catalog(tmp_path / "nowhere")
     (tmp_path / "peltier").mkdir()
@@ -324,7 +303,7 @@ def test_viscosity_of_a_melt_follows_from_its_molar_mass(tmp_path: Path, molar_m
     assert "molar_mass" in entry.source
 
 
-def test_a_measured_viscosity_stands_before_the_law(tmp_path: Path) -> None:
+def test_molar_masses_give_viscosities_where_none_was_measured(tmp_path: Path) -> None:
     text = (
         "title: ours\nbased_on: pcl_80k\nvalues:\n"
         "  molar_mass: {value: 60, unit: kg/mol, source: our GPC, status: measured}\n"
@@ -332,21 +311,12 @@ def test_a_measured_viscosity_stands_before_the_law(tmp_path: Path) -> None:
     )
     entry = put(tmp_path, text, category="polymers").record("polymers", "mine").entry("zero_shear_viscosity")
     assert (entry.value, entry.status) == (1000.0, "measured")
-
-
-def test_a_molar_mass_in_another_kind_of_unit_is_named(tmp_path: Path) -> None:
     text = (
         "title: ours\nbased_on: pcl_80k\nvalues:\n"
         "  molar_mass: {value: 60, unit: kg, source: our GPC, status: measured}\n"
     )
     with pytest.raises(CatalogError, match=r"values\.molar_mass"):
         put(tmp_path, text, category="polymers").record("polymers", "mine")
-
-
-def test_a_spectrum_of_ones_own_says_viscosity_and_plateau(tmp_path: Path) -> None:
-    lines = [line for line in OWN_SPECTRUM.splitlines() if "zero_shear" not in line]
-    record = put(tmp_path, "\n".join(lines), category="polymers").record("polymers", "mine")
-    assert record.value("zero_shear_viscosity") == pytest.approx(3491.07, rel=1e-5)
 
 
 def test_a_folder_that_is_a_link_is_reported_with_its_target(tmp_path: Path) -> None:

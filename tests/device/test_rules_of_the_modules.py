@@ -45,7 +45,7 @@ def test_every_rule_has_the_usual_sense_and_limit(mode: str) -> None:
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_rules_hold_at_or_above_where_geometry_exists(mode: str) -> None:
+def test_rules_and_headlines_are_those_of_the_table(mode: str) -> None:
     for found in table_for(mode).outputs:
         for rule in found.rules:
             if rule.exists_above is not None:
@@ -53,20 +53,12 @@ def test_rules_hold_at_or_above_where_geometry_exists(mode: str) -> None:
                 # A coil of a little more than its wire is one, all else begins at nothing.
                 assert rule.exists_above == (1.2 if found.name == "spring_index" else 0.0), found.name
                 assert rule.exists_above <= rule.value, found.name
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_a_summary_has_what_a_reader_asks_of_a_module(mode: str) -> None:
     headlines = {found.name for found in table_for(mode).outputs if found.headline}
     assert {"envelope_diameter", "module_mass", "joint_stiffness", "holding_torque", "response_time"} <= headlines
     # A tenth of the table at most: no gap, and nothing that is one of several screwed joints' alike.
     assert len(headlines) < 0.1 * len(table_for(mode).outputs)
     for found in table_for(mode).outputs:
         assert not (found.headline and (found.group == "Gaps" or found.hidden or "screw" in found.name)), found.name
-
-
-@pytest.mark.parametrize("mode", MODES)
-def test_only_what_is_drawn_anew_for_each_module_may_be_varied(mode: str) -> None:
     numbers = {found.name: found for found in table_for(mode).inputs}
     free = {name for name, found in numbers.items() if found.variable}
     assert {"wire_diameter", "coil_diameter", "coil_count", "placement_radius", "preload_angle"} <= free

@@ -93,11 +93,6 @@ def test_every_intermediate_result_is_used(mode: str) -> None:
     assert {row.name for row in table.outputs if row.hidden} <= used
 
 
-def test_nothing_of_the_shear_module_is_left_in_compression() -> None:
-    names = table_for("compression").by_name.keys()
-    assert not {"pcl_thickness", "arc_span", "arc_count", "layer_strain", "arc_width"} & names
-
-
 def test_the_default_compression_module_satisfies_every_rule(
     squeezed_model: DeviceFunctions, squeezed_switch: Cycle
 ) -> None:
@@ -139,10 +134,26 @@ def test_an_input_of_a_lacking_feature_is_refused(mode: str) -> None:
     of_every([row.name for row in (*table.choices, *table.inputs) if row.requires], check)
 
 
-def test_a_refused_input_says_how_to_have_its_feature() -> None:
+def test_refused_inputs_and_lacking_features_have_words_and_defaults() -> None:
     study = read_study_text("mode: shear\nmodule:\n  cover_thickness: 2 mm\n", "a test")
     with pytest.raises(InputError, match="add `cover: plate` under `module`"):
         refuse_impossible(study)
+    requires = (Feature("cover", "none"), Feature("motor", "none"))
+    row = Output(
+        name="gap", unit="mm", description="", group="", function=lambda m: 2.0 * m.width,
+        requires=requires, default=7.0,
+    )  # fmt: skip
+    assert row.needs == ("cover", "motor", "width")
+    assert row.call(["plate", "a record", 3.0]) == 6.0
+    assert row.call(["none", "a record", None]) == row.call(["plate", "none", None]) == 7.0
+    assert row.exists({"cover": "plate", "motor": None})
+    assert not row.exists({"cover": "plate", "motor": "none"})
+    # A yield counts a limit where something that spreads is behind it; the source spreads by 1 %.
+    assert "current" in TABLE.ancestors("current_margin")
+    assert "cooling_current" not in TABLE.ancestors("current_margin")
+    assert {"current", "cooling_current"} <= TABLE.ancestors("cooling_current_margin")
+    names = table_for("compression").by_name.keys()
+    assert not {"pcl_thickness", "arc_span", "arc_count", "layer_strain", "arc_width"} & names
 
 
 @each_mode
@@ -158,26 +169,6 @@ def test_rules_hold_exactly_where_the_module_has_their_features(mode: str) -> No
     free = study.model_copy(update={"vary": dict.fromkeys((feature.choice for feature in features), None)})
     limited = {limit.output for limit in constraints_of(free, table, {})}
     assert limited == {row.name for row in table.outputs if row.rules}
-
-
-def test_a_quantity_of_a_lacking_feature_is_its_default() -> None:
-    requires = (Feature("cover", "none"), Feature("motor", "none"))
-    row = Output(
-        name="gap", unit="mm", description="", group="", function=lambda m: 2.0 * m.width,
-        requires=requires, default=7.0,
-    )  # fmt: skip
-    assert row.needs == ("cover", "motor", "width")
-    assert row.call(["plate", "a record", 3.0]) == 6.0
-    assert row.call(["none", "a record", None]) == row.call(["plate", "none", None]) == 7.0
-    assert row.exists({"cover": "plate", "motor": None})
-    assert not row.exists({"cover": "plate", "motor": "none"})
-
-
-def test_a_phase_depends_on_its_current_and_earlier_ones() -> None:
-    # A yield counts a limit where something that spreads is behind it; the source spreads by 1 %.
-    assert "current" in TABLE.ancestors("current_margin")
-    assert "cooling_current" not in TABLE.ancestors("current_margin")
-    assert {"current", "cooling_current"} <= TABLE.ancestors("cooling_current_margin")
 
 
 # --- floats, arrays and symbols ------------------------------------------------------------------------------------

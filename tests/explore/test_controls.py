@@ -15,7 +15,7 @@ minimize: {module_mass: 1}
 """
 
 
-def test_values_are_in_the_own_unit_of_their_quantity() -> None:
+def test_controls_have_units_labels_and_groups() -> None:
     study = read_study_text(STUDY)
     at = {"pcl_thickness": "0.0012 m", "arc_span": "1.3592 rad"}
     thickness, span = controls_shown(study, study, State(way="optimize", at=at))["variables"]
@@ -24,10 +24,6 @@ def test_values_are_in_the_own_unit_of_their_quantity() -> None:
     assert span["value"] == pytest.approx(77.8764, abs=1e-4)
     assert span["text"].endswith(" deg")
     assert span["low"] < span["value"] < span["high"]
-
-
-def test_controls_have_labels_and_groups() -> None:
-    study = read_study_text(STUDY)
     at = {"pcl_thickness": "1 mm", "arc_span": "60 deg"}
     shown = controls_shown(study, study, State(way="optimize", at=at))
     assert shown["requirements"][0]["label"] == "diameter"

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from explored import TOKEN, Talk, awaited, served, talking
+from explored import awaited, talking
 from playwright.sync_api import Browser
 from served_explorer import Served, exploring
 
@@ -65,7 +65,7 @@ def _table(folder: Path) -> list[dict[str, str]]:
 
 
 @pytest.mark.gate
-def test_the_page_begins_at_the_best_cell_and_draws_those_with_an_answer(swept: Path) -> None:
+def test_the_page_begins_at_the_best_cell_and_opens_each(swept: Path) -> None:
     source = open_source(swept)
     rows = _table(swept)
     assert [row["status"] for row in rows] == ["infeasible", "optimal", "optimal"]
@@ -79,11 +79,6 @@ def test_the_page_begins_at_the_best_cell_and_draws_those_with_an_answer(swept: 
     reported = [point["values"][place] for point in shown["points"]]
     assert reported == [float(row["response_time"]) for row in rows[1:]]
     assert shown["words"]["one"] == "cell"
-
-
-@pytest.mark.gate
-def test_a_cells_state_is_its_study_with_what_was_found(swept: Path) -> None:
-    source = open_source(swept)
     state = source.at_point(2, source.first)
     study = read_tree(tree_of(source.tree, state))
     assert from_si(study.module["pcl_thickness"], "mm") == pytest.approx(2.0, rel=1e-12)
@@ -155,21 +150,6 @@ def test_a_page_gets_the_cells_once_and_shows_the_one_it_chooses(swept: Path, tm
     result = answer["shown"]["values"][names.index("response_time")]
     assert result == pytest.approx(float(_table(swept)[1]["response_time"]), rel=2e-3)  # as quick answers are
     assert "cell 9: the sweep has the cells 1 to 3" in heard[-1]["words"]
-
-
-def test_what_was_chosen_is_there_when_the_page_is_opened_again(swept: Path, tmp_path: Path) -> None:
-    async def opened_twice() -> dict[str, Any]:
-        async with talking(swept, tmp_path / "out") as page:
-            await page.send(kind="point", number=2)
-            await page.kind("state")
-        async with (
-            served(swept, tmp_path / "out") as (_, client),
-            client.ws_connect(f"/{TOKEN}/socket") as socket,
-        ):
-            return await Talk(socket).kind("state")
-
-    state = awaited(opened_twice())
-    assert {item["name"]: item["value"] for item in state["controls"]["requirements"]} == {"peak_power": 9.0}
 
 
 @pytest.mark.slow

@@ -38,16 +38,15 @@ def test_a_fit_writes_its_folder_and_its_record(tvimdesign: Command, weights: Pa
     assert len(rows) == 1 + 7
 
 
-def test_a_fit_without_a_record_keeps_its_folder(tvimdesign: Command, weights: Path, tmp_path: Path) -> None:
+def test_a_fit_without_a_record_keeps_its_folder_and_json_has_it(
+    tvimdesign: Command, weights: Path, tmp_path: Path
+) -> None:
     done = tvimdesign(
         "fit", weights, "--set", "arm=100 mm", "--record", "mine", "--no-plots", "--out", "out", cwd=tmp_path
     )
     assert done.returncode == 4
     assert "torque_angle: nothing in it is a value of a record" in " ".join(done.stderr.split())
     assert json.loads((tmp_path / "out/fit.json").read_text())["record"] is None
-
-
-def test_json_is_what_the_folder_has(tvimdesign: Command, weights: Path, tmp_path: Path) -> None:
     done = tvimdesign("fit", weights, "--set", "arm=100 mm", "--no-plots", "--json", cwd=tmp_path)
     printed = json.loads(done.stdout)
     assert printed.pop("folder") == "results/weights-fit"

@@ -67,19 +67,21 @@ def test_a_different_task_or_condition_is_reported_with_both_places(
     assert reported[0].count("study_0.yaml:") + reported[0].count("study_1.yaml:") == 2
 
 
-def test_a_range_is_not_a_fixed_current(tmp_path: Path) -> None:
+def test_ranges_and_limits_are_compared_with_their_places(tmp_path: Path) -> None:
     ranged = COMPRESSION.replace("vary:", "vary:\n  current: [1 A, 2 A]")
     reported = problems_of(tmp_path, SHEAR, ranged)
     assert len(reported) == 1
     assert "vary.current: 1 A to 2 A, drawn with 1.5 A here, 1.5 A in" in reported[0]
     assert problems_of(tmp_path, SHEAR.replace("vary:", "vary:\n  current: [1 A, 2 A]"), ranged) == []
-
-
-def test_all_differences_are_reported_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
     other = COMPRESSION.replace("current: 1.5 A", "current: 2 A").replace(">= 5 N.m/rad", ">= 4 N.m/rad")
     reported = problems_of(tmp_path, SHEAR, other)
     assert ["module.current" in reported[0], "require.spring_stiffness" in reported[1]] == [True, True]
     assert len(reported) == 2
+    strict = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.4"')
+    reported = problems_of(tmp_path, SHEAR, COMPRESSION, strict)
+    assert len(reported) == 1
+    assert "study_2.yaml" in reported[0]
+    assert "block_strain <= 0.4 is required here" in reported[0]
 
 
 def test_another_record_or_an_evaluated_study_is_one_difference(tmp_path: Path) -> None:
@@ -95,11 +97,3 @@ def test_another_record_or_an_evaluated_study_is_one_difference(tmp_path: Path) 
     item = entrants(tmp_path, SHEAR)
     with pytest.raises(StudyError, match=r"study_0\.yaml: given twice"):
         refuse_unequal([*item, *item])
-
-
-def test_limits_are_compared_across_a_study_of_another_mode(tmp_path: Path) -> None:
-    strict = COMPRESSION.replace("require:", 'require:\n  block_strain: "<= 0.4"')
-    reported = problems_of(tmp_path, SHEAR, COMPRESSION, strict)
-    assert len(reported) == 1
-    assert "study_2.yaml" in reported[0]
-    assert "block_strain <= 0.4 is required here" in reported[0]

@@ -103,23 +103,8 @@ def test_all_mistakes_of_a_design_and_its_version_are_reported(tmp_path: Path) -
 
 
 ODD: list[Any] = [
-    None,
-    True,
-    0,
-    -1,
-    1e308,
-    "x",
-    "",
-    [],
-    {},
-    [1],
-    {"a": 1},
-    "nan",
-    "shear",
-    "../../etc",
-    "[/bold]",
-    "\ud800",
-]
+    None, True, 0, -1, 1e308, "x", "", [], {}, [1], {"a": 1}, "nan", "shear", "../../etc", "[/bold]", "\ud800",
+]  # fmt: skip
 
 
 def _paths(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:

@@ -76,7 +76,7 @@ def test_a_study_cannot_ask_a_foil_to_cool(sections: str) -> None:
         given(study)
 
 
-def test_a_current_that_may_be_zero_and_a_peltier_s_keep_their_default(capsys: pytest.CaptureFixture[str]) -> None:
+def test_foils_are_refused_cooling_and_listed_without(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     text = "module: {peltier_module: silicone_9ar_04_12v}\nvary: {cooling_current: [0 A, 0.5 A]}\n"
     study = read_study_text(f"mode: shear\n{text}minimize: {{module_mass: 1}}\n", "a test")
     assert given(study)["peltier_seebeck"] == 0.0
@@ -84,9 +84,6 @@ def test_a_current_that_may_be_zero_and_a_peltier_s_keep_their_default(capsys: p
     print_rows("shear", "cooling_current", as_json=True)
     (row,) = [row for row in json.loads(capsys.readouterr().out) if row["name"] == "cooling_current"]
     assert row["default"] == "0.2"
-
-
-def test_a_foil_whose_record_names_no_cooling_current_is_reported(tmp_path: Path) -> None:
     (tmp_path / "peltiers").mkdir()
     own = "{value: 0.2, unit: A, source: forgotten, status: measured}"
     text = f"title: Mine\nbased_on: silicone_9ar_04_12v\nvalues: {{cooling_current: {own}}}\n"

@@ -21,33 +21,25 @@ LIMIT = 1.0
 
 TEXTS = {
     "empty": ("", "the study is empty"),
-    "comments only": ("# mode: shear\n", "the study is empty"),
-    "null": ("~", "the study is empty"),
     "a word": ("hello", "the value 'hello' does not fit here; expected a study"),
     "a list": ("- mode: shear", "a list does not fit here"),
     "python object": (
         "mode: shear\nname: !!python/object/apply:os.system ['touch pwned']\n",
         "'!!python/object/apply:",
     ),
-    "python name": ("mode: !!python/name:os.system", "x.yaml:1:7: mode: the tag '!!python/name:os.system'"),
     "own tag": ("mode: !shear 1", "the tag '!shear' is not allowed"),
-    "binary tag": ("mode: !!binary aGVsbG8=", "the tag '!!binary'"),
-    "set": ("mode: shear\nmodule: !!set {a, b}", "the tag '!!set'"),
-    "tag of the wrong kind": ("mode: shear\nmodule: !!str {a: b}", "the tag '!!str'"),
     "tag by handle": ("%TAG !e! tag:yaml.org,2002:python/\n---\nmode: !e!name:os.system", "'!!python/name:os.system'"),
     "alias": (
         "mode: shear\nname: &a x\ndescription: *a\n",
         "x.yaml:3:14: description: the alias '*a'; expected the value",
     ),
     "alias bomb": ("a: &a [x,x]\n" + "".join(f"b{i}: &b{i} [*a,*a,*a]\n" for i in range(2500)), "the alias '*a'"),
-    "alias of nothing": ("mode: *nowhere", "the alias '*nowhere'"),
     "merge key": ("mode: shear\n<<: {name: x}\n", "x.yaml:2:1: a merge key `<<`"),
     "duplicate key": ("mode: shear\nmode: shear\n", "x.yaml:2:1: mode: given twice, first in line 1"),
     "duplicate key inside": ("mode: shear\nmodule: {coil_count: 3, coil_count: 4}", "module.coil_count: given twice"),
     "list as key": ("mode: shear\n? [a]\n: 1\n", "a list or a mapping as a key"),
     "two documents": ("mode: shear\n---\nmode: shear\n", "x.yaml:2:1: a second YAML document starts here"),
     "deep lists": ("mode: " + "[" * 100_000, "nested deeper than 20 levels"),
-    "deep maps": ("{a: " * 100_000, "nested deeper than 20 levels"),
     "deep blocks": ("\n".join(" " * i + "a:" for i in range(1000)), "nested deeper than 20 levels"),
     "deep dashes": ("- " * 400_000, "nested deeper than 20 levels"),
     "many values": ("mode: shear\nvary:\n" + "- a\n" * 240_000, "more than 10000 values"),
@@ -64,16 +56,13 @@ TEXTS = {
     ),
     "long key": (f"mode: shear\n'{'x' * 1000}': 1", "no such section"),
     "quotes": ('"' * 900_000, "not valid YAML"),
-    "colons": (":" * 900_000, "not valid YAML"),
     "open bracket": ("mode: [shear", "not valid YAML"),
     "unquoted limit": ("mode: shear\nrequire:\n  module_mass: >= 5 g\n", 'put a limit in quotes: ">= 5 N.m/rad"'),
     "colon in a text": ("mode: shear\nname: a: b", "put a text with ': ' in it in quotes"),
-    "NUL": ("mode: shear\0", "x.yaml:1:12: control character U+0000"),
     "escape character": ("mode: shear\nname: \x1b[31mred", "x.yaml:2:7: control character U+001B"),
     "escaped NUL": ('mode: shear\nname: "\\0"', "x.yaml:2:7: name: control character U+0000"),
     "lone surrogate": ("mode: \ud800", "control character U+D800"),
     "tab": ("mode: shear\nmodule:\n\tcoil_count: 3\n", "x.yaml:3:1: a tab at the start of a line; expected spaces"),
-    "control character in a key": ('mode: shear\nmodule: {"\\e[2J": 1}', "control character U+001B"),
     "too long": ("#" * 1_000_001, "a study at most 1 MB"),
 }
 
@@ -106,7 +95,6 @@ FILES: dict[str, tuple[bytes, str]] = {
     "picture": (b"\x89PNG\r\n\x1a\n\x00", "x.yaml:1:1: the file is not UTF-8 text"),
     "latin 1": ("mode: shear\nname: Gelände".encode("latin-1"), "x.yaml:2:10: the file is not UTF-8 text"),
     "UTF-16": ("mode: shear".encode("utf-16"), "(UTF-16 text); expected a study in YAML; save it as UTF-8"),
-    "zeros": (bytes(1000), "control character U+0000"),
     "one byte too many": (b"#" * 1_000_001, "the file has 1 MB, a study at most 1 MB"),
     "empty": (b"", "the study is empty; `tvimdesign new` writes a commented one"),
 }
@@ -121,7 +109,9 @@ def test_hostile_files(tmp_path: Path, case: str) -> None:
     assert message in str(caught.value)
 
 
-def test_a_large_file_is_not_read(tmp_path: Path) -> None:
+def test_marked_files_are_read_and_unreadable_ones_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, table_of: Callable[..., object]
+) -> None:
     path = tmp_path / "large.yaml"
     with path.open("wb") as file:
         file.truncate(50_000_000)
@@ -129,6 +119,17 @@ def test_a_large_file_is_not_read(tmp_path: Path) -> None:
     with pytest.raises(StudyError, match=r"large\.yaml: the file has 50 MB, a study at most 1 MB"):
         read_study(path)
     assert time.process_time() - start < 0.1
+    path = tmp_path / "x.yaml"
+    path.write_bytes(b"\xef\xbb\xbfmode: shear\r\n")
+    assert isinstance(read_study(path, table=table_of), Study)
+    # Root may read everything, so the system's refusal is brought about by hand.
+
+    def refuse(*_: object, **__: object) -> None:
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+
+    monkeypatch.setattr(Path, "open", refuse)
+    with pytest.raises(InputError, match="cannot be read: Permission denied"):
+        read_study(path)
 
 
 def test_what_is_no_ordinary_file_is_refused_in_words(tmp_path: Path) -> None:
@@ -149,24 +150,6 @@ def test_what_is_no_ordinary_file_is_refused_in_words(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         read_study(tmp_path / "x\x1b[31m\n.yaml")
     assert str(caught.value).isprintable()
-
-
-def test_an_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Root may read everything, so the system's refusal is brought about by hand."""
-    path = tmp_path / "x.yaml"
-    path.write_text("mode: shear")
-
-    def refuse(*_: object, **__: object) -> None:
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
-
-    monkeypatch.setattr(Path, "open", refuse)
-    with pytest.raises(InputError, match="cannot be read: Permission denied"):
-        read_study(path)
-
-
-def test_a_byte_order_mark_is_no_error(tmp_path: Path, table_of: Callable[..., object]) -> None:
-    (tmp_path / "x.yaml").write_bytes(b"\xef\xbb\xbfmode: shear\r\n")
-    assert isinstance(read_study(tmp_path / "x.yaml", table=table_of), Study)
 
 
 Read = Callable[..., Study]

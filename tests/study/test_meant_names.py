@@ -27,9 +27,7 @@ def mistake(section: str, name: str, value: str) -> Mistake:
 )  # fmt: skip
 def test_a_limit_gets_the_quantity_that_is_meant(name: str, meant: str) -> None:
     assert mistake("require", name, "<= 1 mm").hint == f"did you mean {meant!r}?"
-
-
-def test_what_is_meant_first_stands_first_among_the_names() -> None:
+    # What is meant most often stands first among the names.
     assert mistake("require", "xyz", "<= 1 mm").expected.startswith("one of module_mass, envelope_diameter, ")
 
 

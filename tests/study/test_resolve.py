@@ -21,7 +21,7 @@ def _given(read: Read, module: str = "", more: str = "") -> dict[str, Any]:
     return given(read(BASE % module + more))
 
 
-def test_every_input_and_choice_has_a_value(read: Read) -> None:
+def test_every_input_has_a_value_that_the_table_accepts(read: Read) -> None:
     study = read(BASE % "wire_diameter: 2 mm" + "operating_points: {warm: {temperature: 60 degC}}")
     result = given(study)
     points = {f"{row.name}@{point}" for row in study.table.inputs if row.per_point for point in ("cold", "hot", "warm")}
@@ -31,9 +31,12 @@ def test_every_input_and_choice_has_a_value(read: Read) -> None:
     assert result["coil_diameter"] == 24e-3
     assert result["temperature@warm"] == pytest.approx(333.15)
     assert (result["rate_model"], result["peltier"].name) == ("bending", "flexible_1600")
+    study = read(BASE % "")
+    result = study.table.evaluate(given(study), ["joint_stiffness@hot", "envelope_diameter"])
+    assert result["envelope_diameter"] == pytest.approx(0.138)
 
 
-def test_values_are_the_study_s_then_the_record_s_then_the_default(read: Read) -> None:
+def test_values_are_the_study_s_the_record_s_or_the_default(read: Read) -> None:
     assert _given(read)["youngs_modulus"] == 203.4e9
     assert _given(read, "spring_material: stainless_302")["youngs_modulus"] == 193e9
     assert _given(read, "youngs_modulus: 200 GPa")["youngs_modulus"] == pytest.approx(200e9)
@@ -41,6 +44,10 @@ def test_values_are_the_study_s_then_the_record_s_then_the_default(read: Read) -
         given(read("mode: shear"))
     with pytest.raises(InputError, match=r"youngs_modulus has no value \(mystery_steel has no value"):
         _given(read, "spring_material: mystery_steel")
+    study = read("mode: shear\n" + VARY % "pcl_thickness: [1 mm, 2 mm]")
+    assert given(study)["pcl_thickness"] == pytest.approx(1.5e-3)
+    result = _given(read, "", VARY % "spring_material: {choose: [stainless_302]}")
+    assert result["youngs_modulus"] == 193e9
 
 
 @pytest.mark.parametrize(
@@ -64,19 +71,6 @@ def test_what_varies_starts_within(read: Read, *, module: str, vary: str, name: 
     assert result == (value if isinstance(value, str) else pytest.approx(value))
 
 
-def test_what_varies_without_a_value_starts_in_the_middle_as_its_record(read: Read) -> None:
-    study = read("mode: shear\n" + VARY % "pcl_thickness: [1 mm, 2 mm]")
-    assert given(study)["pcl_thickness"] == pytest.approx(1.5e-3)
-    result = _given(read, "", VARY % "spring_material: {choose: [stainless_302]}")
-    assert result["youngs_modulus"] == 193e9
-
-
-def test_the_table_accepts_it(read: Read) -> None:
-    study = read(BASE % "")
-    result = study.table.evaluate(given(study), ["joint_stiffness@hot", "envelope_diameter"])
-    assert result["envelope_diameter"] == pytest.approx(0.138)
-
-
 ROOT = Path(__file__).parents[2]
 
 
@@ -93,23 +87,17 @@ def mine(tmp_path: Path) -> str:
     return str(tmp_path)
 
 
-def test_catalogue_and_table_are_opened_once_and_kept_by_copies(study: Study) -> None:
+def test_copies_have_their_own_mode_and_records(study: Study, mine: str) -> None:
     assert study.catalog is study.catalog
     assert study.table is table_for("shear")
     stored = study.model_copy(update={"module": {}})
     assert stored.catalog is study.catalog
     assert stored.table is study.table
-
-
-def test_a_copy_of_another_mode_has_that_table(study: Study) -> None:
     _ = study.table, study.catalog
     other = study.model_copy(update={"mode": "compression"})
     assert other.table is table_for("compression")
     assert other.catalog is study.catalog
     assert "block_depth" in given(other)
-
-
-def test_a_copy_with_another_folder_reads_the_records_there(study: Study, mine: str) -> None:
     with pytest.raises(CatalogError, match="no record 'mine'"):
         study.catalog.record("structure_materials", "mine")
     other = study.model_copy(update={"catalog_folder": mine, "module": {"structure_material": "mine"}})

@@ -94,7 +94,7 @@ def study(currents: str) -> Study:
     return read_study_text(f"{MODULE}currents: {currents}", "given", Path())
 
 
-def test_a_given_current_that_does_not_change_is_the_constant_one() -> None:
+def test_a_given_current_is_followed_and_a_constant_one_is_the_same() -> None:
     """Compare with constant currents, which are inputs of their own: the two ways share only the integrator."""
     flat = "{softening: {moments: [0 s, 5 s], currents: [1.5 A, 1500 mA]},"
     flat += " stiffening: {moments: [0 s, 1 min], currents: [-0.3 A, -0.3 A]}}"
@@ -102,10 +102,7 @@ def test_a_given_current_that_does_not_change_is_the_constant_one() -> None:
     constant = answer(read_study_text(MODULE, "constant", Path())).design.values
     assert given["response_time"] == pytest.approx(constant["response_time"], rel=1e-5)
     assert given["stiffening_energy"] == pytest.approx(constant["stiffening_energy"], rel=1e-4)
-
-
-def test_the_module_follows_it() -> None:
-    """Energy is the integral of power, so twice the current from the middle on heats sooner; none never heats."""
+    # Energy is the integral of power, so twice the current from the middle on heats sooner; none never heats.
     later = answer(study("{softening: {moments: [0 s, 20 s, 21 s], currents: [1.5 A, 1.5 A, 2.5 A]}}")).design
     assert later.values["response_time"] < answer(read_study_text(MODULE, "c", Path())).design.values["response_time"]
     never = answer(study("{softening: {moments: [0 s, 1 s], currents: [0 A, 0 A]}}")).design

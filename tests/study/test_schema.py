@@ -120,7 +120,7 @@ def test_schema_and_studies_name_format_and_version() -> None:
     assert line.format("") in template_text()
 
 
-def test_the_template_is_a_study_of_all_sections_that_fits_the_schema() -> None:
+def test_the_template_and_its_commented_lines_fit_the_schema() -> None:
     study = read_study_text(template_text(), "template.yaml")
     assert study.task == "optimize"
     assert given(study)["spring_material"].name == study.module["spring_material"]
@@ -128,9 +128,6 @@ def test_the_template_is_a_study_of_all_sections_that_fits_the_schema() -> None:
     validator.validate(yaml.safe_load(template_text()))
     shown = re.findall(r"^(\w+):", template_text(), re.MULTILINE)
     assert [name for name in NAMES if name not in shown] == ["catalog"]
-
-
-def test_its_commented_lines_are_good_too() -> None:
     text = template_text()
     for name in re.findall(r"^  # (\w+): ", text, re.MULTILINE):
         text = re.sub(rf"^  {name}: .*\n", "", text, flags=re.MULTILINE)

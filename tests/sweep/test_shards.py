@@ -74,7 +74,7 @@ with ShardWriter(Path(sys.argv[1]), ("a", "b", "c")) as shard:
 """
 
 
-def test_a_disk_that_is_full_keeps_the_cells_before(tmp_path: Path) -> None:
+def test_full_disks_and_folders_in_the_way_keep_the_cells_before(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-c", FILLS_ITS_DISK, str(tmp_path)], capture_output=True, text=True, check=True,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300)),
@@ -83,9 +83,7 @@ def test_a_disk_that_is_full_keeps_the_cells_before(tmp_path: Path) -> None:
     (path,) = (tmp_path / "shards").iterdir()
     assert path.read_bytes().endswith(b"]\n")
     assert len(Shards(tmp_path, ("a", "b", "c"))) == 2
-
-
-def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
-    (tmp_path / "shards").write_text("a file")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other/shards").write_text("a file")
     with pytest.raises(OutputError, match=r"shards: cannot be written"):
-        written(tmp_path, KEYS)
+        written(tmp_path / "other", KEYS)

@@ -52,7 +52,7 @@ def test_every_solid_is_on_the_bill_with_its_count_and_the_reverse(
     assert any(f"{grams:.2f} g for all of it" in row["title"] for row in rows if row["part"] == "polymer")
 
 
-def test_a_spring_from_stock_is_ordered_by_its_maker_s_number() -> None:
+def test_springs_seats_and_screws_are_ordered_by_number_and_fit() -> None:
     small = {"placement_radius": 16e-3, "leg_overhang": 1.5e-3, "pin_diameter": 1.5e-3}
     mode, overrides = "shear", {"stock_spring": "central_t10180", **small}
     design = design_of("from stock", overrides, mode)
@@ -62,9 +62,6 @@ def test_a_spring_from_stock_is_ordered_by_its_maker_s_number() -> None:
     assert "wound right" in right
     (line,) = (one for one in spring_lines(design, dimensions(design), _titles(design)) if one.name == "from stock")
     assert (line.value, line.note.split(";")[0]) == ("Torsion spring T10180", "Central Springs")
-
-
-def test_a_milled_module_s_bill_has_seats_and_thread_locker() -> None:
     design = design_of("milled", BEARING_BLOCKS, "compression")
     found = fits(design, dimensions(design))
     # Bearing 6802: 24 mm outside in H6, 15 mm inside on h5.
@@ -73,9 +70,6 @@ def test_a_milled_module_s_bill_has_seats_and_thread_locker() -> None:
     assert {"rotor ⌀2 H7", "link ⌀2 H7"} == set(found["link_dowel"].split(", "))
     assert "thread_locker" in [one.kind for one in beside(design, {})]
     assert "thread_locker" not in [one.kind for one in beside(design_of("paper", {}), {})]
-
-
-def test_screws_pins_and_records_say_how_they_are_ordered() -> None:
     design = design_of("paper", {"link_screw_length": 16e-3, "link_dowel_length": 10e-3})
     titles = _titles(design)
     assert titles["link_screw"] == "Button head screw ISO 7380-1 - M3 x 16 - 10.9"

@@ -29,7 +29,7 @@ def _short(radius: float) -> float:
     return 4.0 * CHORD / (3.0 * radius)
 
 
-def test_simple_bodies_have_the_volumes_of_their_formulas() -> None:
+def test_drafts_have_the_volumes_of_formulas_and_change_nothing_exact() -> None:
     with drawn_by(KERNEL):
         assert _volume(block((1.0, 5.0), 3.0, -1.0, 1.0)) == pytest.approx(24.0)
         assert _volume(cylinder(20.0, 0.0, 2.0, (3.0, 4.0))) == pytest.approx(pi * 400.0 * 2.0, rel=_short(20.0))
@@ -40,9 +40,6 @@ def test_simple_bodies_have_the_volumes_of_their_formulas() -> None:
         drilled = join(block((0.0, 20.0), 20.0, 0.0, 2.0), [cylinder(4.0, 2.0, 5.0, (10.0, 0.0))])
         drilled = drilled.cut(cylinder(2.0, 0.0, 5.0, (10.0, 0.0)))
         assert _volume(drilled) == pytest.approx(800.0 + pi * (16.0 * 3.0 - 4.0 * 5.0), rel=0.01)
-
-
-def test_drafts_change_nothing_exact_and_impossible_corners_are_refused() -> None:
     with drawn_by(KERNEL):
         cylinder(5.0, 0.0, 1.0)
     assert cylinder(5.0, 0.0, 1.0).Volume() == pytest.approx(25.0 * pi, rel=1e-9)

@@ -46,7 +46,7 @@ def test_every_heater_has_a_cut_out_a_thermistor_and_wires(changes: dict[str, An
     assert "for 2.1 A and 120 °C" in found["heater_wire"]
 
 
-def test_cut_outs_say_only_what_they_can() -> None:
+def test_cut_outs_and_beads_say_only_what_they_can() -> None:
     bears = {"peltier_module": "silicone_9ar_08_24v", "process": "print_pei_1010"}
     cutout = listed(switched(bears, hottest=83.0))["thermal_cutout"]
     assert "5MA3SPF152019340: opens from 147 to 157 °C" in cutout  # of what opens below the heater's 160 the highest
@@ -55,9 +55,6 @@ def test_cut_outs_say_only_what_they_can() -> None:
     assert "thermal_cutout" not in listed(switched({"heater_fuse": "none"}))
     assert listed(design_of("never switched", {}))["thermal_cutout"] == "ultimheat_5ma3"
     assert fuse_in_words(FUSE, switched({}, 226.0)).startswith("none fits: ")
-
-
-def test_a_bead_that_is_drawn_is_in_the_list_of_parts_with_its_size() -> None:
     design = switched({"thermistor_diameter": 1.8e-3})
     assert "thermistor" not in listed(design)
     (item,) = bill(design, _titles(design), {"thermistor_1": cq.Solid.makeBox(1.0, 1.0, 1.0)})

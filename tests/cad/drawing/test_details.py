@@ -50,7 +50,7 @@ def _sheet_scale(said: list[str]) -> float:
     return float(over) / float(under)
 
 
-def test_small_steps_have_a_detail_and_large_ones_none() -> None:
+def test_small_steps_are_cut_out_at_a_circle() -> None:
     said = {entity.dxf.text for entity in drawn(1.5).modelspace().query("TEXT")}
     assert "X" not in said
     solid = stepped(0.4)
@@ -59,9 +59,6 @@ def test_small_steps_have_a_detail_and_large_ones_none() -> None:
     assert (step.low, step.high) == (pytest.approx((30.0, 5.0)), pytest.approx((30.0, 5.4))) or step.low[0] == 28.0
     assert small_steps([view], [0.0, 5.0], 1.0) == []
     assert small_steps([view], levels(solid), 20.0) == []  # 8 mm on paper
-
-
-def test_lines_and_areas_are_cut_at_a_circle() -> None:
     view = View(arcs=(Arc((0.0, 0.0), 0.5, 0.0, 360.0),), chains=(Chain(((-5.0, 1.0), (5.0, 1.0))),))
     parts = lines_within(view, (0.0, 0.0), 2.0)
     long = max(parts, key=lambda part: abs(part[1][0] - part[0][0]))

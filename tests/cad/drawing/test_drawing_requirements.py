@@ -72,14 +72,11 @@ def test_what_is_milled_to_the_file_is_within_every_fit(
             assert seat.limits.lower - 1e-9 <= seat.drawn - seat.size <= seat.limits.upper + 1e-9
 
 
-def test_a_seat_that_is_drawn_outside_its_class_is_told_as_drawn() -> None:
+def test_seats_and_threads_have_fits_where_milled() -> None:
     design = milled(BEARING_BLOCKS | {"seat_clearance": 0.05e-3}, "compression")
     seat = drawing_requirements("housing", dimensions(design), design.choices).seats[0]
     assert (seat.fit, seat.size) == ("", seat.drawn)
     assert seat.drawn == pytest.approx(24.1)  # 6802 has 24 mm, and the study a gap of 0.05 mm to each side
-
-
-def test_seats_and_threads_are_of_drawn_parts_with_fits_where_milled() -> None:
     mode, overrides = CASES["paper"]
     design = design_of("paper", overrides, mode)
     asked = drawing_requirements("rotor", dimensions(design), design.choices)
@@ -113,7 +110,7 @@ def test_drawings_of_a_milled_module_tell_fits_threads_and_edges() -> None:
     assert not any(text.startswith("Printing") for text in said["rotor"])
 
 
-def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None:
+def test_holes_beside_threads_and_dowels_are_none() -> None:
     mode, overrides = CASES["wrist"]
     design = design_of("wrist", overrides, mode)  # its keys' pockets are 2.5 mm wide, as the hole for the retainer's M3
     found = upright_cylinders(drawn_part(dimensions(design), "rotor"))
@@ -121,9 +118,6 @@ def test_a_hole_of_a_thread_s_diameter_and_another_depth_has_no_thread() -> None
     wide = [one for one in found if one.concave and one.radius == pytest.approx(1.25)]
     assert {one.is_central for one in wide} == {True, False}
     assert all((asked.thread(one) is not None) == one.is_central for one in wide)
-
-
-def test_a_hole_is_a_dowel_s_seat_on_the_pins_circle_alone() -> None:
     mode, overrides = CASES["paper"]
     design = design_of("paper", {**overrides, "key_diameter": 2e-3, "link_dowel": "iso_8734_2"}, mode)
     dims = dimensions(design)

@@ -8,7 +8,6 @@ import re
 import subprocess
 import sys
 from math import pi
-from typing import Any
 
 import cadquery as cq
 import ezdxf
@@ -21,8 +20,7 @@ from ezdxf.math import Vec3
 from ezdxf.tools.text_size import text_size
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
-from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import Item, beside, bill, bill_csv
+from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import TITLE_WIDTH, DrawingSheet, Field, around
 from tvimdesign.cad.drawing.drawings import part_sheet
@@ -70,7 +68,7 @@ def measured(document: Drawing) -> list[float]:
     return [one.y if isinstance(one, Vec3) else float(one) for one in found]
 
 
-def test_a_drawing_dimensions_the_rows_of_the_design(
+def test_drawings_dimension_call_out_and_title_the_design(
     module: tuple[Design, Solids], drawings: dict[str, Drawing]
 ) -> None:
     design, _ = module
@@ -89,12 +87,6 @@ def test_a_drawing_dimensions_the_rows_of_the_design(
         found = np.array(measured(drawings[kind]))
         for size in sizes:
             assert np.min(np.abs(found - size)) < 1e-4, f"{kind}: {size} is not among {found}"
-
-
-def test_holes_are_called_out_with_number_size_and_place(
-    module: tuple[Design, Solids], drawings: dict[str, Drawing]
-) -> None:
-    design, _ = module
     radius = 2e3 * design.values["placement_radius"]
     figure = f"{radius:.2f}".rstrip("0").rstrip(".")
     assert f"4× hole ⌀3.4, on ⌀{figure} every 90° from 45°, h 0 to 10 (10)" in texts(drawings["housing"])
@@ -103,19 +95,22 @@ def test_holes_are_called_out_with_number_size_and_place(
         for text in texts(drawings["housing"])
     )
     assert any(text.startswith("4× hole ⌀3.4") and text.endswith("through") for text in texts(drawings["link"]))
-
-
-def test_the_title_block_says_what_the_part_is(module: tuple[Design, Solids], drawings: dict[str, Drawing]) -> None:
-    design, _ = module
     for kind in DRAWN:
         said = set(texts(drawings[kind]))
         mass = 1e3 * design.values[KINDS[kind].volume] * design.values["structure_density"]
         assert {kind, "petg", design.name, f"{mass:.2f} g", "A – A"} <= said
         assert said & {"A3, first angle", "A2, first angle"}
         assert any("ISO 2768-1 m" in text for text in said)  # a print that is milled instead
+    for document in drawings.values():
+        assert document.audit().errors == []
+        assert document.header["$INSUNITS"] == 4
+        style = document.dimstyles.get("SHEET").dxf
+        assert (style.dimlfac, style.dimdsep, style.dimzin) == (1.0, 46, 8)
+    for kind, document in drawings.items():
+        no_text_lies_on_another(kind, document)
 
 
-def test_a_sheet_has_a_number_a_revision_and_what_its_date_is(module: tuple[Design, Solids]) -> None:
+def test_a_sheet_has_number_revision_true_size_and_no_date(module: tuple[Design, Solids]) -> None:
     design, solids = module
     numbers = set()
     for solid in (solids["retainer"], solids["retainer"], solids["retainer"].scale(1.01)):
@@ -126,16 +121,14 @@ def test_a_sheet_has_a_number_a_revision_and_what_its_date_is(module: tuple[Desi
         assert re.fullmatch(r"retainer-[0-9a-f]{8}", fields["Number"])
         numbers.add(fields["Number"])
     assert len(numbers) == 2, "the same part has the same number, another one has another"
-
-
-def test_drawings_are_sound_dxf_without_text_on_text(drawings: dict[str, Drawing]) -> None:
-    for document in drawings.values():
-        assert document.audit().errors == []
-        assert document.header["$INSUNITS"] == 4
-        style = document.dimstyles.get("SHEET").dxf
-        assert (style.dimlfac, style.dimdsep, style.dimzin) == (1.0, 46, 8)
-    for kind, document in drawings.items():
-        no_text_lies_on_another(kind, document)
+    sheet = sheet_of(design, "retainer", solids["retainer"])
+    data = sheet.pdf()
+    assert data.startswith(b"%PDF-")
+    assert b"/MediaBox [ 0 0 1190.5511811" in data
+    assert b"/CreationDate" not in data
+    again = sheet_of(design, "retainer", solids["retainer"])
+    assert again.pdf() == data
+    assert again.dxf() == sheet.dxf()
 
 
 def no_text_lies_on_another(kind: str, document: Drawing) -> None:
@@ -158,13 +151,7 @@ def no_text_lies_on_another(kind: str, document: Drawing) -> None:
             assert apart, f"{kind}: {text!r} lies on {other!r}"
 
 
-def test_figures_are_kept_apart_and_in_order() -> None:
-    assert apart([0.0, 10.0, 20.0], 5.0) == [0.0, 10.0, 20.0]
-    assert apart([0.0, 1.0, 20.0], 5.0) == [-2.0, 3.0, 20.0]
-    assert apart([0.0, 0.0, 0.0, 7.0], 4.0) == pytest.approx([-4.25, -0.25, 3.75, 7.75])
-
-
-def test_views_have_the_size_of_the_part_and_its_cut_faces_their_area() -> None:
+def test_views_figures_and_letters_are_laid_out() -> None:
     # A tube of 20 and 10 mm, 30 high: cut through, two rectangles of 5 x 30.
     tube = cq.Solid.makeCylinder(10, 30).cut(cq.Solid.makeCylinder(5, 30)).Solids()[0]
     assert from_above(tube).bounds == pytest.approx((-10, 10, -10, 10))
@@ -173,6 +160,18 @@ def test_views_have_the_size_of_the_part_and_its_cut_faces_their_area() -> None:
     assert front.bounds == pytest.approx((-10, 10, 0, 30))
     areas = [abs(_area(outlines[0].points)) for outlines in front.cut]
     assert areas == pytest.approx([150.0, 150.0])
+    assert apart([0.0, 10.0, 20.0], 5.0) == [0.0, 10.0, 20.0]
+    assert apart([0.0, 1.0, 20.0], 5.0) == [-2.0, 3.0, 20.0]
+    assert apart([0.0, 0.0, 0.0, 7.0], 4.0) == pytest.approx([-4.25, -0.25, 3.75, 7.75])
+    sheet = DrawingSheet(1.0)
+    sheet.title_block("pad", [[Field("Material", "Thermoelectric module " * 4), Field("Module", "An elbow")]])
+    no_text_lies_on_another("pad", sheet.document)
+    long, short = (
+        next(one for one in sheet.space.query("TEXT") if one.dxf.text.startswith(begin))
+        for begin in ("Thermo", "An elbow")
+    )
+    assert short.dxf.width == 1.0
+    assert text_size(long).width == pytest.approx(0.5 * TITLE_WIDTH - 3.0, rel=1e-6)
 
 
 def _area(points: tuple[tuple[float, float], ...]) -> float:
@@ -239,64 +238,6 @@ def test_the_bill_counts_and_weighs_the_module(module: tuple[Design, Solids]) ->
     assert sum(float(row["mass_all_g"]) for row in rows) == pytest.approx(1e3 * design.values["module_mass"], rel=1e-3)
 
 
-def test_the_note_takes_every_part_in_order(module: tuple[Design, Solids]) -> None:
-    design, solids = module
-    dims = dimensions(design)
-    items = bill(design, TITLES, place(dims, solids))
-    note = assembly_note(design, dims, items).decode()
-    assert note.startswith(f"# Putting together: {design.name}")
-    for words in ("views/exploded.png", "views/section.png", "bom.csv", "wound up by 8.59 degrees"):
-        assert words in note
-    pads = next(one.quantity for one in items if one.kind == "peltier_pad")
-    assert f"the {pads} Peltier pads" in note
-    assert ("pockets of the floor" in note) == (design.mode == "shear")
-    steps = note[note.index("## Steps") :]
-    first = [steps.index(words) for words in ("Deburr", "Peltier pads", "retainer", "ight-hand springs", "link to")]
-    assert first == sorted(first)
-
-
-@pytest.mark.parametrize("changes", [{}, {"cover": "plate", "core_radius": 10.5e-3}, {"preload_adjuster": "rotary"}])
-def test_the_note_has_length_key_and_torque_of_every_screw(changes: dict[str, Any]) -> None:
-    design = design_of("screwed", changes)
-    dims = dimensions(design)
-    kinds = ("link_screw", "retainer_screw", "cover_screw", "adjuster_screw")
-    there = [kind for kind in kinds if kind in drawn_parts(dims)]
-    names = (
-        "housing",
-        "rotor",
-        "link",
-        "retainer",
-        "cover",
-        "adjuster",
-        "pcl_arc",
-        "spring_right",
-        "spring_left",
-        *there,
-    )
-    note = assembly_note(design, dims, [Item(kind, 4, False, "", "", 1.0, ()) for kind in names]).decode()
-    assert len(there) == 2 + len(changes.keys() - {"core_radius"})
-    for kind in there:
-        value = design.values
-        screw = f"M{1e3 * value[f'{kind}_diameter']:.3g} x {1e3 * value[f'{kind}_length']:.3g}"
-        assert screw in note, (kind, note)
-        assert f"key {1e3 * value[f'{kind}_key']:.3g}" in note, kind
-        assert f"{value[f'{kind}_torque']:.2g} N·m" in note, kind
-
-
-def test_an_adjuster_holds_the_tang_of_its_spring() -> None:
-    by_hand = "tang over its hole, the leg pushed past its pin"
-    for changes, words in (
-        ({}, by_hand),
-        ({"preload_adjuster": "rotary"}, "adjusters' holes"),
-    ):
-        design = design_of("adjusted", changes)
-        dims = dimensions(design)
-        kinds = ("housing", "rotor", "pcl_arc", "spring_right", "spring_left", *(["adjuster"] if changes else []))
-        note = assembly_note(design, dims, [Item(kind, 4, False, "", "", 1.0, ()) for kind in kinds]).decode()
-        found = [one for one in (by_hand, "adjusters' holes") if one in note]
-        assert found == [words]
-
-
 def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     design = design_of("fed", {})
     switch = {"peak_voltage": 3.21, "stiffening_peak_voltage": -4.01, "peak_current": 1.5, "cooling_current": 0.2}
@@ -305,43 +246,6 @@ def test_a_supply_bears_the_peaks_of_the_whole_cycle() -> None:
     assert driver.title.startswith("H-bridge with a controlled current both ways round, ")
     assert all("at least 4.1 V and 1.5 A" in one.title for one in (supply, driver))
     assert [one.kind for one in beside(design, {}) if one.kind in ("supply", "driver")] == []
-
-
-def test_the_note_says_how_parts_are_made_by_the_process() -> None:
-    printed, milled = (
-        assembly_note(
-            design_of("either way", overrides), dimensions(design_of("either way", overrides)),
-            [Item("housing", 1, True, "", "", 1.0, ()), Item("pcl_arc", 4, True, "", "", 1.0, ())],
-        ).decode()
-        for overrides in ({}, {"process": "machine_6061"})
-    )  # fmt: skip
-    assert "- housing: as it stands" in printed
-    assert "0.3 mm wider" in printed
-    assert "Machining" not in printed
-    assert "Housing: from `step/`" in milled
-    assert "- housing" not in milled[: milled.index("## Steps")]
-    assert "- pcl arc" in milled
-    assert "wider" not in milled
-
-
-def test_a_kind_that_no_step_takes_has_one_of_its_own() -> None:
-    design = design_of("paper", {})
-    dims = dimensions(design)
-    placed = place(dims, drawn_parts(dims))
-    items = bill(design, {}, {name: solid for name, solid in placed.items() if name != "retainer"})
-    assert "Fit the retainer screw" in assembly_note(design, dims, items).decode()
-
-
-def test_a_sheet_is_a_pdf_of_its_true_size_with_no_date(module: tuple[Design, Solids]) -> None:
-    design, solids = module
-    sheet = sheet_of(design, "retainer", solids["retainer"])
-    data = sheet.pdf()
-    assert data.startswith(b"%PDF-")
-    assert b"/MediaBox [ 0 0 1190.5511811" in data
-    assert b"/CreationDate" not in data
-    again = sheet_of(design, "retainer", solids["retainer"])
-    assert again.pdf() == data
-    assert again.dxf() == sheet.dxf()
 
 
 @pytest.mark.slow
@@ -378,15 +282,3 @@ print(hashlib.sha256(sheet.dxf()).hexdigest())
 )  # fmt: skip
 def test_azimuths_are_written_as_short_as_their_pattern(azimuths: list[float], words: str) -> None:
     assert around(azimuths) == words
-
-
-def test_letters_are_narrowed_in_short_fields_of_the_title_block() -> None:
-    sheet = DrawingSheet(1.0)
-    sheet.title_block("pad", [[Field("Material", "Thermoelectric module " * 4), Field("Module", "An elbow")]])
-    no_text_lies_on_another("pad", sheet.document)
-    long, short = (
-        next(one for one in sheet.space.query("TEXT") if one.dxf.text.startswith(begin))
-        for begin in ("Thermo", "An elbow")
-    )
-    assert short.dxf.width == 1.0
-    assert text_size(long).width == pytest.approx(0.5 * TITLE_WIDTH - 3.0, rel=1e-6)

@@ -62,7 +62,7 @@ def test_rows_have_width_depth_and_azimuth_of_pockets_and_holes() -> None:
     ))  # fmt: skip
 
 
-def test_walls_have_distance_and_direction_and_no_two_rows_alike() -> None:
+def test_rows_of_walls_end_where_they_are_no_part_of_a_vane() -> None:
     # A pocket of 60 degrees from x on, 3 deep; a hole through the wall at its end makes two walls of that.
     pocket = turned(sector(12.0, 30.0, pi / 3.0, 7.0, 10.0), pi / 6.0)
     x, y = 20.0 * cos(pi / 3.0), 20.0 * sin(pi / 3.0)
@@ -89,9 +89,6 @@ def test_walls_have_distance_and_direction_and_no_two_rows_alike() -> None:
         f"{alike}, R20.4 to R28.28, h 2 to 6 (4)",
         f"{alike}, R20.88 to R28.28, h 2 to 6 (4)",
     ]
-
-
-def test_a_wall_that_runs_behind_a_vane_is_no_part_of_it() -> None:
     # Four grooves part the wall into arcs of 82 degrees, two of them behind a vane of 86 degrees.
     grooves = [
         turned(block((28.0, 31.0), 4.0, -1.0, 9.0), azimuth) for azimuth in (pi / 4, 3 * pi / 4, -pi / 4, -3 * pi / 4)

@@ -50,11 +50,17 @@ def cup() -> cq.Solid:
     return body.fuse(cq.Solid.makeCylinder(2, 5, cq.Vector(0, 0, 2))).Solids()[0]
 
 
-def test_upright_cylinders_are_read_off_a_solid() -> None:
+def test_upright_cylinders_are_read_off_a_solid_and_its_mirror() -> None:
     found = [(one.radius, one.x, one.bottom, one.top, one.concave) for one in upright_cylinders(bracket())]
     assert found == [(2, 30, 11, 15, True), (3, 10, 5, 15, True), (4, 20, 15, 21, False)]
     assert all(one.is_round and not one.is_central for one in upright_cylinders(bracket()))
     assert levels(bracket()) == [5, 11, 15, 21]
+    mirrored = bracket().mirror("XZ").Solids()[0]
+    assert [one.concave for one in upright_cylinders(mirrored)] == [True, True, False]
+    (arc,) = upright_cylinders(cut_in_half())
+    assert arc.span == pytest.approx(pi)
+    assert cos(arc.middle) == pytest.approx(-1.0)
+    assert not arc.is_round
 
 
 def test_holes_are_empty_also_beside_faces_that_would_cut_them() -> None:
@@ -95,7 +101,7 @@ def test_what_stands_in_a_hole_is_found_whatever_its_faces(name: str) -> None:
     assert any(one.radius == 8 and (one.bottom, one.top) == (0, 10) for one in holes(part)) == empty
 
 
-def test_holes_are_wider_in_print_by_what_the_process_takes_away() -> None:
+def test_holes_are_wider_and_parts_lie_on_their_side_in_print() -> None:
     part = bracket()
     printed = as_printed(part, UP, 0.3)
     less = pi * ((3.15**2 - 3.0**2) * 10 + (2.15**2 - 2.0**2) * 4)
@@ -103,9 +109,6 @@ def test_holes_are_wider_in_print_by_what_the_process_takes_away() -> None:
     assert part.Volume() - printed.Volume() == pytest.approx(less, rel=1e-6)
     assert [one.radius for one in holes(printed)] == [2.15, 3.15]
     assert as_printed(part, UP, 0.0).Volume() == pytest.approx(part.Volume(), rel=1e-12)
-
-
-def test_a_part_lies_on_the_side_it_is_printed_on() -> None:
     up, over = as_printed(bracket(), UP, 0.0), as_printed(bracket(), OVER, 0.0)
     assert (up.BoundingBox().zmin, over.BoundingBox().zmin) == pytest.approx((0.0, 0.0), abs=1e-9)
     # Turned over, the boss is what stands on the bed, and the plate's lower face is up.
@@ -128,7 +131,7 @@ def test_every_kind_says_how_it_is_come_by() -> None:
     assert all(making.why for making in PRODUCTION.values())
 
 
-def test_the_mesh_error_is_the_sagitta_of_its_chords() -> None:
+def test_the_mesh_error_is_known_on_any_surface() -> None:
     part = cq.Solid.makeCylinder(20, 5)
     body, measured = printed_mesh("disc", part)
     rim = body.vertices[np.abs(np.hypot(*body.vertices[:, :2].T) - 20.0) < 1e-6]
@@ -137,18 +140,12 @@ def test_the_mesh_error_is_the_sagitta_of_its_chords() -> None:
     assert measured == pytest.approx(20.0 * (1.0 - cos(0.5 * widest)), rel=1e-6)
     assert 0.0 < measured < 0.05
     assert body.is_watertight
-
-
-def test_a_mesh_coarser_than_its_part_is_found_on_any_surface() -> None:
     ball = cq.Solid.makeSphere(10)
     face, mesh = next(pair for pair in face_meshes(ball) if pair[0].geomType() == "SPHERE")
     finest = _distance(face, mesh)
     coarse = Mesh(mesh.vertices * 0.99, mesh.faces)
     assert finest < 0.05
     assert _distance(face, coarse) == pytest.approx(0.1 + 0.99 * finest, rel=1e-3)
-
-
-def test_how_far_points_are_from_a_ring_is_known_in_closed_form() -> None:
     # A ring of 10 mm and 2 mm about an axis along y through (1, 2, 3).
     ring = cq.Solid.makeTorus(10.0, 2.0, cq.Vector(1, 2, 3), cq.Vector(0, 1, 0))
     (face,) = ring.Faces()
@@ -157,7 +154,7 @@ def test_how_far_points_are_from_a_ring_is_known_in_closed_form() -> None:
     assert _from_surface(face, points) == pytest.approx(by_hand)
 
 
-def test_a_3mf_has_unit_name_material_and_the_part() -> None:
+def test_print_files_have_unit_name_material_and_the_part() -> None:
     body, _ = printed_mesh("bracket", bracket())
     data = threemf_bytes(body, PRODUCT)
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -176,16 +173,12 @@ def test_a_3mf_has_unit_name_material_and_the_part() -> None:
     read = trimesh.Trimesh(points, corners)
     assert read.is_watertight
     assert read.volume == pytest.approx(body.volume, rel=1e-6)
-
-
-def test_an_stl_is_the_same_body() -> None:
-    body, _ = printed_mesh("bracket", bracket())
     read = trimesh.load_mesh(io.BytesIO(stl_bytes(body)), file_type="stl")
     assert read.is_watertight
     assert read.volume == pytest.approx(bracket().Volume(), rel=2e-3)
 
 
-def test_a_step_part_says_its_volume_area_and_centroid(tmp_path: Path) -> None:
+def test_a_step_part_says_its_volume_area_and_centroid_or_is_refused(tmp_path: Path) -> None:
     # A block of 10 x 20 x 30 mm with a hole of 6 mm at (5, 5).
     part = cq.Solid.makeBox(10, 20, 30).cut(cq.Solid.makeCylinder(3, 30, cq.Vector(5, 5, 0))).Solids()[0]
     write_part(tmp_path / "part.step", part, PRODUCT)
@@ -198,22 +191,10 @@ def test_a_step_part_says_its_volume_area_and_centroid(tmp_path: Path) -> None:
     text = (tmp_path / "part.step").read_text()
     for words in ("AP242", "geometric validation property", "VOLUME_MEASURE", "AREA_MEASURE", "centre point"):
         assert words in text
-
-
-def test_a_step_file_without_these_is_refused(tmp_path: Path) -> None:
     box = cq.Solid.makeBox(1, 1, 1)
     write_assembly(tmp_path / "a.step", "a", {"box_1": box}, {"box_1": PRODUCT})
     with pytest.raises(GeometryError, match="volume, area and centroid"):
         read_part(tmp_path / "a.step")
-
-
-def test_mirrors_leave_holes_and_arcs_their_span() -> None:
-    mirrored = bracket().mirror("XZ").Solids()[0]
-    assert [one.concave for one in upright_cylinders(mirrored)] == [True, True, False]
-    (arc,) = upright_cylinders(cut_in_half())
-    assert arc.span == pytest.approx(pi)
-    assert cos(arc.middle) == pytest.approx(-1.0)
-    assert not arc.is_round
 
 
 def cut_in_half() -> cq.Solid:

@@ -26,7 +26,7 @@ def test_parts_are_apart_if_their_meshes_are_further_than_their_error(gap: float
     assert PlacedBodies(placed).apart("rotor", "cover") == apart
 
 
-def test_parts_in_bores_are_apart_and_in_material_or_open_meshes_not() -> None:
+def test_parts_are_apart_by_bores_copies_and_closed_meshes() -> None:
     placed = {"housing": at(cylinder(20.0, 30.0), 0.0), "link_dowel_1": at(cylinder(2.0).translate((0, 0, 10.0)), 0.0)}
     assert not PlacedBodies(placed).apart("housing", "link_dowel_1")
     bored = cylinder(20.0, 30.0).cut(cylinder(3.0, 30.0)).Solids()[0]
@@ -35,9 +35,6 @@ def test_parts_in_bores_are_apart_and_in_material_or_open_meshes_not() -> None:
     broken = at(cylinder(5.0), 50.0)
     open_mesh = Instance(type(broken.mesh)(broken.mesh.vertices, broken.mesh.faces[1:]), broken.matrix)
     assert not PlacedBodies({"housing": at(cylinder(5.0), 0.0), "cover": open_mesh}).apart("housing", "cover")
-
-
-def test_copies_of_a_part_that_is_near_are_held_against_it_exactly() -> None:
     placed = {
         "housing": at(cylinder(5.0), 0.0),
         "pcl_arc_1": at(cylinder(5.0), 10.0),

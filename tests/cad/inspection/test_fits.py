@@ -46,16 +46,7 @@ def test_parts_in_pockets_have_the_process_s_clearance_all_round(case: str) -> N
         assert checks[0].value == pytest.approx(dims.slip_clearance, abs=1e-6)
 
 
-def test_a_pad_just_as_wide_as_its_pocket_does_not_go_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(shear_parts, "_pocket", shear_parts._pad)
-    design = design_of("tight", {})
-    dims = dimensions(design)
-    (check,) = fit_checks(dims, placed(design, dims))
-    assert not check.ok
-    assert check.value == pytest.approx(0.0, abs=1e-6)
-
-
-def test_a_pad_that_stands_an_eighth_of_a_millimetre_aside_is_found() -> None:
+def test_pads_that_are_wide_or_aside_do_not_go_in(monkeypatch: pytest.MonkeyPatch) -> None:
     design = design_of("aside", {})
     dims = dimensions(design)
     there = placed(design, dims)
@@ -63,6 +54,11 @@ def test_a_pad_that_stands_an_eighth_of_a_millimetre_aside_is_found() -> None:
     (check,) = fit_checks(dims, there)
     assert not check.ok
     assert check.value == pytest.approx(dims.slip_clearance - 0.125, abs=0.01)
+    # A pocket just as wide as the pad.
+    monkeypatch.setattr(shear_parts, "_pocket", shear_parts._pad)
+    (check,) = fit_checks(dims, placed(design, dims))
+    assert not check.ok
+    assert check.value == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize(

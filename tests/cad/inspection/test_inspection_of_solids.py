@@ -116,13 +116,22 @@ def test_the_wall_beside_a_hole_is_that_of_the_print_file() -> None:
     assert (nominal.level, thin.level) == ("pass", "warning")
 
 
-def test_a_table_needs_support_under_its_top() -> None:
+def test_support_is_planned_where_a_table_s_top_hangs() -> None:
     table = box(8.0, 8.0, 12.0).union(box(40.0, 30.0, 3.0).translate((0, 0, 12.0)))
     found = printed(table)["overhang"]
     assert found.level == "warning"
     assert found.value == pytest.approx(40.0 * 30.0 - 64.0, rel=1e-6)
     assert place_of(found)[2] == pytest.approx(12.0)
     assert printed(table, "top")["overhang"].level == "pass"
+    # A plate of 30 mm on a foot of 6 mm, its lower face 5 mm above the bed, printed as it stands or turned over.
+    work = box(30.0, 30.0, 2.0).translate((0, 0, 5.0)).union(box(6.0, 6.0, 5.0))
+    assert printed(work)["overhang"].level == "warning"
+    found = printed(work, supported=[(5.0, 5.0)])["overhang"]
+    assert found.level == "pass"
+    assert "need support" in found.text
+    assert printed(work, supported=[(4.0, 4.0)])["overhang"].level == "warning"
+    turned = work.rotate((0, 0, 0), (1, 0, 0), 180.0)
+    assert printed(turned, "top", supported=[(-5.0, -5.0)])["overhang"].level == "pass"
 
 
 @pytest.mark.parametrize(("lean", "level"), [(43.0, "pass"), (47.0, "warning")])
@@ -155,12 +164,6 @@ def test_a_roof_that_ends_askew_in_the_air_is_bridged_along_its_ends(gap: float,
     if level == "pass":
         way = gap / cos(radians(40.0))  # of 7 mm 9.1 mm, of 8.5 mm 11.1 mm; a little beside an edge another is shorter
         assert 0.95 * way < found["bridge"].value < (1.0 + 1e-6) * way
-
-
-def test_a_part_may_be_turned_on_the_bed_but_not_be_longer() -> None:
-    assert bed_check("part", np.array([180.0, 210.0, 20.0]), (220.0, 200.0, 250.0)).level == "pass"
-    found = bed_check("part", np.array([230.0, 100.0, 20.0]), BED)
-    assert (found.level, found.value) == ("failure", pytest.approx(-10.0))
 
 
 # --- milling ---------------------------------------------------------------------------------------------------------
@@ -258,7 +261,22 @@ def test_walls_below_milled_pads_are_thick_enough_by_the_rule() -> None:
             assert found["wall"].value == pytest.approx(1.5 - 0.8 * (1.0 + 1.5 / 22.5) - offset, abs=0.01)
 
 
-def test_a_coil_clears_its_post_until_the_post_is_too_thick(paper: Design, dims: Dimensions) -> None:
+def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
+    broken = design_of("thin wall", {"wall_thickness": 1.0e-3})
+    reported = [check for check in rule_checks(broken) if check.level != "pass"]
+    assert [check.name for check in reported] == ["module: rule housing_wall_margin"]
+    assert reported[0].value == pytest.approx(-0.2)
+    assert "thinner than the process" in reported[0].text
+
+
+def test_threads_reach_into_the_core_and_coils_clear_their_posts(
+    dims: Dimensions, drawn: dict[str, cq.Solid], paper: Design
+) -> None:
+    found = {check.part: check for check in thread_checks(dims, drawn)}
+    # M3 x 12 through 4 mm of link, M4 x 10 through 2.5 mm of retainer.
+    assert found["link_screw"].value == pytest.approx(8.0 / 3.0)
+    assert found["retainer_screw"].value == pytest.approx(7.5 / 4.0)
+    assert {check.level for check in found.values()} == {"pass"}
     checks = {check.name: check for check in coil_checks(dims)}
     assert all(check.level == "pass" for check in checks.values())
     wound = checks[f"spring: post at {-dims.stop_angle:+.4f} rad"]
@@ -270,25 +288,12 @@ def test_a_coil_clears_its_post_until_the_post_is_too_thick(paper: Design, dims:
     assert "failure" in {check.level for check in coil_checks(dimensions(thick))}
 
 
-def test_a_rule_that_is_broken_is_a_warning_with_its_reason() -> None:
-    broken = design_of("thin wall", {"wall_thickness": 1.0e-3})
-    reported = [check for check in rule_checks(broken) if check.level != "pass"]
-    assert [check.name for check in reported] == ["module: rule housing_wall_margin"]
-    assert reported[0].value == pytest.approx(-0.2)
-    assert "thinner than the process" in reported[0].text
-
-
-def test_threads_are_as_long_as_the_screws_reach_into_the_core(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
-    found = {check.part: check for check in thread_checks(dims, drawn)}
-    # M3 x 12 through 4 mm of link, M4 x 10 through 2.5 mm of retainer.
-    assert found["link_screw"].value == pytest.approx(8.0 / 3.0)
-    assert found["retainer_screw"].value == pytest.approx(7.5 / 4.0)
-    assert {check.level for check in found.values()} == {"pass"}
-
-
-def test_two_solids_are_not_one() -> None:
+def test_small_parts_are_one_solid_and_fit_the_bed() -> None:
     two = cq.Compound.makeCompound([one_solid(box(1, 1, 1)), one_solid(box(1, 1, 1).translate((5, 0, 0)))])
     assert solid_check("part", two).level == "failure"
+    assert bed_check("part", np.array([180.0, 210.0, 20.0]), (220.0, 200.0, 250.0)).level == "pass"
+    found = bed_check("part", np.array([230.0, 100.0, 20.0]), BED)
+    assert (found.level, found.value) == ("failure", pytest.approx(-10.0))
 
 
 def test_what_goes_on_too_early_is_in_the_way(
@@ -352,18 +357,6 @@ def test_the_reference_modules_have_nothing_that_cannot_be_made(mode: str, proce
         assert warned == set()
     else:
         assert warned - {"housing: edge"} == set()  # support is planned
-
-
-def test_support_at_the_levels_that_are_said_is_told_and_no_fault() -> None:
-    # A plate of 30 mm on a foot of 6 mm, its lower face 5 mm above the bed, printed as it stands or turned over.
-    work = box(30.0, 30.0, 2.0).translate((0, 0, 5.0)).union(box(6.0, 6.0, 5.0))
-    assert printed(work)["overhang"].level == "warning"
-    found = printed(work, supported=[(5.0, 5.0)])["overhang"]
-    assert found.level == "pass"
-    assert "need support" in found.text
-    assert printed(work, supported=[(4.0, 4.0)])["overhang"].level == "warning"
-    turned = work.rotate((0, 0, 0), (1, 0, 0), 180.0)
-    assert printed(turned, "top", supported=[(-5.0, -5.0)])["overhang"].level == "pass"
 
 
 @pytest.mark.parametrize("bearing", ["none", "ball_6803"])

@@ -56,7 +56,7 @@ def compiled_again(values: np.ndarray) -> bool:
     return bool(compiler.called)
 
 
-def test_code_is_compiled_once_and_again_if_damaged(stored: Path) -> None:
+def test_code_is_compiled_once_for_each_processor_and_compiler(stored: Path) -> None:
     values = np.arange(1.0, 9.0)
     assert compiled_again(values)
     assert not compiled_again(values)
@@ -66,10 +66,6 @@ def test_code_is_compiled_once_and_again_if_damaged(stored: Path) -> None:
         file.write_bytes(damaged)
         assert compiled_again(values)
         assert file.read_bytes() == whole
-
-
-def test_code_of_another_processor_or_compiler_is_none_of_ours(stored: Path) -> None:
-    values = np.arange(1.0, 9.0)
     told(values)
     with mock.patch.object(ray_code, "_processor", return_value="another"):
         assert compiled_again(values)

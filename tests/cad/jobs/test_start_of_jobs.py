@@ -36,14 +36,6 @@ def test_vtk_is_not_loaded_whole_with_the_kernel_and_can_be_afterwards() -> None
     assert version >= 9
 
 
-def test_the_files_of_a_part_that_others_wait_for_come_before_its_drawing() -> None:
-    plan = build_plan(dimensions(design_of("toy", {})))
-    needed = {name for work in plan for name in work.needs}
-    late = {work.name for work in plan if work.turn is Turn.LATE}
-    assert late.isdisjoint(needed)
-    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= late
-
-
 def test_a_process_that_is_never_told_what_to_make_is_gone_with_its_owner() -> None:
     with PartsProcess() as waiting:
         process = psutil.Process(waiting.process)
@@ -51,22 +43,23 @@ def test_a_process_that_is_never_told_what_to_make_is_gone_with_its_owner() -> N
     assert not process.is_running()
 
 
-def test_pictures_are_begun_before_all_else_once_the_parts_are_there() -> None:
+def test_small_parts_come_first_then_pictures_then_makers_files() -> None:
     plan = build_plan(dimensions(design_of("paper", {})))
     assert plan[0].name == PICTURES
     assert plan[0].turn is Turn.FIRST
     makers = {work.name for work in plan if work.turn is Turn.LATE}
     assert makers == {f"{name}_for_makers" for name in plan[0].needs}
-
-
-def test_a_small_part_is_made_first_the_two_largest_in_parallel() -> None:
-    plan = build_plan(dimensions(design_of("paper", {})))
     kinds = set(plan[0].needs)
     begun = [work.name for work in sorted(plan, key=lambda work: work.turn) if not work.needs]
     assert begun[0] == "housing"
     assert begun[1] not in {"housing", "rotor"}
     assert set(begun[: len(kinds)]) == kinds  # all others wait for the parts
     assert begun[len(kinds) - 1] == "rotor"
+    plan = build_plan(dimensions(design_of("toy", {})))
+    needed = {name for work in plan for name in work.needs}
+    late = {work.name for work in plan if work.turn is Turn.LATE}
+    assert late.isdisjoint(needed)
+    assert {f"{kind}_for_makers" for kind in ("housing", "rotor", "link")} <= late
 
 
 @pytest.mark.skipif(not hasattr(os, "getsid"), reason="Windows has no sessions")

@@ -88,7 +88,7 @@ def text(done: Done, name: str) -> str:
     return (folder / f"{name}.txt").read_text()
 
 
-def test_work_is_done_after_what_it_needs_and_kept(run: Run) -> None:
+def test_work_is_done_in_order_and_only_what_changed_again(run: Run) -> None:
     first = run(STACK, PLATE)
     assert first.reused == []
     assert text(first, "stack") == "4toy"
@@ -96,6 +96,17 @@ def test_work_is_done_after_what_it_needs_and_kept(run: Run) -> None:
     again = run(STACK, PLATE)
     assert set(again.reused) == {"plate", "stack"}
     assert again.results["plate"].checks == first.results["plate"].checks
+    run(PLATE, STACK)
+    assert set(run(PLATE, STACK, core_radius=0.011).reused) == {"plate", "stack"}
+    run(PLATE, STACK)
+    # 4.2 mm is written otherwise, but what the stack needs of it, rounded, is the same.
+    thicker = run(PLATE, STACK, link_thickness=4.2e-3)
+    assert (thicker.reused, text(thicker, "plate")) == (["stack"], "4.200")
+    thickest = run(PLATE, STACK, link_thickness=5.0e-3)
+    assert (thickest.reused, text(thickest, "stack")) == ([], "5toy")
+    run(PLATE, STACK)
+    renamed = run(PLATE, STACK, design=design_of("other", {}))
+    assert (renamed.reused, text(renamed, "stack")) == (["plate"], "4other")
 
 
 def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
@@ -108,31 +119,20 @@ def test_work_that_nothing_needs_is_started_last(tmp_path: Path) -> None:
     assert list(done.results) == ["plate", "stack", "layer"]
 
 
-def test_a_change_of_what_was_not_read_does_nothing_again(run: Run) -> None:
-    run(PLATE, STACK)
-    assert set(run(PLATE, STACK, core_radius=0.011).reused) == {"plate", "stack"}
-
-
-def test_a_change_does_again_only_what_hangs_on_it(run: Run) -> None:
-    run(PLATE, STACK)
-    # 4.2 mm is written otherwise, but what the stack needs of it, rounded, is the same.
-    thicker = run(PLATE, STACK, link_thickness=4.2e-3)
-    assert (thicker.reused, text(thicker, "plate")) == (["stack"], "4.200")
-    thickest = run(PLATE, STACK, link_thickness=5.0e-3)
-    assert (thickest.reused, text(thickest, "stack")) == ([], "5toy")
-
-
-def test_only_work_that_writes_the_name_is_done_again_for_another_name(run: Run) -> None:
-    run(PLATE, STACK)
-    renamed = run(PLATE, STACK, design=design_of("other", {}))
-    assert (renamed.reused, text(renamed, "stack")) == (["plate"], "4other")
-
-
-def test_a_kept_file_that_has_changed_is_not_used(run: Run) -> None:
+def test_results_of_other_files_work_or_code_are_not_used(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     first = run(PLATE)
     (first.results["plate"].folder / "out/plate.txt").write_text("5.000")
     again = run(PLATE)
     assert (again.reused, text(again, "plate")) == ([], "4.000")
+    run(PLATE, Work(name="layer", do=thickness))
+    shutil.rmtree(tmp_path / "kept/plate")
+    (tmp_path / "kept/layer").rename(tmp_path / "kept/plate")
+    again = run(PLATE)
+    assert (again.reused, text(again, "plate")) == ([], "4.000")
+    monkeypatch.setattr("tvimdesign.cad.jobs.cache.code_digest", lambda: "other")
+    assert run(PLATE).reused == []
 
 
 DAMAGE: dict[str, Callable[[Path], object]] = {
@@ -180,14 +180,6 @@ def test_what_is_kept_and_damaged_is_made_anew(run: Run, name: str) -> None:
     assert set(run(PLATE, STACK).reused) == {"plate", "stack"}
 
 
-def test_a_result_of_other_work_is_not_used(run: Run, tmp_path: Path) -> None:
-    run(PLATE, Work(name="layer", do=thickness))
-    shutil.rmtree(tmp_path / "kept/plate")
-    (tmp_path / "kept/layer").rename(tmp_path / "kept/plate")
-    again = run(PLATE)
-    assert (again.reused, text(again, "plate")) == ([], "4.000")
-
-
 def test_a_damaged_result_is_told(tmp_path: Path) -> None:
     subject, store = TrackedDesign(design_of("toy", {}), {}), Cache(tmp_path)
     done = WorkerPool(subject, store, lambda _: None).do([PLATE])
@@ -196,13 +188,7 @@ def test_a_damaged_result_is_told(tmp_path: Path) -> None:
     assert store.damaged == ["plate"]
 
 
-def test_other_code_makes_all_kept_results_void(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    run(PLATE)
-    monkeypatch.setattr("tvimdesign.cad.jobs.cache.code_digest", lambda: "other")
-    assert run(PLATE).reused == []
-
-
-def test_stuck_work_is_named_with_its_step_and_costs_only_what_needs_it(run: Run) -> None:
+def test_stuck_crashed_and_refused_work_is_named(run: Run, tmp_path: Path) -> None:
     stuck = Work(name="bore", do=never_ends)
     needing = Work(name="assembly", do=stack, needs=("bore", "plate"))
     done = run(stuck, needing, PLATE, limit=0.5)
@@ -210,9 +196,6 @@ def test_stuck_work_is_named_with_its_step_and_costs_only_what_needs_it(run: Run
     assert done.failed["bore"].endswith("(at: cutting the bore)")
     assert done.lost == ["assembly"]
     assert list(done.results) == ["plate"]
-
-
-def test_a_crash_and_a_refusal_are_named_and_leave_nothing_half_made(run: Run, tmp_path: Path) -> None:
     done = run(Work(name="rotor", do=crashes), Work(name="hub", do=refuses), PLATE)
     assert done.failed["rotor"] == "rotor: its process ended with code -9"
     assert done.failed["hub"] == "hub: bore is -1 mm; it must be above zero"
@@ -222,9 +205,7 @@ def test_a_crash_and_a_refusal_are_named_and_leave_nothing_half_made(run: Run, t
     ]
 
 
-def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(
-    tmp_path: Path,
-) -> None:
+def test_a_child_does_several_pieces_and_a_dead_one_is_replaced(tmp_path: Path) -> None:
     subject = TrackedDesign(design_of("toy", {}), TITLES)
     plan = [Work(name=name, do=crashes if name == "crash" else by_whom) for name in ("a", "b", "crash", "c", "d")]
     done = WorkerPool(subject, Cache(tmp_path), lambda _: None, hands=1).do(plan)

@@ -6,8 +6,6 @@ import pytest
 from cad_designs import CASES, DRIVEN, FLANGE, ON_SENSOR, design_of
 
 from tvimdesign.cad.assembly.assembly import build, drawn_part, drawn_parts
-from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import Item
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.geometry.features import holes
@@ -17,7 +15,7 @@ from tvimdesign.cad.inspection.milling import corner_checks
 from tvimdesign.cad.inspection.size_checks import _polar_moment, interference_checks
 
 
-def test_the_sensor_s_pin_is_midway_between_two_screws() -> None:
+def test_sensors_have_their_pattern_below_module_and_motor() -> None:
     dims = dimensions(design_of("flange", {**FLANGE, "flange_azimuth": 0.3}))
     ground = -dims.floor_thickness - dims.foot_height
     found = [one for one in holes(drawn_part(dims, "housing")) if abs(hypot(one.x, one.y) - 20.0) < 1e-3]
@@ -29,6 +27,17 @@ def test_the_sensor_s_pin_is_midway_between_two_screws() -> None:
     (pin,) = [one for one in found if one.radius == pytest.approx(3.0)]
     assert degrees(atan2(pin.y, pin.x)) == pytest.approx(degrees(0.3) + 45.0, abs=1e-3)
     assert (pin.bottom, pin.top) == pytest.approx((ground, ground + 6.0))
+    dims = dimensions(design_of("driven", ON_SENSOR))
+    bottom = dims.motor_bottom_level
+    found = [one for one in holes(drawn_part(dims, "motor_housing")) if one.bottom == pytest.approx(bottom)]
+    pattern = [one for one in found if hypot(one.x, one.y) == pytest.approx(25.0)]
+    assert sorted(one.radius for one in pattern) == [2.5, 2.5, 2.5, 2.5, 3.0]
+    assert {round(one.top - bottom, 6) for one in pattern} == {6.0, 11.0}
+    board = drawn_part(dims, "encoder_board").BoundingBox()
+    assert board.zmin == pytest.approx(bottom + 6.4)
+    asked = drawing_requirements("motor_housing", dims, {"making_method": "milled"})
+    assert [one.about for one in asked.threads] == ["sensor's screws"]
+    assert {"sensor's spigot", "sensor's pin"} <= {one.about for one in asked.seats}
 
 
 @pytest.mark.slow
@@ -43,21 +52,8 @@ def test_a_housing_with_a_flange_can_be_made_by_its_process(case: str) -> None:
     assert {check.name for check in found if check.level == "warning"} <= {"housing: overhang", "housing: edge"}
 
 
-@pytest.mark.parametrize(
-    ("flange", "words"), [(True, "Centre the torque sensor"), (False, "Fix the module by the 4 holes")]
-)
-def test_the_note_says_what_bears_the_module(flange: bool, words: str) -> None:
-    design = design_of("flange", FLANGE if flange else {})
-    housing = Item("housing", 1, True, "petg", "PETG", 1.0, ())
-    note = assembly_note(design, dimensions(design), [housing]).decode()
-    (step,) = [line for line in note.splitlines() if line[:1].isdigit()]
-    assert words in step
-
-
 @pytest.mark.parametrize("case", [DRIVEN, ON_SENSOR], ids=["alone", "on a sensor"])
-def test_the_motor_s_hub_and_housing_weigh_what_the_table_gives(
-    case: dict[str, float | str],
-) -> None:
+def test_the_motor_s_hub_and_housing_weigh_what_the_table_gives(case: dict[str, float | str]) -> None:
     design = design_of("driven", case)
     dims = dimensions(design)
     for kind in ("motor_hub", "motor_housing", "motor_retainer"):
@@ -74,20 +70,6 @@ def test_the_spokes_of_the_motor_s_hub_have_no_sharp_corner(process: str) -> Non
     checks = corner_checks("motor_hub", hub, dims.corner_radius, dims.corner_depth_ratio)
     assert [check.text for check in checks if check.level != "pass"] == []
     assert dims.motor_corner_radius == pytest.approx({"print_petg": 1.0, "machine_6061": 2.0}[process])  # 6 mm high
-
-
-def test_a_sensor_below_the_motor_has_pattern_and_recess_in_the_base() -> None:
-    dims = dimensions(design_of("driven", ON_SENSOR))
-    bottom = dims.motor_bottom_level
-    found = [one for one in holes(drawn_part(dims, "motor_housing")) if one.bottom == pytest.approx(bottom)]
-    pattern = [one for one in found if hypot(one.x, one.y) == pytest.approx(25.0)]
-    assert sorted(one.radius for one in pattern) == [2.5, 2.5, 2.5, 2.5, 3.0]
-    assert {round(one.top - bottom, 6) for one in pattern} == {6.0, 11.0}
-    board = drawn_part(dims, "encoder_board").BoundingBox()
-    assert board.zmin == pytest.approx(bottom + 6.4)
-    asked = drawing_requirements("motor_housing", dims, {"making_method": "milled"})
-    assert [one.about for one in asked.threads] == ["sensor's screws"]
-    assert {"sensor's spigot", "sensor's pin"} <= {one.about for one in asked.seats}
 
 
 @pytest.mark.slow

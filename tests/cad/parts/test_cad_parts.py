@@ -86,38 +86,16 @@ def test_what_cannot_be_drawn_names_the_part(paper: Design, row: str, value: flo
     "overrides",
     [
         # Vertices that rounding to a millionth of a millimetre splits: 24.409863 mm sin 30 deg, and 19.1828805 + 2 mm.
-        {
-            "wire_diameter": 1.63299783e-3,
-            "coil_diameter": 14.4195471e-3,
-            "coil_count": 6.98764356,
-            "placement_radius": 46.8342295e-3,
-            "core_radius": 15.4269817e-3,
-            "link_thickness": 3.34797794e-3,
-            "pcl_inner_radius": 21.1112372e-3,
-            "pcl_outer_radius": 26.409863e-3,
-            "arc_span": radians(42.5021918),
-            "pcl_thickness": 1.31773805e-3,
-            "preload_angle": 0.323144964,
-            "spring_pairs": 3,
-            "arc_count": 4,
-        },
-        {
-            "wire_diameter": 1.65787036e-3,
-            "coil_diameter": 31.2027823e-3,
-            "coil_count": 5.13113728,
-            "placement_radius": 55.0633984e-3,
-            "core_radius": 13.6670048e-3,
-            "link_thickness": 3.48622919e-3,
-            "pcl_inner_radius": 19.1828805e-3,
-            "pcl_outer_radius": 33.6000928e-3,
-            "arc_span": radians(77.4763998),
-            "pcl_thickness": 1.74894889e-3,
-            "preload_angle": 0.18294328,
-            "spring_pairs": 1,
-            "arc_count": 3,
-        },
+        {"wire_diameter": 1.63299783e-3, "coil_diameter": 14.4195471e-3, "coil_count": 6.98764356,
+         "placement_radius": 46.8342295e-3, "core_radius": 15.4269817e-3, "link_thickness": 3.34797794e-3,
+         "pcl_inner_radius": 21.1112372e-3, "pcl_outer_radius": 26.409863e-3, "arc_span": radians(42.5021918),
+         "pcl_thickness": 1.31773805e-3, "preload_angle": 0.323144964, "spring_pairs": 3, "arc_count": 4},
+        {"wire_diameter": 1.65787036e-3, "coil_diameter": 31.2027823e-3, "coil_count": 5.13113728,
+         "placement_radius": 55.0633984e-3, "core_radius": 13.6670048e-3, "link_thickness": 3.48622919e-3,
+         "pcl_inner_radius": 19.1828805e-3, "pcl_outer_radius": 33.6000928e-3, "arc_span": radians(77.4763998),
+         "pcl_thickness": 1.74894889e-3, "preload_angle": 0.18294328, "spring_pairs": 1, "arc_count": 3},
     ],
-)
+)  # fmt: skip
 def test_meshes_close_where_rounding_splits_their_vertices(overrides: dict[str, float]) -> None:
     dims = dimensions(design_of("split", overrides))
     for name, solid in drawn_parts(dims).items():

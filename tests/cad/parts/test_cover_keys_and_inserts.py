@@ -8,7 +8,6 @@ import pytest
 from cad_designs import broken_rules, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.assembly.assembly_note import steps_of
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
 from tvimdesign.cad.geometry.solids import turned
@@ -66,7 +65,7 @@ def test_cover_and_inserts_are_as_large_as_their_rows_and_cut_nothing(
     assert max(abs(check.value) for check in sizes.values()) < 1e-9
 
 
-def test_the_cover_has_every_listed_hole_and_none_of_size_zero(dims: Dimensions) -> None:
+def test_a_cover_has_its_holes_and_is_found_where_it_is_too_tight(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
     numbers = {"count": 3.0, "radius": 0.0, "circle_radius": 30.0, "azimuth": 0.1}
     listed = {f"cover_hole_circles.2.{name}": value for name, value in numbers.items()}
     with_none = Dimensions("shear", {**dims.by_name, **listed, "cover_hole_circles.length": 3.0})
@@ -77,9 +76,6 @@ def test_the_cover_has_every_listed_hole_and_none_of_size_zero(dims: Dimensions)
     first = cq.Vector(30.0 * cos(0.1), 30.0 * sin(0.1), dims.rim_level + 0.5 * dims.cover_height)
     assert plain.isInside(first)
     assert not vented.isInside(first)
-
-
-def test_a_cover_that_is_too_tight_or_too_low_is_found(dims: Dimensions, drawn: dict[str, cq.Solid]) -> None:
     for row, value in (("cover_hole_radius", dims.core_radius - 0.5), ("rim_level", dims.pin_top_level - 0.5)):
         wrong = Dimensions("shear", {**dims.by_name, row: value})
         plate = {"cover": fittings.cover(wrong), "rotor": drawn["rotor"]}
@@ -106,11 +102,6 @@ def test_a_screw_that_is_too_short_for_its_insert_is_found(dims: Dimensions, dra
     found = {check.part: check for check in thread_checks(dims, {**drawn, "cover_screw": screw})}["cover_screw"]
     assert (found.level, found.value) == ("warning", pytest.approx(2.5 / 2.0))  # 4 mm less a cover of 1.5 mm
     assert found.limit == pytest.approx(2.0)
-
-
-def test_steps_of_keys_are_written_where_there_are_keys() -> None:
-    (step,) = [step for step in steps_of({"pcl_arc", "rotor"}) if step.get("where") == ["key_count"]]
-    assert step["where"] == ["key_count"]
 
 
 def test_a_cutter_comes_into_every_corner_of_a_milled_housing_with_a_cover() -> None:

@@ -9,7 +9,6 @@ import pytest
 from cad_designs import MM, broken_rules, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_parts, place
-from tvimdesign.cad.assembly.assembly_note import assembly_note
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill, bill_csv
 from tvimdesign.cad.drawing.drawing_requirements import drawing_requirements
 from tvimdesign.cad.drawing.drawing_sheet import figure
@@ -47,14 +46,13 @@ def placed(dims: Dimensions) -> dict[str, cq.Solid]:
     return place(dims, drawn_parts(dims))
 
 
-def test_volumes_masses_and_inertia_are_those_of_the_table(design: Design, placed: dict[str, cq.Solid]) -> None:
+def test_pins_fill_their_holes_have_their_size_and_go_in_last(
+    design: Design, placed: dict[str, cq.Solid], dims: Dimensions
+) -> None:
     found = {check.name: check for check in size_checks(design, placed)}
     wanted = ("link_dowel_volume", "rotor_volume", "link_volume", "rotor_inertia", "parts_inertia", "module_mass")
     assert {name: found[name].ok for name in wanted} == dict.fromkeys(wanted, True)
     assert max(abs(found[name].value) for name in wanted[:4]) < 1e-9
-
-
-def test_pins_fill_their_holes_and_cut_nothing(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     names = [name for name in placed if name.startswith("link_dowel")]
     assert len(names) == dims.count("dowels_fitted")
     kept = {name: placed[name] for name in placed if name in names or name.startswith(("rotor", "link"))}
@@ -67,6 +65,9 @@ def test_pins_fill_their_holes_and_cut_nothing(dims: Dimensions, placed: dict[st
         below = cq.Vector(*placed[name].Center().toTuple()[:2], box.zmin - 0.25)
         assert not placed["rotor"].isInside(below)
         assert placed["rotor"].isInside(below - cq.Vector(0, 0, 0.5))
+    order = [one.name for one in sequence(list(placed))]
+    assert sorted(order) == sorted(placed)
+    assert order.index("link") < order.index("link_screw_1") < order.index("link_dowel_1")
 
 
 def test_pins_stand_between_the_screws_and_turn_with_the_link(dims: Dimensions) -> None:
@@ -80,13 +81,9 @@ def test_pins_stand_between_the_screws_and_turn_with_the_link(dims: Dimensions) 
         assert (np.arctan2(b.y, b.x) - np.arctan2(a.y, a.x)) % (2.0 * np.pi) == pytest.approx(0.1)
 
 
-def test_pins_go_in_last_and_every_part_has_a_step(placed: dict[str, cq.Solid]) -> None:
-    order = [one.name for one in sequence(list(placed))]
-    assert sorted(order) == sorted(placed)
-    assert order.index("link") < order.index("link_screw_1") < order.index("link_dowel_1")
-
-
-def test_holes_to_be_reamed_are_not_widened_in_the_print(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
+def test_prints_and_drawings_leave_holes_to_be_reamed(
+    dims: Dimensions, placed: dict[str, cq.Solid], design: Design
+) -> None:
     for kind in ("rotor", "link"):
         reamed = link_dowels(dims)
         lying = as_printed(placed[kind], PRODUCTION[kind], 0.3, reamed)
@@ -96,9 +93,6 @@ def test_holes_to_be_reamed_are_not_widened_in_the_print(dims: Dimensions, place
         assert [one.radius for one in kept] == pytest.approx([0.5 * dims.link_dowel_diameter] * len(reamed))
         screws = [one.radius for one in holes(lying) if one not in kept]
         assert all(abs(radius - 0.5 * dims.link_dowel_diameter) > 0.05 for radius in screws)
-
-
-def test_drawings_ask_for_reamed_holes_and_tell_which_are_for_bonding(design: Design, dims: Dimensions) -> None:
     for kind in ("rotor", "link"):
         (seat,) = drawing_requirements(kind, dims, design.choices).seats
         assert (seat.fit, seat.size, seat.letter) == ("H7", pytest.approx(dims.link_dowel_diameter), "")
@@ -108,9 +102,7 @@ def test_drawings_ask_for_reamed_holes_and_tell_which_are_for_bonding(design: De
     assert not any("bonding" in note for note in drawing_requirements("housing", dims, loose).notes)
 
 
-def test_bill_and_note_have_the_pins_and_the_adhesive(
-    design: Design, dims: Dimensions, placed: dict[str, cq.Solid]
-) -> None:
+def test_the_bill_has_the_pins_and_the_adhesive(design: Design, dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     items = bill(design, {"tang_adhesive": "An epoxy"}, placed)
     extra = beside(design, {"tang_adhesive": "An epoxy"})
     pins = next(one for one in items if one.kind == "link_dowel")
@@ -119,11 +111,6 @@ def test_bill_and_note_have_the_pins_and_the_adhesive(
     assert adhesive.title == "An epoxy"
     assert adhesive.mass == pytest.approx(1e3 * design.value("tang_adhesive_mass"))
     assert b"tang_adhesive" in bill_csv([*items, *extra])
-    note = assembly_note(design, dims, items, extra).decode()
-    assert "tang adhesive, An epoxy" in note
-    assert "The tangs are bonded." in note
-    assert "ream link and core together" in note
-    assert "those of dowel pins not" in note
 
 
 def test_screws_alone_and_loose_tangs_have_none_of_it() -> None:

@@ -7,7 +7,6 @@ import pytest
 from cad_designs import BLOCKS, TILES, VANE_TILES, broken_rules, design_of
 
 from tvimdesign.cad.assembly.assembly import MODULES, drawn_part
-from tvimdesign.cad.assembly.assembly_note import steps_of
 from tvimdesign.cad.geometry.dimensions import dimensions
 from tvimdesign.cad.inspection.size_checks import interference_checks, size_checks
 from tvimdesign.cad.parts import shear_parts
@@ -58,17 +57,6 @@ def test_a_seat_that_breaks_into_the_window_is_found_by_rule_and_by_volume() -> 
     assert not checks["housing_volume"]
 
 
-def test_the_note_says_where_it_and_the_cut_out_go_in_both_modes() -> None:
-    with_bead = [step["text"] for step in steps_of({"housing", "peltier_pad", "pcl_arc", "thermistor"})]
-    assert any("flush with the floor" in text for text in with_bead)
-    for kinds in ({"peltier_pad", "pcl_arc"}, {"peltier_pad", "pcl_block"}, {"peltier_pad", "pcl_arc", "spreader"}):
-        texts = [step["text"] for step in steps_of({*kinds, "thermal_cutout"})]
-        assert sum("thermal cut-out" in text for text in texts) == 1, kinds
-    for kinds in ({"peltier_pad", "pcl_arc"}, {"peltier_pad", "pcl_block"}):
-        assert sum("thermistor of the bill" in step["text"] for step in steps_of(kinds)) == 1, kinds
-    assert "thermistor" not in MODULES["shear"].kinds(dimensions(design_of("none", {})))
-
-
 BEAD_BY_BLOCK = {"thermistor_diameter": 0.8e-3, "thermistor_length": 2.5e-3}
 
 
@@ -110,9 +98,3 @@ def test_a_bead_without_room_breaks_a_rule(rule: str, changes: dict[str, float])
     assert rule in broken_rules(design_of("tight", {**BLOCKS, **BEAD_BY_BLOCK, **changes}, "compression"))
     bare = {name: value for name, value in changes.items() if "thermistor" not in name}
     assert rule not in broken_rules(design_of("none", {**BLOCKS, **bare}, "compression"))
-
-
-def test_the_note_places_it_and_glues_nothing_into_the_slot() -> None:
-    texts = [step["text"] for step in steps_of({"housing", "peltier_pad", "pcl_block", "thermistor"})]
-    assert sum("outer end of the first vane" in text for text in texts) == 1
-    assert not any("thermistor of the bill" in text for text in texts)

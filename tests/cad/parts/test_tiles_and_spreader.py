@@ -9,7 +9,6 @@ from cad_designs import TILES, broken_rules, design_of
 from placed_solids import placed_solids
 
 from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.assembly.assembly_note import steps_of
 from tvimdesign.cad.assembly.bill_of_materials import beside
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.draft_kernel import DraftKernel
@@ -51,7 +50,7 @@ def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
     assert [check.text for check in interference_checks(placed, "here") if not check.ok] == []
 
 
-def test_each_tile_stands_over_an_open_window_under_the_spreader(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
+def test_tiles_stand_over_windows_with_their_plates_on_ledges(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     for name in (name for name in placed if kind_of(name) == "peltier_pad"):
         tile, box = placed[name], placed[name].BoundingBox()
         assert (box.zmin, box.zmax) == pytest.approx((-dims.pad_depth, -dims.spreader_depth))
@@ -60,9 +59,6 @@ def test_each_tile_stands_over_an_open_window_under_the_spreader(dims: Dimension
         middle = tile.Center()
         below = cq.Vector(middle.x, middle.y, -dims.floor_thickness + 0.01)
         assert not placed["housing"].isInside(below), f"{name} has no window"
-
-
-def test_each_arc_has_a_hole_for_its_thermistor(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     across = 0.25 * pi * dims.lead_hole_diameter**2
     level = -0.5 * (dims.floor_thickness + dims.pad_depth)
     plane = cq.Face.makePlane(200.0, 200.0, cq.Vector(0, 0, level), cq.Vector(0, 0, 1))
@@ -72,9 +68,15 @@ def test_each_arc_has_a_hole_for_its_thermistor(dims: Dimensions, placed: dict[s
     radii = [cq.Face.makeFromWires(wire).Center().toTuple()[:2] for wire in holes]
     at = [hole for hole in radii if abs((hole[0] ** 2 + hole[1] ** 2) ** 0.5 - dims.tile_radius) < 1e-6]
     assert len(at) == 3
+    tile = placed["peltier_pad_1"]
+    faces = sorted(tile.Faces(), key=lambda face: face.Center().z)
+    assert faces[-1].Area() == pytest.approx(200.0)
+    assert faces[0].Area() == pytest.approx(180.0)
+    seat = tile.moved(cq.Location(cq.Vector(0, 0, -0.1))).intersect(placed["housing"]).Volume() / 0.1
+    assert seat == pytest.approx(180.0 - (18.0 - 4.0) * 6.0 + (4.0 - pi) * dims.corner_radius**2, rel=1e-6)
 
 
-def test_bent_leads_go_down_through_their_slots(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
+def test_bent_leads_go_down_through_their_slots_in_drafts_too(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
     leads = [solid for name, solid in placed.items() if kind_of(name) == "heater_lead"]
     assert len(leads) == 12
     # A bend of 2.4 mm wire, 4.8 mm inside: a torus by Pappus.
@@ -85,17 +87,9 @@ def test_bent_leads_go_down_through_their_slots(dims: Dimensions, placed: dict[s
         assert lead.distance(placed["housing"]) > 0.1
         tiles = [placed[f"peltier_pad_{index}"] for index in range(1, 7)]
         assert min(lead.distance(tile) for tile in tiles) == pytest.approx(0.0, abs=1e-6)  # it begins there
-
-
-def test_the_colder_plate_is_a_porch_shorter_and_lies_on_ledges_all_round(
-    dims: Dimensions, placed: dict[str, cq.Solid]
-) -> None:
-    tile = placed["peltier_pad_1"]
-    faces = sorted(tile.Faces(), key=lambda face: face.Center().z)
-    assert faces[-1].Area() == pytest.approx(200.0)
-    assert faces[0].Area() == pytest.approx(180.0)
-    seat = tile.moved(cq.Location(cq.Vector(0, 0, -0.1))).intersect(placed["housing"]).Volume() / 0.1
-    assert seat == pytest.approx(180.0 - (18.0 - 4.0) * 6.0 + (4.0 - pi) * dims.corner_radius**2, rel=1e-6)
+    with drawn_by(DraftKernel()):
+        draft: Any = heater_lead(dims)
+    assert draft.body.volume() == pytest.approx(placed["heater_lead_1"].Volume(), rel=0.12)
 
 
 def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:
@@ -105,15 +99,6 @@ def test_tiles_that_overlap_are_found_by_rule_and_solid() -> None:
     drawn = {kind: drawn_part(dims, kind) for kind in ("peltier_pad", "pcl_arc", "spreader")}
     placed = {name: shape.Solids()[0] for name, shape in shear_parts.stand(dims, drawn, 0.0).items()}
     assert any("peltier_pad_1 and peltier_pad_2" in c.text for c in interference_checks(placed, "here") if not c.ok)
-
-
-def test_the_note_lays_spreaders_on_tiles_and_says_where_wires_go() -> None:
-    texts = [step["text"] for step in steps_of({*KINDS, "rotor"})]
-    assert any("spreader" in text and "the slot beside its end" in text for text in texts)
-    assert not any("Lay the {number_of_peltier_pad} Peltier pads" in text for text in texts)
-    assert any(
-        "Lay the {number_of_peltier_pad} Peltier pads" in step["text"] for step in steps_of({*KINDS} - {"spreader"})
-    )
 
 
 def test_adhesive_and_a_thermistor_for_each_spreader_are_in_the_list(design: Design) -> None:
@@ -131,9 +116,3 @@ def test_the_supply_is_for_the_pads_as_they_are_wired(wiring: str, said: str) ->
     design = design_of("wired", TILES | {"heater_wiring": wiring})
     design.values.update(peak_voltage=9.0, peak_current=2.0)
     assert said in next(item.title for item in beside(design, {}) if item.kind == "supply")
-
-
-def test_a_drafted_lead_is_as_large_as_the_exact_one(dims: Dimensions, placed: dict[str, cq.Solid]) -> None:
-    with drawn_by(DraftKernel()):
-        draft: Any = heater_lead(dims)
-    assert draft.body.volume() == pytest.approx(placed["heater_lead_1"].Volume(), rel=0.12)

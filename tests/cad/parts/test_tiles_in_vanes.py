@@ -8,7 +8,6 @@ from cad_designs import VANE_TILE_ROWS, VANE_TILES, broken_rules, design_of
 from placed_solids import placed_solids
 
 from tvimdesign.cad.assembly.assembly import drawn_part
-from tvimdesign.cad.assembly.assembly_note import steps_of
 from tvimdesign.cad.assembly.bill_of_materials import beside, bill
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.geometry.kinds import kind_of
@@ -58,7 +57,9 @@ def test_they_keep_the_rules_are_as_large_as_their_rows_and_cut_nothing(
     assert [check.text for check in interference_checks(placed, "here") if not check.ok] == []
 
 
-def test_each_tile_touches_its_spreader_and_each_spreader_its_block(placed: dict[str, cq.Solid]) -> None:
+def test_tiles_touch_spreaders_and_seats_over_their_ways_out(
+    placed: dict[str, cq.Solid], design: Design, dims: Dimensions
+) -> None:
     def touching(solid: cq.Solid, kind: str) -> int:
         others = [other for name, other in placed.items() if kind_of(name) == kind]
         return sum(solid.distance(other) < 1e-7 for other in others)
@@ -67,6 +68,12 @@ def test_each_tile_touches_its_spreader_and_each_spreader_its_block(placed: dict
     for name, tile in list(tiles(placed))[:2]:
         assert (touching(tile, "spreader"), touching(tile, "housing")) == (1, 1), name
     assert [touching(placed[f"spreader_{index}"], "pcl_block") for index in (1, 2)] == [1, 1]
+    for name, tile in list(tiles(placed))[:4]:
+        assert behind(tile, placed["housing"]) == pytest.approx(1e6 * design.values["tile_seat_area"], rel=2e-3), name
+    for name, tile in tiles(placed):
+        middle = tile.Center()
+        for level in (dims.running_clearance - 0.01, -0.5 * dims.floor_thickness, -dims.floor_thickness + 0.01):
+            assert not placed["housing"].isInside(cq.Vector(middle.x, middle.y, level)), f"{name} at {level:.2f} mm"
 
 
 def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:
@@ -79,28 +86,7 @@ def behind(tile: cq.Solid, housing: cq.Solid, depth: float = 0.01) -> float:
     return found
 
 
-def test_the_seat_of_a_tile_is_as_large_as_its_row(design: Design, placed: dict[str, cq.Solid]) -> None:
-    for name, tile in list(tiles(placed))[:4]:
-        assert behind(tile, placed["housing"]) == pytest.approx(1e6 * design.values["tile_seat_area"], rel=2e-3), name
-
-
-def test_below_the_middle_of_each_tile_is_a_way_out_through_the_floor(
-    dims: Dimensions, placed: dict[str, cq.Solid]
-) -> None:
-    for name, tile in tiles(placed):
-        middle = tile.Center()
-        for level in (dims.running_clearance - 0.01, -0.5 * dims.floor_thickness, -dims.floor_thickness + 0.01):
-            assert not placed["housing"].isInside(cq.Vector(middle.x, middle.y, level)), f"{name} at {level:.2f} mm"
-
-
-def test_notes_and_supply_are_for_spreaders_in_the_vanes() -> None:
-    texts = [step["text"] for step in steps_of({*KINDS, "rotor"})]
-    (step,) = [text for text in texts if "carry {number_of_peltier_pad} tiles" in text]
-    assert "down through the slots" in step
-    assert not any("Slide the {number_of_peltier_pad} Peltier pads" in text for text in texts)
-    assert not any("the hole at one end of" in text for text in texts)
-    pads = [step["text"] for step in steps_of({*KINDS, "rotor"} - {"spreader"})]
-    assert any("Slide the {number_of_peltier_pad} Peltier pads" in text for text in pads)
+def test_the_supply_is_for_vanes_as_they_are_wired() -> None:
     wired = design_of("wired", VANE_TILES | {"heater_wiring": "vanes_parallel"}, "compression")
     wired.values.update(peak_voltage=9.0, peak_current=2.0)
     assert "vanes in parallel" in next(item.title for item in beside(wired, {}) if item.kind == "supply")

@@ -9,8 +9,6 @@ import pytest
 from cad_designs import CASES, broken_rules, design_of
 
 from tvimdesign.cad.assembly.assembly import drawn_part, drawn_parts, place
-from tvimdesign.cad.assembly.assembly_note import assembly_note
-from tvimdesign.cad.assembly.bill_of_materials import bill
 from tvimdesign.cad.geometry.dimensions import Dimensions, dimensions
 from tvimdesign.cad.inspection.order import sequence
 from tvimdesign.cad.inspection.size_checks import all_checks, interference_checks, size_checks
@@ -65,7 +63,7 @@ def test_every_check_holds_through_the_stroke(sprung: Sprung) -> None:
     assert [check.text for check in all_checks(sprung.design, sprung.dims, sprung.drawn) if not check.ok] == []
 
 
-def test_parts_stand_frozen_and_have_room_to_rise_by_what_the_layer_grows(sprung: Sprung) -> None:
+def test_parts_stand_frozen_with_room_to_rise_and_come_in_once(sprung: Sprung) -> None:
     case, design, dims, _, parts = sprung
     growth = (1145.0 / 1070.0 - 1.0) * dims.pcl_thickness if design.mode == "shear" else 0.0
     if case == "sprung bearings":
@@ -74,24 +72,6 @@ def test_parts_stand_frozen_and_have_room_to_rise_by_what_the_layer_grows(sprung
         assert parts["rotor"].BoundingBox().zmin == pytest.approx(parts["retainer"].BoundingBox().zmax, abs=1e-6)
     else:
         assert dims.hub_bottom_level - parts["retainer"].BoundingBox().zmax == pytest.approx(growth, abs=1e-6)
-
-
-def test_the_note_sets_the_spring_in_and_says_how_to_set_the_stop(sprung: Sprung) -> None:
-    case, design, dims, _, parts = sprung
-    items = bill(design, {}, parts)
-    (spring,) = [one for one in items if one.kind == "preload_spring"]
-    assert not spring.made
-    assert spring.material == design.choices["axial_preload"]
-    note = assembly_note(design, dims, items).decode()
-    where = "in" if design.choices["bearing"] != "none" else "on"
-    assert {"in": "Lay the wave spring into the upper", "on": "lay it on the upper end of the hub"}[where] in note
-    if design.mode == "shear":
-        # (1145/1070 - 1) times PCL of 0.95 or 1 mm.
-        growth = {"sprung": "0.0666", "sprung bearings": "0.0701"}[case]
-        assert growth in note.split("Press the rotor down on its cold PCL")[1][:200]
-
-
-def test_every_part_comes_into_its_place_once(sprung: Sprung) -> None:
     names = list(sprung.parts)
     order = [one.name for one in sequence(names)]
     assert sorted(order) == sorted(names)
@@ -99,15 +79,12 @@ def test_every_part_comes_into_its_place_once(sprung: Sprung) -> None:
     assert order.index("preload_spring") < order.index(seat) < order.index(above)
 
 
-def test_lips_end_at_the_layer_a_clearance_above_the_floor() -> None:
+def test_lips_end_above_the_floor_and_wrong_springs_are_refused() -> None:
     dims, bare = (dimensions(design_of("lips", {"melt_lip": word})) for word in ("rings", "none"))
     lips = drawn_part(dims, "rotor").Volume() - drawn_part(bare, "rotor").Volume()
     inner = dims.pcl_inner_radius**2 - (dims.pcl_inner_radius - dims.rotor_rim) ** 2
     outer = (dims.pcl_outer_radius + dims.rotor_rim) ** 2 - dims.pcl_outer_radius**2
     assert lips == pytest.approx(pi * (inner + outer) * (1.0 - 0.4), rel=1e-6)
-
-
-def test_a_wave_spring_that_is_too_small_or_too_wide_is_refused() -> None:
     sprung = CASES["sprung"][1]
     assert "preload_bore_gap" in broken_rules(design_of("small", {**sprung, "axial_preload": "wave_19x23"}))
     wide = broken_rules(design_of("wide", {**sprung, "axial_preload": "wave_25x29"}))

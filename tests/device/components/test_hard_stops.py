@@ -23,13 +23,10 @@ def of(inputs: dict[str, Any], *names: str) -> list[float]:
     return [float(value) for value in TABLE.evaluate(inputs, names).values()]
 
 
-def test_a_tooth_bends_as_shigleys_gear_tooth() -> None:
+def test_a_tooth_bends_and_weighs_as_its_outline() -> None:
     # Shigley, Mechanical Engineering Design, 10th ed., eq. 14-1, sigma = 6 W l/(F t^2): 100 N at 3 mm on 4 x 5 mm.
     bending, shear = 6.0 * 100.0 * 3.0 / (4.0 * 5.0**2), 100.0 / 20.0
     assert stub_stress(100.0, 3 * MM, 5 * MM, 4 * MM) == pytest.approx(1e6 * np.hypot(bending, np.sqrt(3.0) * shear))
-
-
-def test_a_tooth_with_fillets_is_as_large_as_its_outline() -> None:
     radius, outer, corner, span = 30.0, 33.0, 1.5, 0.2
     reach = radius + corner
     beside = np.arcsin(corner / reach)

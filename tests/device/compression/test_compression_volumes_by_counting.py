@@ -118,7 +118,7 @@ def test_floor_has_the_volume_that_hub_slots_and_holes_leave(part: dict[str, Any
     assert p["floor_moments"].area == pytest.approx(volume, rel=3e-3)
 
 
-def test_housing_is_skirt_floor_wall_hub_posts_and_vanes(part: dict[str, Any]) -> None:
+def test_housing_is_its_parts_and_masses_add_up(part: dict[str, Any]) -> None:
     p = part
     wall = np.pi * (p["housing_outer_radius"] ** 2 - p["housing_inner_radius"] ** 2) * p["pin_top_level"]
     bore = p["core_radius"] + p["running_clearance"]
@@ -129,6 +129,8 @@ def test_housing_is_skirt_floor_wall_hub_posts_and_vanes(part: dict[str, Any]) -
     posts += stops * p["rotor_top_level"]
     whole = p["skirt_moments"].area + p["floor_moments"].area + p["housing_vanes_moments"].area + wall + hub + posts
     assert p["housing_volume"] == pytest.approx(whole, rel=1e-12)
+    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels", "cutout")
+    assert part["module_mass"] == pytest.approx(sum(part[f"{name}_mass"] for name in names), rel=1e-12)
 
 
 def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) -> None:
@@ -161,8 +163,3 @@ def test_rotor_has_the_volume_and_inertia_of_its_levels(part: dict[str, Any]) ->
     assert p["rotor_inertia"] == pytest.approx(polar * p["structure_density"], rel=3e-3)
     # What turns and what stands are apart by a running clearance, above and below.
     assert p["rotor_bottom_level"] == pytest.approx(p["block_height"] + 2.0 * clear, rel=1e-12)
-
-
-def test_masses_add_up(part: dict[str, Any]) -> None:
-    names = ("housing", "rotor", "link", "retainer", "springs", "pcl", "peltier", "screws", "dowels", "cutout")
-    assert part["module_mass"] == pytest.approx(sum(part[f"{name}_mass"] for name in names), rel=1e-12)

@@ -59,9 +59,7 @@ def test_twice_the_depth_by_flux_and_by_diffusion(
     assert low < times[1] / times[0] < high
 
 
-def test_twice_the_depth_takes_two_to_four_times_as_long(
-    squeezed: dict[str, Any],
-) -> None:
+def test_twice_the_depth_takes_two_to_four_times_as_long(squeezed: dict[str, Any]) -> None:
     ratios = []
     for current in (0.5, 1.5, 4.0, 12.0):
         times = [far_face_time(squeezed, block_depth=depth, current=current) for depth in (3e-3, 6e-3)]
@@ -125,9 +123,7 @@ def test_heat_of_the_rotor_is_all_in_vanes_plate_and_core(squeezed: dict[str, An
     assert vanes + around + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * parts, rel=1e-9)
 
 
-def test_floor_below_pads_gives_by_mean_and_cosine(
-    squeezed: dict[str, Any],
-) -> None:
+def test_floor_below_pads_gives_by_mean_and_cosine(squeezed: dict[str, Any]) -> None:
     found = TABLE.evaluate(squeezed, ["stack", "wall_depth"])
     deep, wall, pad, wide = squeezed["floor_thickness"], found["wall_depth"], squeezed["peltier_thickness"], 12 * 14e-3
     links = {(link.first, link.second): link.conductance for link in found["stack"].links}

@@ -69,14 +69,11 @@ def feet(p: dict[str, Any]) -> list[Disc]:
     return around(p["mount_boss_radius"], p["placement_radius"], count, np.pi / count)
 
 
-def test_springs_keep_away_from_rotor_and_from_each_other(p: dict[str, Any]) -> None:
+def test_springs_pins_and_feet_stand_where_they_are_drawn(p: dict[str, Any]) -> None:
     clear, plate = p["radial_clearance"], [Disc(0j, p["pcl_outer_radius"] + p["rotor_rim"])]
     rotor, neighbour = of(p, "rotor_spring_gap", "spring_spring_gap")
     assert rotor == pytest.approx(apart(springs(p), plate) - clear, abs=1e-12)
     assert neighbour == pytest.approx(apart(springs(p)) - clear, abs=1e-12)
-
-
-def test_pins_stand_on_the_rotor_and_legs_pass_above_it(p: dict[str, Any]) -> None:
     pins = around(0.5 * p["pin_diameter"], p["pin_radius_ratio"] * p["placement_radius"], int(2 * p["spring_pairs"]))
     rim, leg, reach = of(p, "pin_rim_gap", "leg_rotor_gap", "leg_reach_gap")
     assert rim == pytest.approx(within(pins, p["pcl_outer_radius"] + p["rotor_rim"]) - p["radial_clearance"], abs=1e-12)
@@ -89,9 +86,6 @@ def test_pins_stand_on_the_rotor_and_legs_pass_above_it(p: dict[str, Any]) -> No
     # Seen along the leg's line, the coil's axis is beside it by half a coil, half a wire and half a pin.
     beside = 0.5 * (p["coil_diameter"] + wire + p["pin_diameter"])
     assert reach == pytest.approx(abs(pins[0].centre - p["placement_radius"]) - beside, abs=1e-12)
-
-
-def test_feet_stand_between_pads_and_skirt(p: dict[str, Any]) -> None:
     wall, pad = of(p, "mount_wall_gap", "mount_pad_gap")
     skirt = max(abs(one.centre) + one.radius for one in springs(p)) + p["radial_clearance"]
     assert wall == pytest.approx(within(feet(p), skirt) - p["minimum_running_clearance"], abs=1e-12)
@@ -181,7 +175,7 @@ def test_thresholds_stand_apart_by_the_logarithm_of_their_ratio(
     assert np.exp([apart_by, soft_reach, stiff_reach]) == pytest.approx([high / low, low / 8.0, 90.0 / high])
 
 
-def test_it_stays_below_the_legs_and_on_the_plate() -> None:
+def test_a_fillet_stays_below_legs_rim_and_the_other_fillet() -> None:
     rows = ["foot_fillet", "coil_end_level", "rotor_top_level", "rotor_radius", "pin_radius"]
     asked = values_of(rows, largest_foot_fillet=9.0 * MM)
     wire, pin, play = 2.413 * MM, 4.0 * MM, 0.4 * MM
@@ -189,6 +183,11 @@ def test_it_stays_below_the_legs_and_on_the_plate() -> None:
              asked["rotor_radius"] - asked["pin_radius"] - 0.5 * pin - 0.1 * MM]  # fmt: skip
     assert 0.0 < asked["foot_fillet"] <= min(rooms) + 1e-12
     assert values_of(rows, largest_foot_fillet=0.3 * MM)["foot_fillet"] == pytest.approx(0.3 * MM)
+    # At the rim two circles that touch left a mesh that does not close; `paper_shear` has its pins that near.
+    rows = ["foot_fillet", "rotor_radius", "pin_radius"]
+    near = values_of(rows, largest_foot_fillet=9.0 * MM, rotor_rim=1.0 * MM)
+    rim = near["rotor_radius"] - near["pin_radius"] - 2.0 * MM
+    assert near["foot_fillet"] <= max(rim - 0.1 * MM, 0.1 * MM) + 1e-12
 
 
 @pytest.mark.parametrize("mode", ["shear", "compression"])
@@ -201,24 +200,13 @@ def test_the_strength_of_core_and_pins_counts_it(mode: str) -> None:
     assert 1.01 < rise < 1.0 / 0.86  # 0.83 to 0.90 by validation/fe_structure/fillets.csv
 
 
-def test_a_fillet_never_touches_the_rim_or_the_other_fillet() -> None:
-    """At the rim two circles that touch left a mesh that does not close; `paper_shear` has its pins that near."""
-    rows = ["foot_fillet", "rotor_radius", "pin_radius"]
-    near = values_of(rows, largest_foot_fillet=9.0 * MM, rotor_rim=1.0 * MM)
-    rim = near["rotor_radius"] - near["pin_radius"] - 2.0 * MM
-    assert near["foot_fillet"] <= max(rim - 0.1 * MM, 0.1 * MM) + 1e-12
-
-
 @drawn(strategies.floats(-5e-3, 5e-3), strategies.floats(-5e-3, 5e-3))
-def test_the_evened_least_is_the_least_away_from_ties(one: float, other: float) -> None:
+def test_the_evened_least_is_smooth_and_least_away_from_ties(one: float, other: float) -> None:
     found, least = evened_least(one, other), min(one, other)
     assert least - EVENED / 6.0 - 1e-12 <= found <= least
     assert found == evened_least(other, one)
     if abs(one - other) >= EVENED:
         assert found == least
-
-
-def test_slope_and_curvature_of_the_evened_least_have_no_jump() -> None:
     step = 1e-3 * EVENED
     at = np.arange(-1.5 * EVENED, 1.5 * EVENED, step)
     slope = np.diff(evened_least(at, 0.0)) / step

@@ -39,15 +39,12 @@ def test_heat_goes_to_the_ledges_as_along_a_fin(ledges: float) -> None:
     assert found == pytest.approx((1.0 - ledges) ** 2 / 3.0 / along, rel=0.02)
 
 
-def test_a_sink_over_the_rest_is_the_same_way_from_the_other_end() -> None:
+def test_sinks_and_poor_legs_leave_a_fin_s_way() -> None:
     side = slab(up=1.5)
     to_ledges = floor_heat.cold_to_ledges(with_cold_area(side, 0.7 * AREA))
     assert floor_heat.cold_to_sink(with_cold_area(side, 0.3 * AREA)) == pytest.approx(to_ledges)
     assert floor_heat.cold_to_sink(with_cold_area(side, AREA)) == pytest.approx(0.0, abs=1e-12)
-
-
-def test_legs_that_conduct_up_poorly_leave_the_way_to_the_side() -> None:
-    """With next to nothing up, heat stays in the side: a fin of its thickness alone."""
+    # With next to nothing up, heat stays in the side: a fin of its thickness alone.
     found = floor_heat.cold_to_ledges(with_cold_area(slab(up=1e-6), 0.6 * AREA))
     along = CONDUCTIVITY * SIDE_SHARE * THICKNESS * EDGES / (AREA / EDGES)
     assert found == pytest.approx(0.6**2 / 3.0 / along, rel=0.02)

@@ -65,17 +65,21 @@ def beyond(name: str) -> list[dict[str, str]]:
     return [row for row in rows(name) if abs(float(row["difference [%]"])) > 100.0 * THREE_PERCENT]
 
 
-def test_rigid_modules_and_their_spreader_are_drawn_as_large_as_they_are() -> None:
-    model = model_of(STUDIES / "elbow_printed.yaml")
+@pytest.mark.parametrize(
+    ("study", "length", "within"),
+    # The arcs' corners, rounded as the spreaders are, take less than a hundredth of their volume.
+    [("elbow_printed", "edge_length", 0.01), ("rigid_modules_compression", "ring_width", 1e-9)],
+)
+def test_rigid_modules_are_drawn_as_large_as_they_are(study: str, length: str, within: float) -> None:
+    model = model_of(STUDIES / f"{study}.yaml")
     found, known = plane_of(model), inputs_of(model)
-    sizes = model.table.evaluate(known, ["pcl_area", "edge_length", "spreader_volume", "heater_count"])
+    sizes = model.table.evaluate(known, ["pcl_area", length, "spreader_volume", "heater_count"])
     drawn = {name: np.sum(found.volume[found.cells(name)]) for name in found.materials}
     tiles = sizes["heater_count"] * known["peltier_length"] * known["peltier_width"] * known["peltier_thickness"]
-    assert drawn["hot"] + drawn["legs"] + drawn["cold"] == pytest.approx(tiles / sizes["edge_length"], rel=1e-9)
+    assert drawn["hot"] + drawn["legs"] + drawn["cold"] == pytest.approx(tiles / sizes[length], rel=1e-9)
     around = sizes["pcl_area"] * known["peltier_thickness"] - tiles
-    assert drawn["beside tiles"] == pytest.approx(around / sizes["edge_length"], rel=1e-9)
-    # The arcs' corners, rounded as the spreaders are, take less than a hundredth of their volume.
-    assert drawn["spreader"] == pytest.approx(sizes["spreader_volume"] / sizes["edge_length"], rel=0.01)
+    assert drawn["beside tiles"] == pytest.approx(around / sizes[length], rel=1e-9)
+    assert drawn["spreader"] == pytest.approx(sizes["spreader_volume"] / sizes[length], rel=within)
 
 
 @pytest.mark.slow
@@ -95,15 +99,3 @@ def test_pads_between_vanes_are_drawn_as_high_as_their_blocks(block_height: floa
     found = plane_of(model_of(STUDIES / "wrist_compression.yaml", block_height=block_height))
     assert np.min(found.volume) > 0.0
     assert "beside tiles" not in found.material
-
-
-def test_rigid_modules_between_vanes_are_drawn_as_large_as_they_are() -> None:
-    model = model_of(STUDIES / "rigid_modules_compression.yaml")
-    found, known = plane_of(model), inputs_of(model)
-    sizes = model.table.evaluate(known, ["pcl_area", "ring_width", "spreader_volume", "heater_count"])
-    drawn = {name: np.sum(found.volume[found.cells(name)]) for name in found.materials}
-    tiles = sizes["heater_count"] * known["peltier_length"] * known["peltier_width"] * known["peltier_thickness"]
-    assert drawn["hot"] + drawn["legs"] + drawn["cold"] == pytest.approx(tiles / sizes["ring_width"], rel=1e-9)
-    around = sizes["pcl_area"] * known["peltier_thickness"] - tiles
-    assert drawn["beside tiles"] == pytest.approx(around / sizes["ring_width"], rel=1e-9)
-    assert drawn["spreader"] == pytest.approx(sizes["spreader_volume"] / sizes["ring_width"], rel=1e-9)

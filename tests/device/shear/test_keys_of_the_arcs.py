@@ -4,27 +4,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from device_values import inputs_of, values_of
 
 from tvimdesign.catalog import Catalog
 from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("shear")
 RULES = ("key_margin", "key_depth_margin", "key_width_margin", "key_pitch_margin")
 
 
-def inputs_of(**module: Any) -> dict[str, Any]:
-    """Inputs of the default shear module but for what is said (SI)."""
-    return {**given(read_study_text("mode: shear\n", "a test")), **module}
-
-
-def values_of(rows: str, **module: Any) -> dict[str, float]:
-    found: dict[str, float] = TABLE.evaluate(inputs_of(**module), rows.split())
-    return found
-
-
-def test_keys_hold_their_section_times_the_shear_yield_of_frozen_pcl() -> None:
+def test_keys_hold_by_their_section_with_a_safety() -> None:
     values = values_of("key_holding_torque key_depth", key_count=3, key_diameter=2.5 * MM)
     yielding = Catalog().record("polymers", "pcl_80k").value("tensile_yield")
     # Twelve of 2.5 mm on a radius of 33 mm.
@@ -34,9 +24,6 @@ def test_keys_hold_their_section_times_the_shear_yield_of_frozen_pcl() -> None:
     shallow = values_of("key_holding_torque", rotor_thickness=2.0 * MM, key_diameter=2.5 * MM)
     # 0.8 mm deep they press into their pockets before they shear off.
     assert shallow["key_holding_torque"] == pytest.approx(12 * yielding * 2.5e-3 * 0.8e-3 * 33e-3, rel=1e-9)
-
-
-def test_safety_of_keys_over_the_layers_part_of_the_load() -> None:
     rows = ["key_safety", "layer_torque@cold", "bond_traction@cold", "hold_torque", "layer_polar_moment",
             "key_holding_torque"]  # fmt: skip
     values = TABLE.evaluate(inputs_of(), rows)

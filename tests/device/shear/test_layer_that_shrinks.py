@@ -19,16 +19,13 @@ def advised(row: str, value: float) -> bool:
     return value >= rule.value if rule.sense == ">=" else value <= rule.value
 
 
-def test_the_layer_loses_about_seven_per_cent_of_its_volume() -> None:
+def test_layers_shrink_and_leave_play_where_nothing_holds_the_rotor() -> None:
     found = values_of("freezing_shrinkage freezing_volume freezing_travel", key_count=0)
     # 1040 to 1100 of 1145 kg/m3: 4 to 9 %.
     assert 0.04 < found["freezing_shrinkage"] < 0.092
     assert found["freezing_shrinkage"] == pytest.approx(1.0 - 1070.0 / 1145.0)
     assert found["freezing_volume"] == pytest.approx(1579.2e-9 * (1145.0 / 1070.0 - 1.0), rel=1e-4)
     assert found["freezing_travel"] == pytest.approx(70.1e-6, rel=1e-3)
-
-
-def test_nothing_holds_the_rotor_of_a_plain_bore_on_a_thin_layer() -> None:
     bare = values_of("axial_play layer_play", pcl_thickness="0.6 mm")
     assert bare["axial_play"] == pytest.approx(0.4e-3)  # the running clearance of a print, below the hub
     assert bare["layer_play"] == pytest.approx(0.4 / 0.6)
@@ -104,15 +101,12 @@ def test_play_in_the_bore_lets_the_layer_freeze_as_a_wedge() -> None:
     assert borne["layer_wedge"] == pytest.approx(40.0 * 2.0 * (2 * 0.0015 + 0.5 * 0.018) / spread / 0.6, rel=0.01)
 
 
-def test_the_ends_of_an_arc_creep_along_its_track() -> None:
+def test_melt_creeps_by_its_viscosity_along_arcs_and_out_of_edges() -> None:
     found = values_of("melt_creep pcl_viscosity@hot", melt_lip="rings")
     # As between flat faces, by hand: h^2 rho g/(12 eta), 1.07 mm high, an hour.
     speed = 1.0701e-3**2 * 1070.0 * G / (12.0 * found["pcl_viscosity@hot"])
     assert found["melt_creep"] == pytest.approx(3600.0 * speed, rel=1e-3)
     assert found["melt_creep"] < 3e-3  # the narrowest web between two pads
-
-
-def test_a_hot_hour_moves_melt_out_of_open_edges_and_not_past_lips() -> None:
     rows = "melt_loss melt_head melt_hold pcl_viscosity@hot"
     bare = values_of(rows)
     # 14 mm of melt stand on the lower edge, nothing holds it: the layer slides at h^2 rho g/(12 eta).

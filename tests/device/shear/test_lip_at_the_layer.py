@@ -91,16 +91,13 @@ def test_a_plastic_lip_takes_what_the_plane_says(study: str, warm: tuple[float, 
     assert taken / one["edge_length"] == pytest.approx(given_heat, rel=0.12)
 
 
-def test_a_lip_gives_as_much_as_it_takes() -> None:
+def test_a_lip_gives_what_it_takes_and_less_from_the_melt() -> None:
     one = found("lip", structure_conductivity=0.2)
     at = {("hot", 0): 90.0, ("face", 0): 60.0, ("plate", 0): 55.0, ("around", 7): 50.0, ("around", 1): 40.0,
           ("around", 2): 30.0, ("beside", 0): 45.0, ("beside", 1): 35.0, ("beside", 2): 25.0}  # fmt: skip
     cells = np.linspace(85.0, 62.0, CELLS)
     lip = warm_lip(one["lip"], cells, at.__getitem__, lambda _: (np.linspace(0.9, 1.1, CELLS), 0.9))
     assert np.sum(lip.from_layer) + sum(lip.from_places.values()) == pytest.approx(0.0, abs=1e-9)
-
-
-def test_a_molten_layer_gives_less_to_a_cold_lip_than_a_frozen_one() -> None:
     one = found("lip")["lip"]
     molten, frozen = (
         warm_lip(one, np.full(CELLS, 0.5), at_the_edge(1.0), lambda _, k=k: (np.full(CELLS, k), k)) for k in (0.9, 1.1)
@@ -108,7 +105,7 @@ def test_a_molten_layer_gives_less_to_a_cold_lip_than_a_frozen_one() -> None:
     assert np.sum(molten.from_layer) / np.sum(frozen.from_layer) == pytest.approx(0.9 / 1.1, rel=0.01)
 
 
-def test_the_plate_conducts_better_where_lips_stand() -> None:
+def test_lips_stand_over_the_floor_and_stiffen_the_plate_s_heat() -> None:
     names = ("rotor_beside", "melt_lip_moments", "beside_area")
     lips, bare = (found(*names, melt_lip=kind) for kind in ("rings", "none"))
     more = sum(a.capacity - b.capacity for a, b in zip(lips["rotor_beside"], bare["rotor_beside"], strict=True))
@@ -117,9 +114,6 @@ def test_the_plate_conducts_better_where_lips_stand() -> None:
     deeper = (lips["rotor_thickness"] + 1.4 * MM) / lips["rotor_thickness"]
     second = [one["rotor_beside"][1].conductance for one in (lips, bare)]
     assert 1.0 < second[0] / second[1] < deeper
-
-
-def test_the_lips_stand_over_the_floor_for_their_width_and_no_more() -> None:
     one = found("below_lips", "beside_area", "edge_length")
     # Air and, as between 335 and 295 K, radiation of grey faces of 0.9.
     shine = 5.670374419e-8 / (2.0 / 0.9 - 1.0) * (335.0**2 + 295.0**2) * (335.0 + 295.0)
@@ -127,9 +121,6 @@ def test_the_lips_stand_over_the_floor_for_their_width_and_no_more() -> None:
     assert 0.9 * one["rotor_rim"] < sum(one["below_lips"]) / more < 1.005 * one["rotor_rim"]
     widths = np.array(STRIP) * one["beside_area"] / one["edge_length"]
     assert np.all(np.array(one["below_lips"]) / more < widths)
-
-
-def test_without_lips_nothing_is_taken() -> None:
     one = found("cold_end", "below_lips", melt_lip="none")
     assert one["cold_end"] is None
     assert sum(one["below_lips"]) == 0.0

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
+from device_values import inputs_of, values_of
 
 from tvimdesign.device import table_for
-from tvimdesign.study import given, read_study_text
 
 MM = 1e-3
 TABLE = table_for("shear")
@@ -16,15 +14,6 @@ TILES = {
     "peltier_module": "ma10_063_05_1", "tiles_per_arc": 2.0, "arc_count": 3.0, "arc_span": 1.7,
     "floor_thickness": 6.5 * MM,
 }  # fmt: skip
-
-
-def inputs_of(**module: Any) -> dict[str, Any]:
-    study = read_study_text("mode: shear\n", "a test").model_copy(update={"module": module})
-    return given(study)
-
-
-def values_of(names: str, **module: Any) -> dict[str, Any]:
-    return TABLE.evaluate(inputs_of(**module), names.split())
 
 
 @pytest.mark.parametrize(("process", "strength"), [("machine_6061", 24e6), ("print_petg", 6e6)])
@@ -38,31 +27,24 @@ def test_a_seat_bears_what_its_adhesive_does_on_metal_or_plastic(process: str, s
     assert values["inner_seat_holding_torque"] > values["outer_seat_holding_torque"]
 
 
-def test_a_thin_spreader_limits_what_the_joint_holds() -> None:
+def test_thin_spreaders_and_pads_limit_what_the_joint_holds() -> None:
     thin = values_of("holding_torque outer_seat_holding_torque", **TILES, spreader_thickness=0.2 * MM)
     assert thin["holding_torque"] == thin["outer_seat_holding_torque"]
     assert TABLE.output("holding_torque").least_of.count("outer_seat_holding_torque") == 1
-
-
-def test_a_pad_whose_record_says_nothing_of_shear_holds_no_torque() -> None:
     record = inputs_of()["heater_shear_limit"]
     values = values_of("heater_holding_torque layer_holding_torque pcl_bond_strength")
     assert values["heater_holding_torque"] == pytest.approx(values["layer_holding_torque"] * record / 2e6)
     assert values_of("holding_torque", heater_shear_limit=0.0)["holding_torque"] == 0.0
 
 
-def test_adhesive_around_a_spreader_leaks_heat_by_its_length() -> None:
+def test_a_spreader_leaks_heat_and_bends_as_a_strip() -> None:
     # k/g t L of the rims, slots of air at the ends, in series with the way along the spreader.
     known = inputs_of(**TILES)
     values = TABLE.evaluate(known, ["pad_edge", "heater_along"])
     rims, ends = 3 * 1.7 * (26 + 40) * MM, 6 * 14 * MM
     contact = (0.2 / (0.5 * MM) * rims + known["pad_edge_contact"] * ends) * 1 * MM
     assert values["pad_edge"] == pytest.approx(1.0 / (1.0 / contact + 1.0 / values["heater_along"]), rel=1e-6)
-
-
-def test_a_spreader_bends_between_its_seats_as_a_strip() -> None:
     # Roark, table 8.1: simply supported, evenly loaded, mean deflection q w^4/(120 D).
-    known = inputs_of(**TILES)
     rigidity = 71.7e9 * MM**3 / 12 / (1 - (71.7 / 2 / 26.9 - 1) ** 2)
     x = np.linspace(0.0, 1.0, 2001)
     mean = float(np.trapezoid((x - 2 * x**3 + x**4) / 24.0, x)) * (14 * MM) ** 4 / rigidity

@@ -34,12 +34,9 @@ def test_the_floor_lacks_the_half_beside_the_pad_and_all_of_it_below() -> None:
     assert without["housing_inertia"] - has["housing_inertia"] == pytest.approx(taken, rel=1e-3)
 
 
-def test_without_one_nothing_is_asked_however_narrow_the_floor() -> None:
+def test_webs_and_tiles_beside_a_thermistor() -> None:
     tight = inputs_of(window_ledge=0.5 * MM, arc_span=1.57, minimum_wall=3.0 * MM)
     assert all(TABLE.evaluate(tight, GAPS)[name] >= 0.0 for name in GAPS)
-
-
-def test_the_web_to_the_window_is_what_is_left_of_the_ledge() -> None:
     known = inputs_of(thermistor_diameter=1.0 * MM, window_ledge=2.2 * MM)
     seat = TABLE.evaluate(known, ["thermistor_seat_radius", "thermistor_seat_diameter", *GAPS])
     pad = 0.5 * known["arc_span"]
@@ -51,6 +48,12 @@ def test_the_web_to_the_window_is_what_is_left_of_the_ledge() -> None:
     next_end = 2.0 * pi / known["arc_count"] - end
     web = abs(middle @ np.array([-sin(next_end), cos(next_end)])) - 0.5 * seat["thermistor_seat_diameter"]
     assert seat["thermistor_arc_gap"] == pytest.approx(web - known["minimum_wall"] - 0.15 * MM, rel=1e-9)
+    known = inputs_of(
+        peltier_module="ma10_063_05_1", arc_count=3.0, thermistor_diameter=1.8 * MM, floor_thickness=6.5 * MM
+    )
+    found = TABLE.evaluate(known, ["thermistor_count", "thermistor_seat_diameter", "thermistor_volume"])
+    assert (found["thermistor_count"], found["thermistor_seat_diameter"]) == (3.0, 0.0)
+    assert found["thermistor_volume"] == pytest.approx(3.0 * 0.25 * pi * 1.8**2 * 4.0 * 1e-9)
 
 
 @pytest.mark.parametrize(
@@ -62,12 +65,3 @@ def test_the_web_to_the_window_is_what_is_left_of_the_ledge() -> None:
 )
 def test_a_bead_too_large_for_the_floor_breaks_a_rule(gap: str, module: dict[str, float]) -> None:
     assert TABLE.evaluate(inputs_of(**module), [gap])[gap] < 0.0
-
-
-def test_tiles_have_one_below_each_spreader_and_no_seat() -> None:
-    known = inputs_of(
-        peltier_module="ma10_063_05_1", arc_count=3.0, thermistor_diameter=1.8 * MM, floor_thickness=6.5 * MM
-    )
-    found = TABLE.evaluate(known, ["thermistor_count", "thermistor_seat_diameter", "thermistor_volume"])
-    assert (found["thermistor_count"], found["thermistor_seat_diameter"]) == (3.0, 0.0)
-    assert found["thermistor_volume"] == pytest.approx(3.0 * 0.25 * pi * 1.8**2 * 4.0 * 1e-9)

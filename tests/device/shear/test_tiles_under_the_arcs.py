@@ -116,13 +116,6 @@ def test_as_wired_they_are_six_modules_that_share_current_and_voltage(wiring: st
     assert peltier.voltage(values["pads"], current, hot, cold) == pytest.approx(in_series)
 
 
-def test_a_module_takes_its_part_of_the_current() -> None:
-    known = {**inputs_of(heater_wiring="arcs_parallel"), "peak_current": 9.0, "stiffening_peak_current": 6.0}
-    values = TABLE.evaluate(known, ["current_margin", "cooling_current_margin"])
-    assert values["current_margin"] == pytest.approx(8.6 - 3.0)
-    assert values["cooling_current_margin"] == pytest.approx(8.6 - 2.0)
-
-
 def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
     stack: heat.Stack = values_of("stack")["stack"]
     values = values_of("pcl_area spreader_mass peltier_mass spreader_resistance")
@@ -134,13 +127,6 @@ def test_the_stack_has_the_spreader_between_modules_and_layer() -> None:
     assert values["spreader_resistance"] < 0.1 * expected
 
 
-def test_no_modulus_of_a_rigid_module_is_on_the_way_of_the_torque() -> None:
-    # They lie in grease: neither stiffness nor strength of the joint depends on how they bear shear or tension.
-    names = "holding_torque structure_stiffness layer_edge_rise freezing_traction"
-    soft, stiff = values_of(names, peltier_shear_modulus=1e5), values_of(names, peltier_shear_modulus=1e10)
-    assert soft == stiff
-
-
 def foil(resistance: float = 5.0) -> Record:
     """A foil heater of the shelf's form: a rigid module's record without Seebeck coefficient."""
     known = Catalog().record("peltiers", "ma10_063_05_1")
@@ -150,26 +136,31 @@ def foil(resistance: float = 5.0) -> Record:
     return Record("peltiers", "foil", "A foil heater", entries, {}, known.words)
 
 
-def test_a_foil_heater_goes_through_the_same_equations() -> None:
+def test_foils_and_shared_currents_go_through_the_same_equations() -> None:
     known = {**inputs_of(), "peltier_module": foil(), "peltier_seebeck": 0.0, "peltier_resistance": 5.0}
     pads = TABLE.evaluate(known, ["pads"])["pads"]
     both = [heat_of(pads, current, 350.0, 350.0) for current in (1.0, -1.0) for heat_of in (peltier.hot_side_heat,)]
     assert both == pytest.approx([15.0, 15.0])  # half of I^2 R to either side, whichever way the current flows
     assert peltier.cold_side_heat(pads, 1.0, 350.0, 350.0) == pytest.approx(-15.0)
+    known = {**inputs_of(heater_wiring="arcs_parallel"), "peak_current": 9.0, "stiffening_peak_current": 6.0}
+    values = TABLE.evaluate(known, ["current_margin", "cooling_current_margin"])
+    assert values["current_margin"] == pytest.approx(8.6 - 3.0)
+    assert values["cooling_current_margin"] == pytest.approx(8.6 - 2.0)
 
 
-def test_a_rigid_module_is_not_cut() -> None:
+def test_modules_are_not_cut_and_sheets_are_as_they_were() -> None:
     with pytest.raises(InputError, match="ma10_063_05_1 is rigid"):
         values_of("module_mass", heater_form="flexible")
-
-
-def test_a_sheet_is_as_it_was() -> None:
     # The cut pad has no spreader, no tiles and no holes, and its numbers are those of the area it has.
     flat = given(read_study_text("mode: shear\n", "a test"))
     values = TABLE.evaluate(
         flat, ["heater_count", "heater_coverage", "spreader_mass", "spreader_depth", "tile_side_margin", "pad_depth"]
     )
     assert list(values.values()) == [4.0, 1.0, 0.0, 0.0, 0.0, flat["peltier_thickness"]]
+    # They lie in grease: neither stiffness nor strength of the joint depends on how they bear shear or tension.
+    names = "holding_torque structure_stiffness layer_edge_rise freezing_traction"
+    soft, stiff = values_of(names, peltier_shear_modulus=1e5), values_of(names, peltier_shear_modulus=1e10)
+    assert soft == stiff
 
 
 def test_spreaders_face_ledges_and_meet_walls_at_edges() -> None:

@@ -11,7 +11,7 @@ TABLES = [table_for(mode) for mode in ("shear", "compression")]
 INPUTS = {row.name: row for table in TABLES for row in table.inputs}
 
 
-def test_an_assumed_default_has_its_range_as_data() -> None:
+def test_defaults_have_ranges_as_data_and_choices_a_reason() -> None:
     def check(item: tuple[str, dict[str, object]]) -> None:
         name, entry = item
         if entry.get("status") == "assumed":
@@ -19,8 +19,6 @@ def test_an_assumed_default_has_its_range_as_data() -> None:
 
     of_every(ENTRIES, check)
 
-
-def test_a_choice_has_a_reason_and_no_range() -> None:
     def check(item: tuple[str, dict[str, object]]) -> None:
         name, entry = item
         if entry.get("status") == "chosen":

@@ -60,16 +60,13 @@ def test_what_hardly_differs_never_happens_or_is_open_has_its_own_verdict() -> N
     assert row(70.0, 140.0, ends={"a": (60.0, 130.0)}).verdict("b") == "worse"
 
 
-def test_the_sentence_has_times_for_much_and_percent_for_little() -> None:
+def test_sentence_and_csv_of_a_comparison() -> None:
     rows = [row(70.0, 140.0), row(0.1, 0.092, unit="g", name="module_mass"), row(1.0, 1.0, unit="mm", name="size")]
     text = against("b", "a", rows, ["response_time", "module_mass", "size"])
     assert text == (
         "b is 2 times slower (response_time 140 s against 70 s) and 8 % lighter (module_mass 92 g against 100 g) than a"
     )
     assert against("b", "a", [row(1.0, 1.0)], ["response_time"]) == "b and a do not differ"
-
-
-def test_the_csv_has_a_column_for_each_study_and_says_never() -> None:
     reported = list(csv.DictReader(io.StringIO(compare_csv({"drawn": [row(70.0, math.inf)]}, {}))))
     assert [(line["a"], line["b"], line["ratio b"], line["verdict b"]) for line in reported] == [
         ("70.0", "never", "", "worse")

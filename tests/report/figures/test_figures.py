@@ -3,7 +3,6 @@
 import io
 import re
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
@@ -15,7 +14,6 @@ from PIL import Image
 from tests.helpers.figures import faults, signed
 from tvimdesign.device import table_for
 from tvimdesign.report.figures.theme import as_file, png
-from tvimdesign.report.output import plot_process
 from tvimdesign.report.run.run_plot_data import drawings, plot_data
 from tvimdesign.solve.result import StudyResult, answer
 from tvimdesign.study import read_study_text
@@ -79,7 +77,7 @@ def test_a_margin_beyond_the_scale_ends_in_an_arrow_and_has_its_number() -> None
     assert "−23.2" in [text.get_text() for text in axes.texts]
 
 
-def test_margins_stand_in_their_limit_s_own_unit(found: StudyResult, data: dict[str, Any]) -> None:
+def test_margins_stand_in_their_unit_and_files_have_their_pixels(found: StudyResult, data: dict[str, Any]) -> None:
     rows = [row | {"unit": group["unit"]} for group in data["bounds"]["margins"] for row in group["rows"]]
     gap = next(row for row in rows if row["name"] == "rotor spring gap ≥ 0 mm")
     assert gap["unit"] == "mm"
@@ -89,9 +87,6 @@ def test_margins_stand_in_their_limit_s_own_unit(found: StudyResult, data: dict[
     left = found.design.value("sorted_share") / 0.2 - 1.0
     assert angle["margin"] == pytest.approx(100.0 * left, rel=1e-6)
     assert float(angle["text"].replace("−", "-")) == pytest.approx(0.2 * left, rel=5e-3)  # in the limit's unit
-
-
-def test_a_file_has_the_pixels_of_its_size_and_no_transparent_ones(data: dict[str, Any]) -> None:
     figure = drawn("design_figures.torque", data["torque"])
     picture = Image.open(io.BytesIO(png(figure)))
     assert picture.size == (2130, 780)  # 7.1 by 2.6 inches of 300 dots
@@ -118,7 +113,7 @@ def test_vector_files_are_what_they_say_and_the_same_each_time(data: dict[str, A
     assert not list(root.iter("{http://www.w3.org/2000/svg}image"))
 
 
-def test_curves_end_where_the_table_says_and_make_the_impedance(found: StudyResult) -> None:
+def test_curves_and_loops_are_those_of_the_table(found: StudyResult, data: dict[str, Any]) -> None:
     for phase, curves in found.histories.items():
         point = "hot" if phase == "softening" else "cold"
         turning = 2.0 * np.pi * found.design.value(f"frequency@{point}")
@@ -128,9 +123,6 @@ def test_curves_end_where_the_table_says_and_make_the_impedance(found: StudyResu
     assert curves["electrical_energy"][0] == 0.0
     assert curves["electrical_energy"][-1] == pytest.approx(found.design.value("switch_energy"), rel=2e-3)
     assert max(curves["electrical_power"]) == pytest.approx(found.design.value("peak_power"), rel=2e-3)
-
-
-def test_loops_have_the_stiffness_and_the_loss_of_their_point(found: StudyResult, data: dict[str, Any]) -> None:
     stroke = found.design.value("stroke")
     for point, loop in zip(found.design.study["operating_points"], data["torque"]["loops"], strict=True):
         angle, torque = np.array(loop["angle"]), np.array(loop["torque"])
@@ -138,11 +130,7 @@ def test_loops_have_the_stiffness_and_the_loss_of_their_point(found: StudyResult
         assert torque[top] == pytest.approx(found.design.value(f"joint_stiffness@{point}") * stroke, rel=1e-6)
         lossy = 2.0 * np.pi * found.design.value(f"frequency@{point}") * found.design.value(f"joint_damping@{point}")
         assert np.trapezoid(torque, angle) == pytest.approx(np.pi * lossy * stroke**2, rel=2e-3)  # of a Kelvin body
-
-
-def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: StudyResult, data: dict[str, Any]) -> None:
     history, depths = data["cycle"]["softening"], data["cycle"]["depths"]
-    curves = found.histories["softening"]
     assert len(depths) == 10  # eight cells between two faces
     assert np.all(np.diff(depths) > 0.0)
     assert history["profiles"][0]["time"] == curves["time"][0]
@@ -152,22 +140,7 @@ def test_profiles_run_from_face_to_face_at_moments_of_the_stage(found: StudyResu
         assert len(profile["temperatures"]) == len(depths)
         assert profile["temperatures"][0] == curves["near_face"][at]
         assert profile["temperatures"][-1] == curves["far_face"][at]
-
-
-def test_bars_are_the_parts_the_module_has_and_add_up_to_its_mass(found: StudyResult, data: dict[str, Any]) -> None:
     (axes,) = drawn("design_figures.mass", data["mass"]).axes
     bars = [bar.get_width() for bar in axes.patches]
     assert min(bars) > 0.0
     assert sum(bars) == pytest.approx(1e3 * found.design.value("module_mass"), rel=1e-9)
-
-
-def test_all_figures_can_be_looked_at_before_any_is_written_for_print(
-    found: StudyResult, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    written: list[str] = []
-    monkeypatch.setattr(plot_process, "atomic_write", lambda path, _data: written.append(path.name))
-    asked = [one for one in drawings(found, table_for(found.design.mode)) if one.file in {"mass", "torque"}]
-    plot_process._draw(asked, {"folder": str(tmp_path), "study": "a test", "endings": ["png", "svg"]})
-    names = [one.file for one in asked]
-    assert len(names) == 2
-    assert written == [f"{name}.{ending}" for ending in ("png", "svg") for name in names]

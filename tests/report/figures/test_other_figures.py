@@ -70,7 +70,7 @@ def test_an_editor_finds_no_fault_with_a_front(outputs: int) -> None:
     assert faults(signed(design_figures.front(data))) == []
 
 
-def test_an_editor_finds_no_fault_with_a_comparison() -> None:
+def test_an_editor_finds_no_fault_with_other_figures() -> None:
     def line(label: str, by: float) -> dict[str, Any]:
         return {"label": label, "x": [60.0 * by, 70.0 * by], "y": [80.0, 60.0], "optimum": [[65.0 * by], [65.0]]}
 
@@ -80,9 +80,6 @@ def test_an_editor_finds_no_fault_with_a_comparison() -> None:
             "temperature": [[20.0, 60.0, 90.0], [20.0, 50.0, 80.0], [20.0, 40.0, 70.0]]}  # fmt: skip
     data = {"title": "Heat", "studies": [heat, heat], "coldest": 20.0, "hottest": 90.0, "melting": [50.0, 65.0]}
     assert faults(signed(comparison_figures.heat(data))) == []
-
-
-def test_an_editor_finds_no_fault_with_a_spread() -> None:
     names = ["envelope volume", "spring stiffness", "joint damping, hot"]
     parts = [{"name": f"a contributor {i}", "shares": [14.0] * 3} for i in range(7)]
     panel = {"title": "50 % of modules within limits", "label": "Spring stiffness (N·m/rad)", "counts": [1, 5, 20, 5],
@@ -90,9 +87,6 @@ def test_an_editor_finds_no_fault_with_a_spread() -> None:
     for count in (1, 3, 4, 6):
         data = {"outputs": names, "parts": parts, "panels": [panel] * count}
         assert faults(signed(analysis_figures.spread(data))) == []
-
-
-def test_an_editor_finds_no_fault_with_the_paper_s_case() -> None:
     places = ("near_face_time", "mean_time", "far_face_time", "softening_time")
     panel = {"label": "Contact conductance of layer and rotor plate (W/m²/K)", "logarithmic": True,
              "x": [100.0, 1e3, 1e4], "lines": {place: [0.5, None, 1.0] for place in places},

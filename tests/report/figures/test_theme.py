@@ -60,7 +60,7 @@ def test_ticks_are_plain_and_names_are_words_with_units() -> None:
     assert axis_label("impedance_range", "1") == "Impedance range (–)"
 
 
-def test_few_swings_are_a_line_and_a_ripple_is_no_swing() -> None:
+def test_swings_are_lines_or_the_band_that_holds_them() -> None:
     x = np.linspace(0.0, 1.0, 500)
     parts = drawn(x, np.cos(8.0 * np.pi * x))
     assert len(parts.lines) == 1
@@ -71,10 +71,6 @@ def test_few_swings_are_a_line_and_a_ripple_is_no_swing() -> None:
     assert len(parts.band_x) > 300
     assert parts.high.min() > 0.99
     assert len(parts.lines[0][0]) == pytest.approx(6.5 / 200.0 * len(x), rel=0.02)  # six swings and a half
-
-
-def test_many_swings_are_a_line_then_the_band_that_holds_them_then_a_line() -> None:
-    x = np.linspace(0.0, 20.0, 40001)
     decay = np.exp(-x)
     y = decay * np.cos(2.0 * np.pi * 10.0 * x)
     parts = drawn(x, y)

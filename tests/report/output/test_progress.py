@@ -18,7 +18,7 @@ from tvimdesign.report.output import terminal
 from tvimdesign.report.output.terminal import OwnMarkupConsole, RemainingTime, clock, duration
 
 
-def test_what_is_left_is_the_mean_of_the_steps_that_are_done() -> None:
+def test_time_left_is_the_mean_of_the_steps_of_a_series() -> None:
     left = RemainingTime()
     left.heard("start 1 of 4", 10.0)
     assert left.left(12.0) is None
@@ -30,9 +30,6 @@ def test_what_is_left_is_the_mean_of_the_steps_that_are_done() -> None:
     assert left.left(30.0) == pytest.approx(20.0 / 3.0)
     left.heard("drawing the plots", 36.0)
     assert left.left(36.0) is None
-
-
-def test_another_series_begins_anew_and_times_are_told_as_people_do() -> None:
     left = RemainingTime()
     left.heard("start 1 of 2", 0.0)
     left.heard("start 2 of 2", 5.0)
@@ -116,14 +113,11 @@ def shown(what: object) -> str:
 
 
 @pytest.mark.parametrize("text", TEXTS)
-def test_what_a_user_wrote_is_shown_as_it_stands(text: str) -> None:
+def test_a_user_s_text_is_shown_as_it_stands(text: str) -> None:
     assert text in shown(f"Results are in [bold]{escape(text)}[/bold]")
     assert text in shown(f"Results are in {text}")
     table = Table()
     table.add_column(text)
     table.add_row(text, text)
     assert shown(table).count(text) == 3
-
-
-def test_our_own_markup_is_obeyed() -> None:
     assert shown("[bold]a[/bold] [dim]b[/dim] [red]c[/]") == "a b c\n"

@@ -19,26 +19,19 @@ from tvimdesign.report.output.manifest import MANIFEST, read_manifest
 from tvimdesign.report.output.results_folder import ResultsFolder
 
 
-def test_a_manifest_lists_what_the_run_wrote_and_nothing_else(tmp_path: Path) -> None:
+def test_a_manifest_lists_what_the_run_wrote_and_nothing_else_is_kept(tmp_path: Path) -> None:
     with ResultsFolder(tmp_path) as folder:
         folder.write("results.csv", "mine")
         (tmp_path / "notes.txt").write_text("yours")
         (folder.path / "thesis.tex").write_text("yours, too")
         folder.finish("optimal", {}, {})
     assert list(read_manifest(tmp_path).files) == ["results.csv"]
-    assert texts(tmp_path) == {
-        "results.csv": "mine",
-        "notes.txt": "yours",
-        f"{UNFINISHED}-1/thesis.tex": "yours, too",
-    }
-
-
-def test_what_a_run_writes_for_itself_alone_is_no_result_and_goes(tmp_path: Path) -> None:
-    with ResultsFolder(tmp_path) as folder:
+    assert texts(tmp_path) == {"results.csv": "mine", "notes.txt": "yours", f"{UNFINISHED}-1/thesis.tex": "yours, too"}
+    with ResultsFolder(tmp_path / "alone") as folder:
         folder.write("results.csv", "mine")
         folder.write(".cells-killed/cad/rotor.step", "half made")
         folder.finish("optimal", {}, {})
-    assert texts(tmp_path) == {"results.csv": "mine"}
+    assert texts(tmp_path / "alone") == {"results.csv": "mine"}
 
 
 def test_overwriting_twice_keeps_what_the_user_put_there(tmp_path: Path) -> None:
@@ -136,15 +129,11 @@ def test_after_sigkill_what_the_user_added_is_the_user_s(
     assert texts(out) == {**moved, "results.csv": "new"}
 
 
-def test_a_killed_run_is_not_overwritten_unasked(tmp_path: Path) -> None:
-    killed(tmp_path / "out")
-    with pytest.raises(InputError, match="holds what an unfinished run has written"):
-        ResultsFolder(tmp_path / "out")
-    assert texts(tmp_path / "out")["unfinished/results.csv"] == "of the killed run"
-
-
-def test_an_edited_file_of_a_killed_run_is_kept_beside(tmp_path: Path) -> None:
+def test_edited_files_of_a_killed_run_are_kept(tmp_path: Path) -> None:
     killed(tmp_path)
+    with pytest.raises(InputError, match="holds what an unfinished run has written"):
+        ResultsFolder(tmp_path)
+    assert texts(tmp_path)["unfinished/results.csv"] == "of the killed run"
     (tmp_path / "unfinished/results.csv").write_text("edited")
     finished(tmp_path, {"results.csv": "new"}, overwrite=True)
     assert texts(tmp_path) == {"results.csv": "new", "unfinished-1/results.csv": "edited"}

@@ -106,7 +106,7 @@ def test_numbers_stand_in_their_unit_and_in_si_and_soft_has_its_meaning(
     assert reported["values"]["mean_time"]["note"] == ""
 
 
-def test_a_record_s_values_show_the_record_s_own_status_range_and_source(rows: dict[str, dict[str, str]]) -> None:
+def test_values_have_status_range_and_source(rows: dict[str, dict[str, str]]) -> None:
     # What `based_on` takes from pcl_80k has that record's own words.
     written = {**_record("pcl_80k"), **_record("pcl_50k")}
     for name, field in {"pcl_conductivity_melt": "conductivity_melt", "pcl_melting_start": "melting_start"}.items():
@@ -116,9 +116,6 @@ def test_a_record_s_values_show_the_record_s_own_status_range_and_source(rows: d
         assert float(row["high"]) == pytest.approx(entry["high"])
         assert float(row["value"]) == pytest.approx(entry["value"])
         assert row["source"] == f"polymers/pcl_50k: {entry['source']}"
-
-
-def test_every_value_has_status_and_source_and_says_whose_it_is(rows: dict[str, dict[str, str]]) -> None:
     assert (rows["pcl_latent_heat"]["status"], rows["pcl_latent_heat"]["source"]) == ("study", "set by the study")
     assert rows["current"]["status"] == "optimized"
     assert rows["temperature@hot"]["status"] == "study"

@@ -26,7 +26,7 @@ def _rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-def test_the_lines_stand_in_a_table_with_their_units(folder: Path) -> None:
+def test_the_table_the_grid_and_the_figure_are_written(folder: Path) -> None:
     rows = _rows(folder / "level_sets.csv")
     assert [(row["parameter"], row["value"]) for row in rows] == [
         ("hot_contact", "100"), ("hot_contact", "10000"), ("current", "1.5"), ("current", "2"), ("current", "2.5"),
@@ -37,9 +37,6 @@ def test_the_lines_stand_in_a_table_with_their_units(folder: Path) -> None:
     far = "pcl_thickness for far_face_time [mm]"
     assert rows[2][far] == ""
     assert 0.2 < float(rows[3][far]) < float(rows[4][far]) < 2.0
-
-
-def test_the_grid_of_times_and_the_figure_are_there(folder: Path) -> None:
     times = _rows(folder / "response_times.csv")
     assert len(times) == (2 + 3) * 3
     assert all(float(row["far_face_time [s]"]) > float(row["near_face_time [s]"]) for row in times)
@@ -48,8 +45,5 @@ def test_the_grid_of_times_and_the_figure_are_there(folder: Path) -> None:
         *(f"{name}.{ending}" for name in ("level_sets", "paper_case") for ending in ("csv", "png", "pdf", "svg")),
         "paper_case_choices.csv", "response_times.csv",
     }  # fmt: skip
-
-
-def test_results_that_are_there_are_not_replaced_unasked(folder: Path) -> None:
     with pytest.raises(InputError, match="--overwrite"):
         print_level_sets(folder, overwrite=False, as_json=True)

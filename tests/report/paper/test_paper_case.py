@@ -8,7 +8,6 @@ import pytest
 from support import ROOT
 
 from tvimdesign.report.paper import paper_case
-from tvimdesign.report.paper.paper_case import claims
 from tvimdesign.simulation.working_cycle.cycle import Simulator
 from tvimdesign.solve.nlp.constraints import constraints_of
 from tvimdesign.study import Study, given, read_study, read_study_text
@@ -102,19 +101,6 @@ def test_what_has_no_range_hardly_moves_the_ratio() -> None:
     for name in assumed - set(paper_case.ranges()) - OF_ONE_MODE - by_area:
         shear, compression = pair.output_sensitivities(event, name)
         assert abs(compression - shear) < 0.05, name
-
-
-@pytest.mark.slow
-def test_the_ledger_says_that_it_validates_nothing() -> None:
-    (row,) = (row for row in claims()["rows"] if row["row"] == "case")
-    assert row["verdict"].startswith("consistent with, not validated by")
-    assert "neither confirms nor refutes" in row["verdict"]
-    said = paper_case.sentence()
-    for number in ("70.0 s in shear", "140.0 s in compression", "2.00 against 2"):
-        assert number in said
-    most = paper_case.influences()[0]
-    assert f"`{most.span.name}` carries the ratio most" in said
-    assert min(most.ratios) < 2.0 < max(most.ratios)
 
 
 def test_the_ratio_can_turn_round() -> None:

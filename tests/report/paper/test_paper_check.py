@@ -118,7 +118,7 @@ def test_ten_percent_is_a_strain_that_a_solid_and_a_rheometer_do_not_bear() -> N
     assert f"{0.1 * record('zero_shear_viscosity'):.0f} Pa in the melt" in said
 
 
-def test_the_melt_s_torque_at_a_ten_thousandth_of_strain_is_not_resolved() -> None:
+def test_what_the_rheometer_cannot_resolve() -> None:
     # Far below its relaxation rates a melt is Newtonian: |G*| = eta omega.
     torque = math.pi * 12.5e-3**3 / 2 * record("zero_shear_viscosity") * 0.1 * 1e-4
     said = computed("small_strain")
@@ -127,6 +127,12 @@ def test_the_melt_s_torque_at_a_ten_thousandth_of_strain_is_not_resolved() -> No
     assert torque < paper_case.instrument("least_torque").value
     first = float(said.split("from about ")[1].split(" rad/s")[0])
     assert 1.0 < first * torque / 0.1 / 1e-6 < 1.5  # a Newtonian liquid would reach it a little sooner
+    # The torque of a stress at the rim, linear to the axis: pi R^3/2 tau.
+    said = computed("loss_modulus")
+    assert f"{math.pi * 0.0125**3 / 2 * 0.1 * 1e-4 * 1e12:.2g} pN·m" in said
+    frequencies = [0.1 * 6280 ** (k / 19) for k in range(20)]
+    minutes = sum(2 * math.pi / frequency for frequency in frequencies) / 60
+    assert f"20 points of one period each {minutes:.1f} min" in computed("sweep_time")
 
 
 def test_a_solid_specimen_is_stiffer_than_any_rheometer_assumed() -> None:
@@ -158,11 +164,13 @@ def test_the_housing_is_hotter_than_its_material_may_be() -> None:
 
 
 @pytest.mark.usefixtures("few_inputs")
-def test_every_claim_has_a_place_a_computation_and_a_verdict() -> None:
+def test_every_claim_has_place_computation_verdict_and_json(capsys: pytest.CaptureFixture[str]) -> None:
     rows = findings()
     assert len(rows) == len(claims()["rows"]) == len(claims()["rows"])
     assert all(row.claim and row.where and row.computed and row.verdict for row in rows)
     assert set(paper_check._COMPUTED) == {row["row"] for row in claims()["rows"]}
+    paper_check.print_paper_check(as_json=True)
+    assert len(json.loads(capsys.readouterr().out)) == len(claims()["rows"])
 
 
 def test_what_is_assumed_of_the_instrument_has_a_range_and_a_reason() -> None:
@@ -181,21 +189,3 @@ def test_the_numbers_follow_the_stated_inputs(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(paper_case, "claims", lambda: narrower)
     specimen = float(paper_check._COMPUTED["stiff_specimen"]().split("spring of ")[1].split()[0])
     assert specimen == pytest.approx(np.pi * 4e-3**4 * solid_modulus(30.0) / 2e-3, rel=0.01)
-
-
-@pytest.mark.usefixtures("few_inputs")
-def test_scripts_get_json(capsys: pytest.CaptureFixture[str]) -> None:
-    paper_check.print_paper_check(as_json=True)
-    assert len(json.loads(capsys.readouterr().out)) == len(claims()["rows"])
-
-
-def test_a_loss_modulus_of_a_tenth_of_a_pascal_is_beyond_the_instrument() -> None:
-    # The torque of a stress at the rim, linear to the axis: pi R^3/2 tau.
-    said = computed("loss_modulus")
-    assert f"{math.pi * 0.0125**3 / 2 * 0.1 * 1e-4 * 1e12:.2g} pN·m" in said
-
-
-def test_a_sweep_of_one_period_a_point_takes_minutes() -> None:
-    frequencies = [0.1 * 6280 ** (k / 19) for k in range(20)]
-    minutes = sum(2 * math.pi / frequency for frequency in frequencies) / 60
-    assert f"20 points of one period each {minutes:.1f} min" in computed("sweep_time")

@@ -55,11 +55,14 @@ def chosen(own: float, robust: dict[str, Any] | None, spring: str = "none") -> s
     return chosen_fact(cast(StudyResult, answer))[0].text
 
 
-def test_without_margins_the_best_of_the_ranking_is_the_design() -> None:
+def test_a_design_s_own_choices_are_told_beside_the_ranking() -> None:
     text = chosen(1.0e-3, None)
     assert text.startswith("wire diameter 1 mm · stock spring none · best of 20 combinations · the next is 1.4 %")
     assert "1.4 % worse: wire diameter 1.1 mm" in text
     assert "margins" not in text
+    text = chosen(1.0e-3, {"share": 0.95, "sigma": None}, "central_t10160")
+    assert text.startswith("wire diameter 1 mm · stock spring central_t10160")
+    assert "the best is stock spring none" in text
 
 
 @pytest.mark.parametrize("robust", [{"share": 0.95, "sigma": None}, {"share": None, "sigma": 2.0}])
@@ -74,19 +77,13 @@ def test_with_margins_the_ranking_is_said_to_be_without(robust: dict[str, Any]) 
     assert "the best is" not in same
 
 
-def test_a_record_that_the_margins_changed_is_the_design_s_own_too() -> None:
-    text = chosen(1.0e-3, {"share": 0.95, "sigma": None}, "central_t10160")
-    assert text.startswith("wire diameter 1 mm · stock spring central_t10160")
-    assert "the best is stock spring none" in text
-
-
 def warmed(share: np.ndarray) -> dict[str, list[float]]:
     """Two cells that warm from 20 degC by shares of 80 K, one a little behind, over 100 s."""
     return {"time": np.linspace(0.0, 100.0, len(share)).tolist(), "cell_1": (20.0 + 80.0 * share).tolist(),
             "cell_2": (20.0 + 76.0 * share).tolist()}  # fmt: skip
 
 
-def test_one_per_cent_of_heat_takes_as_long_as_the_exponential_says() -> None:
+def test_a_layer_that_stalls_cools_again_or_never_softens() -> None:
     times = np.linspace(0.0, 1.0, 2001)
     assert time_over_rise(warmed(times), 60.0) == pytest.approx(1.0, rel=1e-6)
     assert time_over_rise(warmed(np.sqrt(times)), 60.0) == pytest.approx(2.0, rel=1e-3)
@@ -95,9 +92,6 @@ def test_one_per_cent_of_heat_takes_as_long_as_the_exponential_says() -> None:
     assert time_over_rise(found, 60.0) == pytest.approx((np.exp(3.0) - 1.0) / 3.0, rel=1e-3)
     assert stalling_in_words(found, 60.0) == "it stalls: 1 % less heat takes 6 % longer"
     assert stalling_in_words(found, 20.0) == ""
-
-
-def test_a_layer_that_cools_again_or_never_softens_is_told_as_that() -> None:
     falling = warmed(np.concatenate([np.linspace(0.0, 1.0, 50), np.linspace(1.0, 0.9, 50)]))
     assert "never soft" in stalling_in_words(falling, 90.0)
     assert stalling_in_words(falling, float("inf")) == ""

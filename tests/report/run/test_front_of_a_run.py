@@ -38,7 +38,7 @@ def run(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.gate
-def test_the_table_has_every_variable_and_every_minimised_output(run: Path) -> None:
+def test_table_designs_and_figure_of_a_front_agree(run: Path) -> None:
     with (run / "front.csv").open(encoding="utf-8-sig") as stream:
         points = list(csv.DictReader(stream))
     assert len(points) == 5
@@ -49,19 +49,11 @@ def test_the_table_has_every_variable_and_every_minimised_output(run: Path) -> N
     reported = json.loads((run / "front.json").read_text())
     assert [point["values"]["response_time"] for point in reported["points"]] == pytest.approx(times, rel=1e-6)
     assert reported["failures"] == []
-
-
-@pytest.mark.gate
-def test_every_point_is_a_design_that_evaluates_to_the_same(run: Path) -> None:
-    reported = json.loads((run / "front.json").read_text())
     for point in reported["points"]:
         design = read_design(run / point["design"])
         assert design.status == "optimal"
         again = table_for(design.mode).evaluate(design.values, ["module_mass"])["module_mass"]
         assert again * 1e3 == pytest.approx(point["values"]["module_mass"], rel=1e-9)
-
-
-def test_the_figure_has_something_on_it(run: Path) -> None:
     import matplotlib.image as mpimg
 
     picture = mpimg.imread(run / "plots/front.png")
@@ -118,7 +110,7 @@ def test_the_words_say_what_a_hundredth_less_costs_beyond_the_knee() -> None:
     assert "1 % less module_mass costs 3.8 % response_time (point 3)" in said
 
 
-def test_a_front_that_spans_next_to_nothing_is_no_trade_and_has_no_knee() -> None:
+def test_a_front_that_is_no_trade_has_no_knee() -> None:
     """The same bend as above, a hundredth of it in the mass: 100.9 g to 101.3 g is nothing anyone chooses by."""
     pairs = [(0.9, 1.013), (1.0, 1.01), (1.5, 1.009)]
     points = tuple(Point("", {"response_time": 100.0 * t, "module_mass": 0.1 * m}, {}) for t, m in pairs)
@@ -132,9 +124,6 @@ def test_a_front_that_spans_next_to_nothing_is_no_trade_and_has_no_knee() -> Non
     assert reported["knee"] is None
     assert "knee" not in front_csv(reported)
     assert figure_data(front, points[0], table)["knee"] is None
-
-
-def test_of_three_outputs_the_one_that_is_not_traded_is_named() -> None:
     rows = [(0.9, 1.3, 1.0), (1.0, 1.0, 1.01), (1.5, 0.9, 1.02)]
     names = ("response_time", "module_mass", "envelope_diameter")
     points = tuple(Point("", dict(zip(names, row, strict=True)), {}) for row in rows)
@@ -143,16 +132,6 @@ def test_of_three_outputs_the_one_that_is_not_traded_is_named() -> None:
     assert said.startswith("There is no trade to speak of in envelope_diameter: ")
     assert said.endswith("ask for a front of response_time and module_mass.")
     assert front.knee is None
-
-
-@pytest.mark.slow
-def test_a_point_becomes_parts(tvimdesign: Command, run: Path, tmp_path: Path) -> None:
-    done = tvimdesign("cad", run / "front/02.design.json", "--out", tmp_path / "parts")
-    assert done.returncode == 0, done.stderr
-    assert (tmp_path / "parts/assembly.step").stat().st_size > 10_000
-
-
-def test_a_front_without_points_says_why_and_is_written_all_the_same() -> None:
     table, words = table_for("shear"), "converged, but simulated it breaks response_time <= 100 s: 100.6 s"
     front = Front(("response_time", "module_mass"), (), failures=(Failure("least response_time", words),), sought=2)
     assert front.knee is None
@@ -162,3 +141,10 @@ def test_a_front_without_points_says_why_and_is_written_all_the_same() -> None:
     assert front_csv(reported).splitlines() == ["point,status,response_time [s],module_mass [g]"]
     (block,) = front_section(reported, list(front.outputs)).blocks
     assert words in str(block)
+
+
+@pytest.mark.slow
+def test_a_point_becomes_parts(tvimdesign: Command, run: Path, tmp_path: Path) -> None:
+    done = tvimdesign("cad", run / "front/02.design.json", "--out", tmp_path / "parts")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "parts/assembly.step").stat().st_size > 10_000

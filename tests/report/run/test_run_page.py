@@ -98,12 +98,9 @@ def test_an_input_is_named_with_the_outputs_it_moves(answered: AnsweredStudy) ->
     assert rows[0][5] == "b 60 %, a 30 %"
 
 
-def test_where_nobody_asked_how_sure_it_is_the_page_says_who_tells(answered: AnsweredStudy) -> None:
+def test_a_page_tells_how_sure_it_is_and_what_a_measurement_bought(answered: AnsweredStudy) -> None:
     assert "tvimdesign tolerate" in str(assumptions_section(answered).blocks[0])
     assert all("Manufacturing" not in str(block) for block in glance(answered))
-
-
-def test_the_page_tells_what_a_measurement_bought_before_and_after(answered: AnsweredStudy) -> None:
     one = {"value": 100.0, "low": 90.0, "high": 120.0, "unit": "s", "before": {"low": 40.0, "high": 240.0}}
     told = {"intervals": {"stiffening_rate": one}, "unmeasured": [{"name": "peltier_seebeck", "status": "measured"}],
             "tolerances": "usual", "parts_yield": None, "ranges_hold": None}  # fmt: skip

@@ -38,7 +38,7 @@ def verification(of: Path) -> Path:
     return folder.path
 
 
-def test_a_verification_goes_onto_the_page_of_its_run(tmp_path: Path) -> None:
+def test_a_verification_goes_onto_the_page_of_its_own_design_alone(tmp_path: Path) -> None:
     run = run_folder(tmp_path / "wrist")
     assert not verification_sections(run)
     assert put_on_page(verification(run), run)
@@ -49,6 +49,13 @@ def test_a_verification_goes_onto_the_page_of_its_run(tmp_path: Path) -> None:
     assert json.loads((run / MANIFEST).read_text())["files"]["report.html"] == digest_of(run / "report.html")
     (section,) = verification_sections(run)
     assert section.name == "verification"
+    run = run_folder(tmp_path / "other")
+    folder = verification(run)
+    (run / "design.json").write_text('{"name": "another"}')
+    before = (run / "report.html").read_bytes()
+    assert not put_on_page(folder, run)
+    assert not verification_sections(run)
+    assert (run / "report.html").read_bytes() == before
 
 
 def test_the_page_takes_the_fields_it_has_room_for(tmp_path: Path) -> None:
@@ -60,13 +67,3 @@ def test_the_page_takes_the_fields_it_has_room_for(tmp_path: Path) -> None:
     assert words == ["Stress in the frozen joint", "Stress in the link"]
     assert put_on_page(folder, run)
     assert (run / "report.html").read_text().count("data:image/png") == 3
-
-
-def test_that_of_another_design_does_not(tmp_path: Path) -> None:
-    run = run_folder(tmp_path / "wrist")
-    folder = verification(run)
-    (run / "design.json").write_text('{"name": "another"}')
-    before = (run / "report.html").read_bytes()
-    assert not put_on_page(folder, run)
-    assert not verification_sections(run)
-    assert (run / "report.html").read_bytes() == before

@@ -20,7 +20,9 @@ def _swept(folder: Path, *, resume: bool) -> None:
     sweep_folder(plan(study), folder / "out", Executor(workers=1), lambda _: None, overwrite=False, resume=resume)
 
 
-def test_the_figure_of_a_finished_sweep_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_figure_of_a_finished_sweep_stays_and_none_stays_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     _swept(tmp_path, resume=False)
     out = tmp_path / "out"
     before = {path.name: path.read_bytes() for path in out.glob("sweep.*")}
@@ -40,9 +42,6 @@ def test_the_figure_of_a_finished_sweep_stays(tmp_path: Path, monkeypatch: pytes
     (out / "sweep.png").write_bytes(b"another")
     _swept(tmp_path, resume=True)
     assert (out / "sweep.png").read_bytes() == before["sweep.png"]
-
-
-def test_a_folder_without_a_figure_has_none(tmp_path: Path) -> None:
     assert kept_figure(tmp_path) == KeptFigure()
     (tmp_path / "sweep.json").write_text("{}")
     assert kept_figure(tmp_path) == KeptFigure()

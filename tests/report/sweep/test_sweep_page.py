@@ -82,7 +82,7 @@ def test_it_says_what_was_swept_and_how_it_ended(tmp_path: Path) -> None:
     assert "the figure</a>" not in text  # there is none beside it
 
 
-def test_a_line_for_each_word_and_hollow_where_a_limit_is_broken(tmp_path: Path) -> None:
+def test_lines_and_brushes_are_those_of_the_cells(tmp_path: Path) -> None:
     asked = plan(GRID)
     data = drawn(page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
     assert list(data) == ["curves"]  # over one number: nothing to brush
@@ -90,9 +90,6 @@ def test_a_line_for_each_word_and_hollow_where_a_limit_is_broken(tmp_path: Path)
     assert size["y_label"] == "Envelope diameter (mm)"
     lines = {line["label"]: (line["y"], line["hollow"]) for line in mass["lines"]}
     assert lines == {"smi": ([5.0, 4.0, 3.0], [False] * 3), "bending": ([6.0, 2.0], [True] * 2)}
-
-
-def test_cells_over_two_numbers_are_brushed(tmp_path: Path) -> None:
     asked = plan(CLOUD)
     data = drawn(page(asked, seen(asked, [None, *map(float, range(2, 9))]), tmp_path / "out"))
     assert list(data) == ["brushed"]
@@ -133,7 +130,7 @@ def settings(command: str) -> list[str]:
     return [words[i + 1] for i, word in enumerate(words) if word == "--set"]
 
 
-def test_the_command_of_a_cell_is_its_study(tmp_path: Path) -> None:
+def test_the_command_of_a_cell_is_its_study_and_stands_on_the_page(tmp_path: Path) -> None:
     path = tmp_path / "my study.yaml"
     path.write_text(OPTIMISED)
     asked = plan_of(tree_of_file(path))
@@ -147,18 +144,12 @@ def test_the_command_of_a_cell_is_its_study(tmp_path: Path) -> None:
     begun, run_alone = given(asked.first), given(study)
     assert [run_alone[name] for name in asked.first.vary] == pytest.approx([begun[name] for name in asked.first.vary])
     assert settings(CellCommands(asked, tmp_path / "out").explore(2)) == settings(run)
-
-
-def test_a_study_that_options_changed_is_the_one_beside_the_page(tmp_path: Path) -> None:
     path = tmp_path / "study.yaml"
     path.write_text(OPTIMISED)
     changed = plan_of(tree_of_file(path, ["current=1 A"]))
     assert shlex.split(CellCommands(changed, tmp_path / "out").run(1))[2] == str(tmp_path / "out/study.yaml")
     told = plan_of(tree_of_text(OPTIMISED, "python", "small", tmp_path))
     assert shlex.split(CellCommands(told, tmp_path / "out").run(1))[2] == str(tmp_path / "out/study.yaml")
-
-
-def test_the_commands_stand_on_the_page(tmp_path: Path) -> None:
     asked = plan(GRID)
     text = html.unescape(page(asked, seen(asked, [5.0, 6.0, 4.0, None, 3.0, 2.0]), tmp_path / "out"))
     commands = CellCommands(asked, tmp_path / "out")

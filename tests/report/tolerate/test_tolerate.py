@@ -26,7 +26,7 @@ def results(tvimdesign: Command, tmp_path_factory: pytest.TempPathFactory) -> tu
 
 
 @pytest.mark.gate
-def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
+def test_the_folder_has_tables_in_si_and_a_manifest(results: tuple[Path, dict[str, Any], str]) -> None:
     folder, reported, _ = results
     expected = {"contributors.csv", "limits.csv", "manifest.json", "not_known.csv",
                 "outputs.csv", "spread.pdf", "spread.png",
@@ -41,9 +41,6 @@ def test_the_folder_has_tables_a_figure_and_a_manifest(results: tuple[Path, dict
     worst, drawn = float(stiffness["worst_high"]), float(stiffness["high"])
     assert float(stiffness["as_drawn"]) < drawn < worst
     assert float(stiffness["deviation"]) == pytest.approx(float(stiffness["deviation_rss"]), rel=0.02)
-
-
-def test_every_output_stands_in_si_too_and_soft_is_told(results: tuple[Path, dict[str, Any], str]) -> None:
     reported = results[1]
     assert (reported["format"], reported["units"]) == (1, "SI")
     rows = {row["output"]: row for row in reported["outputs"]}
@@ -52,9 +49,6 @@ def test_every_output_stands_in_si_too_and_soft_is_told(results: tuple[Path, dic
     for name in ("as_drawn", "low", "high", "worst_low", "deviation"):
         assert stiffness["si"][name] == pytest.approx(stiffness[name])
     assert any(note.startswith("Soft is |Z| <= ") for note in reported["notes"])
-
-
-def test_shares_add_up_and_sentences_say_what_to_do(results: tuple[Path, dict[str, Any], str]) -> None:
     rows = list(csv.DictReader((results[0] / "contributors.csv").read_text("utf-8-sig").splitlines()))
     mine = [row for row in rows if row["output"] == "spring_stiffness"]
     assert sum(float(row["share"]) for row in mine) == pytest.approx(1.0, abs=1e-4)
@@ -67,10 +61,6 @@ def test_shares_add_up_and_sentences_say_what_to_do(results: tuple[Path, dict[st
     assert "Tighten preload_angle first" in said
     assert "(±18.7° by DIN 2194, grade 2) is 3.1 times the stroke" in said
     assert "with the preload adjusted to within ±1°, 100 % do" in said
-
-
-def test_what_varies_and_what_nobody_knows_are_two_blocks(results: tuple[Path, dict[str, Any], str]) -> None:
-    folder, reported, _ = results
     unknown, contributors = reported["not_known"], {row["contributor"] for row in reported["contributors"]}
     assert 0.0 <= unknown["holds"]["share"] <= 1.0
     assert unknown["holds"] != reported["yield"]
@@ -90,22 +80,14 @@ def test_what_varies_and_what_nobody_knows_are_two_blocks(results: tuple[Path, d
     assert {row["output"] for row in rows} == set(unknown["intervals"])
 
 
-def test_a_design_and_its_tables_are_printed(
-    results: tuple[Path, dict[str, Any], str], tvimdesign: Command, tmp_path: Path
-) -> None:
-    done = tvimdesign("tolerate", results[0].parents[1] / "arm.yaml", "--samples", 300, "--out", tmp_path / "again")
+def test_a_design_and_its_tables_are_printed_and_bad_input_is_told(tvimdesign: Command, tmp_path: Path) -> None:
+    (tmp_path / "arm.yaml").write_text(STUDY)
+    done = tvimdesign("tolerate", "arm.yaml", "--samples", 300, "--out", "again", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     for words in ("What spreads", "worst case", "Limits that too many modules break", "preload_margin >= 0 rad"):
         assert words in done.stdout
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [(["--samples", 10], "--samples 10: must be 256 to 4194304"), (["--out", "arm.yaml"], "is a file")],
-)
-def test_bad_input_is_told(
-    results: tuple[Path, dict[str, Any], str], tvimdesign: Command, arguments: list[object], said: str
-) -> None:
-    done = tvimdesign("tolerate", "arm.yaml", *arguments, cwd=results[0].parents[1])
-    assert (done.returncode, "Traceback" in done.stderr) == (2, False)
-    assert said in done.stderr
+    wrong = {("--samples", 10): "--samples 10: must be 256 to 4194304", ("--out", "arm.yaml"): "is a file"}
+    for arguments, said in wrong.items():
+        done = tvimdesign("tolerate", "arm.yaml", *arguments, cwd=tmp_path)
+        assert (done.returncode, "Traceback" in done.stderr) == (2, False)
+        assert said in done.stderr

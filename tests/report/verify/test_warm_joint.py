@@ -17,17 +17,12 @@ def joint_of(name: str) -> WarmJoint:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_columns_that_are_alike_are_one(name: str) -> None:
+def test_alike_columns_are_one_and_molten_ones_are_soft(name: str) -> None:
     joint = joint_of(name)
     parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 100.0, 23.0)
     one = joint.stiffness(np.full((1, 4), 100.0), np.ones(1), np.full(4, 0.25), parts)
     many = joint.stiffness(np.full((3, 8), 100.0), np.array([0.2, 0.3, 0.5]), np.full(8, 0.125), parts)
     assert many == pytest.approx(one, rel=1e-12)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_molten_it_is_soft_and_frozen_as_stiff_as_its_structure(name: str) -> None:
-    joint = joint_of(name)
     parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
     alone = float(joint.quantity["spring_stiffness"])
     frozen, molten = (joint.stiffness(np.full((1, 4), at), np.ones(1), np.full(4, 0.25), parts) for at in (23.0, 120.0))
@@ -36,15 +31,7 @@ def test_molten_it_is_soft_and_frozen_as_stiff_as_its_structure(name: str) -> No
     assert alone < molten < 0.2 * frozen
 
 
-def test_a_block_is_refused_in_slices_that_are_not_alike() -> None:
-    # `block.soft_share` counts slices: thin ones in the melt would make more of it than there is.
-    joint = joint_of(NAMES[1])
-    parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
-    with pytest.raises(ValueError, match="alike"):
-        joint.stiffness(np.full((1, 2), 100.0), np.ones(1), np.array([0.1, 0.9]), parts)
-
-
-def test_a_molten_film_is_in_series_with_the_frozen_rest() -> None:
+def test_a_molten_film_is_in_series_and_uneven_blocks_are_refused() -> None:
     joint = joint_of(NAMES[0])
     parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
     shares, slices = np.ones(1), np.array([0.1, 0.9])
@@ -52,6 +39,11 @@ def test_a_molten_film_is_in_series_with_the_frozen_rest() -> None:
     whole, film = (joint.stiffness(np.array([[120.0, other]]), shares, slices, parts) for other in (120.0, 23.0))
     # Ten times as stiff as the whole layer molten, but for what structure and frozen rest give.
     assert film - alone == pytest.approx(10.0 * (whole - alone), rel=0.15)
+    # `block.soft_share` counts slices: thin ones in the melt would make more of it than there is.
+    joint = joint_of(NAMES[1])
+    parts = joint.parts(23.0, 23.0, np.full(8, 23.0), 23.0, 23.0)
+    with pytest.raises(ValueError, match="alike"):
+        joint.stiffness(np.full((1, 2), 100.0), np.ones(1), np.array([0.1, 0.9]), parts)
 
 
 def test_the_time_is_where_the_stiffness_passes_its_limit() -> None:

@@ -12,7 +12,6 @@ from tvimdesign.study import Options, Range, Study, StudyError, Vary, read_study
 from tvimdesign.study.written_studies import json_schema
 
 Read = Callable[..., Study]
-Refuse = Callable[..., list[str]]
 
 
 def _study(name: str, form: str, module: str = "") -> str:
@@ -134,11 +133,7 @@ def test_limits(read: Read, written: str, sense: str, limit: float) -> None:
     assert requirement.text == written.strip("' ")
 
 
-def test_equal_limits_are_no_contradiction(read: Read) -> None:
-    assert len(read("mode: shear\nrequire: {module_mass: ['>= 5 g', '<= 0.005 kg']}").require) == 2
-
-
-def test_minimize_by_one_name_and_by_events_and_paths(read: Read) -> None:
+def test_goals_and_fronts_are_read(read: Read) -> None:
     study = read("mode: shear\nvary: {coil_count: [2, 3]}\nminimize: joint_stiffness@hot")
     assert study.minimize == {"joint_stiffness@hot": 1.0}
     study = read(
@@ -146,18 +141,16 @@ def test_minimize_by_one_name_and_by_events_and_paths(read: Read) -> None:
     )
     assert study.minimize == {"response_time": 1.0}
     assert study.require[0].limit == 400.0
-
-
-FREE = "mode: shear\nvary: {current: [1 A, 2 A]}\nminimize: module_mass\n"
-
-
-def test_a_front_is_two_or_three_outputs_and_a_count(read: Read) -> None:
     front = read(FREE + "front: {of: [response_time, joint_stiffness@hot, module_mass], points: 30}\n").front
     assert front is not None
     assert front.of == ("response_time", "joint_stiffness@hot", "module_mass")
     assert front.points == 30
     assert read(FREE + "front: {of: [response_time, module_mass]}\n").front is not None
     assert read(FREE).front is None
+    assert len(read("mode: shear\nrequire: {module_mass: ['>= 5 g', '<= 0.005 kg']}").require) == 2
+
+
+FREE = "mode: shear\nvary: {current: [1 A, 2 A]}\nminimize: module_mass\n"
 
 
 VARY = "mode: shear\nvary: {current: [0.5 A, 3 A], coil_count: [2, 3]}\nminimize: response_time\n"

@@ -5,10 +5,13 @@ import numpy as np
 import pytest
 
 
-def test_beside_a_sharp_foot_it_is_the_first_millimetre_of_the_core() -> None:
+def test_stress_is_read_beside_feet_and_along_fillets_at_each_angle() -> None:
     radius, height = foot_surface.places(10.0, 0.0)
     assert radius == pytest.approx(9.98)
     assert (height[0], height[-1]) == pytest.approx((0.025, 0.975))
+    along = np.zeros((40, 2))
+    along[5:25, 0], along[10:20, 1] = 3.0, 4.0
+    assert foot_surface.highest_mean(along) == pytest.approx([3.0, 2.0])
 
 
 @pytest.mark.parametrize("fillet", [0.1, 0.9, 1.5])
@@ -20,9 +23,3 @@ def test_along_a_fillet_it_stays_just_below_the_surface(fillet: float) -> None:
     assert radius[~on_fillet] == pytest.approx(9.98)
     assert height[0] > 0.2 * fillet  # from the middle on, (1 - cos 45 degrees) q
     assert len(radius) == round(20 * (1.0 + fillet))
-
-
-def test_the_highest_mean_over_a_millimetre_is_found_at_each_angle() -> None:
-    along = np.zeros((40, 2))
-    along[5:25, 0], along[10:20, 1] = 3.0, 4.0
-    assert foot_surface.highest_mean(along) == pytest.approx([3.0, 2.0])

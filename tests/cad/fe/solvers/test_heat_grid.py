@@ -108,7 +108,7 @@ def parts_of(surfaces: dict[str, Any]) -> dict[str, Any]:
             for kind, one in zip(("points", "triangles"), box(*ends), strict=True)}  # fmt: skip
 
 
-def test_a_pad_stands_a_slot_above_its_seat() -> None:
+def test_pads_lips_and_layers_stand_off_by_a_slot() -> None:
     far, low = 200.0, VANE["rotor_bottom_level"] - VANE["vane_height"]
     boxes = {"housing": ((-far, -far, -4.0), (far, far, low)), "peltier_pad_1": ((-far, -far, low), (far, far, 12.4))}
     grid = heat_lines.grid_of(VANE, 1.0, 0.19)
@@ -122,9 +122,6 @@ def test_a_pad_stands_a_slot_above_its_seat() -> None:
     assert column[slot[0] + 1] in heat_grid.PADS
     ends = grid.up.ends[slot[0] : slot[0] + 2]
     assert ends == pytest.approx([low - 0.19, low])
-
-
-def test_a_pad_in_its_pocket_and_a_layer_between_lips_stand_off_by_a_slot() -> None:
     # All housing below the layer, even in the pocket's corner, and all rotor beside it.
     far, (inner, outer), depth = 200.0, (ARC["pcl_inner_radius"], ARC["pcl_outer_radius"]), ARC["pad_depth"]
     grid = heat_lines.grid_of(ARC, 1.0, 0.19)

@@ -55,10 +55,7 @@ def test_what_cannot_heat_or_be_held_is_named() -> None:
     [
         ("peltier_module: comb_electrodes", "pcl_resistivity has no value, needed as heat_source is layer .*pcl_80k"),
         ("heat_source: layer", "electrode_gap has no value, needed as heat_source is layer .*flexible_1600"),
-        (
-            f"{COMB}, cooling_current: 1 A",
-            "cooling_current of 1 A and peltier_module comb_electrodes",
-        ),
+        (f"{COMB}, cooling_current: 1 A", "cooling_current of 1 A and peltier_module comb_electrodes"),
     ],
 )
 def test_what_cannot_stand_together_is_named(module: str, said: str) -> None:

@@ -29,7 +29,7 @@ def stack(known: dict[str, Any]) -> heat.Stack:
     return found
 
 
-def test_pads_scale_the_catalogue_s_module_by_area(stack: heat.Stack) -> None:
+def test_pads_and_windows_scale_the_catalogue_s_module(stack: heat.Stack) -> None:
     # 25 mV/K, 3 ohm, 0.12 W/K, 6 g and 500 J/kg K on 1600 mm^2; either side is a twelfth of the pads.
     share = AREA / 1600e-6
     assert (stack.area, stack.thickness, stack.density) == pytest.approx((AREA, 1e-3, 1145.0), rel=1e-9)
@@ -37,9 +37,6 @@ def test_pads_scale_the_catalogue_s_module_by_area(stack: heat.Stack) -> None:
     # The corners of the pads, of 0.2 mm, take a ten-thousandth of their volume.
     capacities = [stack.cold_capacity, stack.hot_capacity, stack.legs_capacity]
     assert capacities == pytest.approx([0.25 * share, 0.25 * share, 2.5 * share], rel=2e-4)
-
-
-def test_windows_lose_heat_below_and_the_plate_s_face_above(stack: heat.Stack) -> None:
     # A ledge of 2 mm all around each pad, and corners of 0.2 mm in the four windows.
     open_span = 4 * (SPAN - 4e-3 / INNER)
     window = 0.5 * open_span * (38e-3**2 - 28e-3**2) - 4 * (4.0 - np.pi) * 0.2e-3**2
@@ -148,22 +145,16 @@ def test_cold_sides_heat_ledges_evenly_which_conduct_to_their_roots(stack: heat.
     assert to_root == pytest.approx(0.24 * WEB * EDGE / (width / 3.0 + beyond), rel=1e-9)
 
 
-def test_air_in_the_gap_conducts_and_its_walls_radiate(known: dict[str, Any]) -> None:
+def test_air_walls_and_core_take_heat_by_their_sizes(known: dict[str, Any], stack: heat.Stack) -> None:
     # 0.028 W/m K over 1 mm and, from 80 to 40 degC, parallel grey plates of 0.9 each (Incropera, ch. 13), between walls
     # that conduct so well that they do not count.
-    stack = TABLE.evaluate({**known, "structure_conductivity": 1e9}, ["stack"])["stack"]
-    gaps = [link for link in stack.links if link.first[0] == "beside"]
+    conducting = TABLE.evaluate({**known, "structure_conductivity": 1e9}, ["stack"])["stack"]
+    gaps = [link for link in conducting.links if link.first[0] == "beside"]
     warm, cool = 353.15, 313.15
     through = REST * (0.028 / 1e-3 * 40.0 + 5.670374419e-8 * (warm**4 - cool**4) / (1.0 / 0.9 + 1.0 / 0.9 - 1.0))
     assert sum(lumps.link_heat(gap, warm, cool) for gap in gaps) == pytest.approx(through, rel=1e-6)
-
-
-def test_all_of_the_housing_warms_up(known: dict[str, Any], stack: heat.Stack) -> None:
     mass = TABLE.evaluate(known, ["housing_mass"])["housing_mass"]
     assert sum(lump.capacity for lump in stack.around) == pytest.approx(1200.0 * mass, rel=1e-9)
-
-
-def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dict[str, Any], stack: heat.Stack) -> None:
     core = stack.beside[-1]
     radii = np.linspace(10e-3, INNER, 20001)
     ring = np.trapezoid(1.0 / (2.0 * np.pi * radii * 4e-3 * 0.24), radii)
@@ -173,9 +164,6 @@ def test_core_and_link_hang_on_a_ring_and_hold_the_rest_of_what_turns(known: dic
     plate = stack.plate_heat_capacity * stack.area * stack.plate_thickness
     assert plate + sum(lump.capacity for lump in stack.beside) == pytest.approx(1200.0 * sum(masses), rel=1e-9)
     assert core.surface == lumps.NOWHERE
-
-
-def test_a_sink_stands_on_the_open_cold_sides(known: dict[str, Any], stack: heat.Stack) -> None:
     sink = TABLE.evaluate({**known, "cold_side": "sink"}, ["stack"])["stack"].sink
     contact = 1.0 / (5000.0 * stack.cold_surface.area)
     assert 1.0 / sink.conductance == pytest.approx(contact + along_cold_sides(stack.cold_surface.area / AREA), rel=1e-3)

@@ -18,14 +18,11 @@ def at(table: Any, given: dict[str, Any], point: str, *more: str) -> dict[str, A
     return {name.partition("@")[0]: value for name, value in found.items()}
 
 
-def test_load_turns_the_springs_alone_by_its_share_of_the_stroke(squeezed: dict[str, Any]) -> None:
+def test_loads_turn_springs_and_blocks_relax(squeezed: dict[str, Any]) -> None:
     found = at(COMPRESSION, {**squeezed, "hold_share": 0.4}, "hot")
     assert found["hold_torque"] == pytest.approx(0.4 * found["spring_stiffness"] * 0.104, rel=1e-12)
     # The melt has let go within ten seconds.
     assert found["hold_angle"] == pytest.approx(0.4 * 0.104, rel=1e-5)
-
-
-def test_blocks_stay_pressed_or_spring_back_as_they_relax(squeezed: dict[str, Any]) -> None:
     found = at(COMPRESSION, squeezed, "hot")
     assert found["backlash"] == pytest.approx(0.104, rel=1e-5)
     assert found["pcl_relaxation"] == pytest.approx(1.0, rel=1e-9)
@@ -39,6 +36,9 @@ def test_blocks_stay_pressed_or_spring_back_as_they_relax(squeezed: dict[str, An
     found = at(COMPRESSION, {**squeezed, "pcl_modes@cold": elastic}, "cold")
     assert found["backlash"] == pytest.approx(0.0, abs=1e-15)
     assert found["relaxation_loss"] == pytest.approx(0.0, abs=1e-12)
+    assert not any("contact_lost" in name for name in COMPRESSION.names(("cold", "hot")))
+    with pytest.raises(InputError, match="has no value"):
+        COMPRESSION.evaluate(squeezed, ["contact_lost@hot"])
 
 
 @pytest.mark.parametrize("point", ["cold", "hot"])
@@ -84,9 +84,3 @@ def test_bond_and_blocks_bear_the_load_when_it_has_just_come_on(
     pressure, torque = borne(COMPRESSION, squeezed, "block_pressure@hot")
     # Six blocks of 14 x 3.5 mm at 33 mm.
     assert pressure == pytest.approx(torque / (6 * 49e-6 * 33e-3), rel=1e-9)
-
-
-def test_contact_that_a_swing_loses_is_no_matter_of_arithmetic(squeezed: dict[str, Any]) -> None:
-    assert not any("contact_lost" in name for name in COMPRESSION.names(("cold", "hot")))
-    with pytest.raises(InputError, match="has no value"):
-        COMPRESSION.evaluate(squeezed, ["contact_lost@hot"])

@@ -37,7 +37,7 @@ def test_lost_motion_is_what_its_sources_come_to(mode: str) -> None:
     )
 
 
-def test_a_core_in_a_plain_bore_leans_until_plate_or_retainer_stop_it() -> None:
+def test_cores_lean_in_bores_until_they_are_stopped() -> None:
     rows = "bearing_play link_bottom_level hub_top_level hub_bottom_level hub_radius link_length"
     found = values_of(rows)
     play, height = 0.4, 1e3 * (found["link_bottom_level"] + 2.0 * MM - found["hub_top_level"])
@@ -46,9 +46,6 @@ def test_a_core_in_a_plain_bore_leans_until_plate_or_retainer_stop_it() -> None:
         2.0 * play / (1e3 * (found["hub_top_level"] - found["hub_bottom_level"])), play / (2e3 * found["hub_radius"])
     )
     assert found["bearing_play"] == pytest.approx((play + lean * height) / (1e3 * found["link_length"]), rel=1e-9)
-
-
-def test_a_core_on_a_wave_spring_leans_until_it_is_stopped() -> None:
     rows = "core_lean bearing_play link_bottom_level hub_top_level hub_radius pcl_outer_radius link_length"
     found = values_of(rows, axial_preload="wave_21x25")
     # 1.2 mm high frozen, 0.2 mm of wire; a layer of 1 mm grows by 70 um, by which the retainer is below the hub.
@@ -61,9 +58,6 @@ def test_a_core_on_a_wave_spring_leans_until_it_is_stopped() -> None:
     lipped = values_of(rows, axial_preload="wave_21x25", melt_lip="rings")
     reach = 1e3 * (lipped["hub_radius"] + lipped["pcl_outer_radius"]) + 1.5
     assert lipped["core_lean"] == pytest.approx((0.4 + 0.0701) / reach, rel=1e-4)
-
-
-def test_vanes_stop_the_lean_of_a_core_in_a_plain_bore() -> None:
     found = values_of("core_lean hub_radius pcl_outer_radius", "compression", axial_preload="wave_21x25")
     # Vanes are 0.4 mm above the floor and reach as far out as the blocks.
     assert found["core_lean"] == pytest.approx(0.4 * MM / (found["hub_radius"] + found["pcl_outer_radius"]), rel=1e-9)
@@ -84,16 +78,13 @@ def test_bearings_have_the_gaps_of_their_seats_and_of_their_balls() -> None:
     assert milled["bearing_play"] < 0.2 * found["bearing_play"]
 
 
-def test_frozen_keys_are_loose_once_the_bond_is_gone() -> None:
+def test_keys_are_loose_and_legs_wear_by_archards_law() -> None:
     found = values_of("key_play lost_motion")
     # A key of 2.5 mm that shrinks by 2.4 % has 30 um to each side, at 33 mm from the axis.
     assert found["key_play"] == pytest.approx(0.5 * 0.024 * 2.5 / 33.0, rel=1e-9)
     other = values_of("key_play lost_motion", key_count="0")
     assert other["key_play"] == 0.0
     assert other["lost_motion"] == pytest.approx(found["lost_motion"], rel=1e-12)
-
-
-def test_legs_wear_into_their_pins_by_archards_law() -> None:
     found = values_of("pin_wear pin_friction_torque")
     # The legs' friction torque has force and slip: T = N mu F s', here four springs at 0.25.
     work = 4e6 * 0.104 * found["pin_friction_torque"] / (4 * 0.25)

@@ -65,7 +65,7 @@ def test_the_hot_structure_is_softer_and_lossier(mode: str) -> None:
     assert hot > 2.0 * cold
 
 
-def test_metal_hardly_softens_and_a_joint_beyond_its_rating_is_computed() -> None:
+def test_metal_hardly_softens_and_a_warm_cold_point_weakens() -> None:
     given = inputs_of("shear", process="machine_6061")
     found = table_for("shear").evaluate(given, ["hot_structure_share"])
     assert 0.95 < found["hot_structure_share"] < 1.0
@@ -73,6 +73,11 @@ def test_metal_hardly_softens_and_a_joint_beyond_its_rating_is_computed() -> Non
     found = table_for("shear").evaluate(given, ["joint_stiffness@hot", "warm_structure_stiffness@hot"])
     assert 0.0 < found["warm_structure_stiffness@hot"] < 200.0
     assert found["joint_stiffness@hot"] > 0.0
+    table = table_for("shear")
+    names = ["core_holding_torque", "link_screw_bearing_torque"]
+    cold, warmer = (table.evaluate({**inputs_of("shear"), "temperature@cold": t + 273.15}, names) for t in (23.0, 45.0))
+    for name in names:
+        assert warmer[name] / cold[name] == pytest.approx(np.exp(-0.003 * 22.0), rel=2e-3), name
 
 
 def test_structure_in_a_phase_is_as_warm_as_the_stack_is(inputs: dict[str, Any]) -> None:
@@ -82,11 +87,3 @@ def test_structure_in_a_phase_is_as_warm_as_the_stack_is(inputs: dict[str, Any])
     parts = parts_now(Module(stack_profile=profile))
     assert [parts.core, parts.beside, *parts.plate] == pytest.approx([320.0] * 10, abs=1e-9)
     assert (parts.walls, parts.floor) == (320.0, 300.0)
-
-
-def test_cold_point_that_is_warmer_weakens_what_yields() -> None:
-    table = table_for("shear")
-    names = ["core_holding_torque", "link_screw_bearing_torque"]
-    cold, warmer = (table.evaluate({**inputs_of("shear"), "temperature@cold": t + 273.15}, names) for t in (23.0, 45.0))
-    for name in names:
-        assert warmer[name] / cold[name] == pytest.approx(np.exp(-0.003 * 22.0), rel=2e-3), name

@@ -18,7 +18,7 @@ def study_of(more: str = "", record: str = "central_t10180") -> str:
     return f"tvimdesign: 1\nname: a\nmode: shear\nmodule:\n  stock_spring: {record}\n{more}"
 
 
-def test_wire_coil_and_material_are_the_record_s() -> None:
+def test_springs_from_stock_have_their_record_s_sizes_and_margins() -> None:
     values = given(read_study_text(study_of(record="central_t20180")))
     # Central Springs, T20180: wire 0.51, 6 outside, 3.25 coils, stainless.
     found = [1e3 * values[name] for name in ("wire_diameter", "coil_diameter")]
@@ -27,6 +27,19 @@ def test_wire_coil_and_material_are_the_record_s() -> None:
     assert values["spring_material"].name == "stainless_302"
     own = given(read_study_text("tvimdesign: 1\nname: a\nmode: shear\n"))
     assert (own["stock_spring"], own["wire_diameter"]) == ("none", pytest.approx(2.413e-3))
+    table = table_for("shear")
+    values = given(
+        read_study_text(study_of("  placement_radius: 16 mm\n  leg_overhang: 1.5 mm\n  pin_diameter: 1.5 mm\n"))
+    )
+    names = ["stock_leg_margin", "stock_tang_margin", "stock_torque_margin", "leg_length", "tang_length"]
+    found = table.evaluate(values, [*names, "spring_rate", "spring_winding"])
+    # T10180: legs of 20 mm, 18 N.mm at most.
+    assert found["stock_leg_margin"] == pytest.approx(20e-3 - found["leg_length"])
+    assert found["stock_tang_margin"] == pytest.approx(20e-3 - found["tang_length"] - 0.5 * math.pi * 2.0 * 0.51e-3)
+    turned = found["spring_rate"] * found["spring_winding"]
+    assert found["stock_torque_margin"] == pytest.approx(18e-3 - turned)
+    none = given(read_study_text("tvimdesign: 1\nname: a\nmode: shear\n"))
+    assert table.evaluate(none, ["stock_leg_margin"])["stock_leg_margin"] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -51,22 +64,6 @@ def test_every_record_s_torque_is_that_of_its_coils_and_legs() -> None:
         ratio = record.value("largest_torque") / record.value("deflection") / by_bending
         assert 0.7 < ratio < 1.1, (record.name, ratio)
         assert record.value("outer_diameter") == pytest.approx(coil + wire)
-
-
-def test_margins_are_those_of_legs_and_torque() -> None:
-    table = table_for("shear")
-    values = given(
-        read_study_text(study_of("  placement_radius: 16 mm\n  leg_overhang: 1.5 mm\n  pin_diameter: 1.5 mm\n"))
-    )
-    names = ["stock_leg_margin", "stock_tang_margin", "stock_torque_margin", "leg_length", "tang_length"]
-    found = table.evaluate(values, [*names, "spring_rate", "spring_winding"])
-    # T10180: legs of 20 mm, 18 N.mm at most.
-    assert found["stock_leg_margin"] == pytest.approx(20e-3 - found["leg_length"])
-    assert found["stock_tang_margin"] == pytest.approx(20e-3 - found["tang_length"] - 0.5 * math.pi * 2.0 * 0.51e-3)
-    turned = found["spring_rate"] * found["spring_winding"]
-    assert found["stock_torque_margin"] == pytest.approx(18e-3 - turned)
-    none = given(read_study_text("tvimdesign: 1\nname: a\nmode: shear\n"))
-    assert table.evaluate(none, ["stock_leg_margin"])["stock_leg_margin"] == 0.0
 
 
 def test_a_design_with_a_spring_from_stock_is_tested_as_it_is() -> None:
